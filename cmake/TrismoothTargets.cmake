@@ -1,0 +1,32 @@
+# How every target of the project is made: one language level, one set of warnings, and floating-point
+# arithmetic that is the same for every compiler, thread count and instruction set.
+
+# Sources say `#include "trismooth/quality/metrics.h"` in the tree as well as installed: the build tree
+# holds one link for each folder.
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include/trismooth")
+foreach(folder IN ITEMS quality smoothing mesh_io pipeline cuda)
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${PROJECT_BINARY_DIR}/include/trismooth/${folder}" SYMBOLIC)
+endforeach()
+
+function(trismooth_configure target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(
+    ${target}
+    PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+            # Results are the same bits everywhere only if no multiply and add are ever fused.
+            -ffp-contract=off>)
+  if(TRISMOOTH_WERROR)
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+  endif()
+endfunction()
+
+# trismooth_library(<name> <source>...) makes target trismooth_<name>, used as trismooth::<name>.
+function(trismooth_library name)
+  add_library(trismooth_${name} ${ARGN})
+  add_library(trismooth::${name} ALIAS trismooth_${name})
+  set_target_properties(trismooth_${name} PROPERTIES EXPORT_NAME ${name})
+  trismooth_configure(trismooth_${name})
+  target_include_directories(
+    trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()

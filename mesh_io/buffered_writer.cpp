@@ -1,0 +1,45 @@
+#include "trismooth/mesh_io/buffered_writer.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include "trismooth/mesh_io/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t{1} << 20;
+
+}  // namespace
+
+BufferedWriter::BufferedWriter(const std::filesystem::path& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+  if (file_ == nullptr) {
+    fail();
+  }
+  std::setvbuf(file_, nullptr, _IOFBF, block_bytes);
+}
+
+BufferedWriter::~BufferedWriter() {
+  if (file_ != nullptr) {
+    std::fclose(file_);
+  }
+}
+
+void BufferedWriter::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
+    fail();
+  }
+}
+
+void BufferedWriter::close() {
+  std::FILE* const file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) {
+    fail();
+  }
+}
+
+void BufferedWriter::fail() const { throw WriteError(path_, std::string("cannot be written: ") + std::strerror(errno)); }
+
+}  // namespace trismooth

@@ -1,0 +1,90 @@
+#include "trismooth/mesh_io/coordinate_sites.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "trismooth/mesh_io/buffered_writer.h"
+#include "trismooth/mesh_io/number_text.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::string_view token_ends = " \t\v\f\r\n#";
+
+/// Replaces the coordinate at one site, if it differs. Returns how many bytes of the original it took the place of.
+class SitePatcher {
+ public:
+  SitePatcher(std::string_view bytes, const CoordinateSites& sites) : bytes_(bytes), sites_(sites) {}
+
+  /// The bytes that the coordinate at `offset` takes; fills `text` with new ones where `value` differs from it.
+  std::size_t patch(std::size_t offset, double value, std::string& text) const {
+    return sites_.type == ScalarType::float32 ? patch_as(offset, static_cast<float>(value), text)
+                                              : patch_as(offset, value, text);
+  }
+
+ private:
+  template <class T>
+  std::size_t patch_as(std::size_t offset, T value, std::string& text) const {
+    text.clear();
+    if (sites_.encoding == CoordinateEncoding::text) {
+      const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
+      const std::string_view token = bytes_.substr(offset, end - offset);
+      if (parse_number<T>(token) != value) {
+        append_number(text, value);
+      }
+      return token.size();
+    }
+    std::array<char, sizeof(T)> stored{};
+    std::memcpy(stored.data(), bytes_.data() + offset, sizeof(T));
+    const bool swapped =
+        (sites_.encoding == CoordinateEncoding::big_endian) == (std::endian::native == std::endian::little);
+    if (swapped) {
+      std::ranges::reverse(stored);
+    }
+    if (std::bit_cast<T>(stored) != value) {
+      auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+      if (swapped) {
+        std::ranges::reverse(bytes);
+      }
+      text.assign(bytes.data(), bytes.size());
+    }
+    return sizeof(T);
+  }
+
+  std::string_view bytes_;
+  const CoordinateSites& sites_;
+};
+
+}  // namespace
+
+void write_patched(const std::filesystem::path& path, std::string_view bytes, const CoordinateSites& sites,
+                   std::span<const double> points, std::string_view suffix) {
+  BufferedWriter writer(path);
+  const SitePatcher patcher(bytes, sites);
+  std::size_t written = 0;
+  std::string text;
+  for (std::size_t site = 0; site < sites.offsets.size() / 3; ++site) {
+    const std::size_t vertex = sites.vertices.empty() ? site : static_cast<std::size_t>(sites.vertices[site]);
+    // A file may list y before x: the bytes are written in their own order.
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    std::ranges::sort(axes, {}, [&](std::size_t axis) { return sites.offsets[3 * site + axis]; });
+    for (const std::size_t axis : axes) {
+      const std::size_t offset = sites.offsets[3 * site + axis];
+      const std::size_t length = patcher.patch(offset, points[3 * vertex + axis], text);
+      if (!text.empty()) {
+        writer.write(bytes.substr(written, offset - written));
+        writer.write(text);
+        written = offset + length;
+      }
+    }
+  }
+  writer.write(bytes.substr(written));
+  writer.write(suffix);
+  writer.close();
+}
+
+}  // namespace trismooth

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/file_format.h"
+
+namespace trismooth {
+
+/// VTK's cell types, as far as this project names them. A document may hold any other value.
+namespace cell_type {
+inline constexpr std::uint8_t vertex = 1;
+inline constexpr std::uint8_t poly_vertex = 2;
+inline constexpr std::uint8_t line = 3;
+inline constexpr std::uint8_t poly_line = 4;
+inline constexpr std::uint8_t triangle = 5;
+inline constexpr std::uint8_t triangle_strip = 6;
+inline constexpr std::uint8_t polygon = 7;
+inline constexpr std::uint8_t quad = 9;
+}  // namespace cell_type
+
+/// The cells of a document, of any type and number of vertices, in the file's order.
+struct CellList {
+  std::vector<std::int64_t> offsets{0};    ///< cell c has connectivity[offsets[c] .. offsets[c + 1])
+  std::vector<std::int32_t> connectivity;  ///< vertex indices from 0
+  std::vector<std::uint8_t> types;         ///< one cell_type a cell
+
+  std::size_t size() const { return types.size(); }
+  std::span<const std::int32_t> operator[](std::size_t cell) const {
+    return std::span(connectivity)
+        .subspan(static_cast<std::size_t>(offsets[cell]), static_cast<std::size_t>(offsets[cell + 1] - offsets[cell]));
+  }
+  void append(std::uint8_t type, std::span<const std::int32_t> vertices) {
+    connectivity.insert(connectivity.end(), vertices.begin(), vertices.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(type);
+  }
+};
+
+struct MeshDocument;
+
+/// The file that a document was read from, as its codec keeps it to write it back with nothing lost.
+class OriginalFile {
+ public:
+  OriginalFile() = default;
+  OriginalFile(const OriginalFile&) = delete;
+  OriginalFile& operator=(const OriginalFile&) = delete;
+  virtual ~OriginalFile() = default;
+
+  /// Writes the file that was read to `path`, with the coordinates of `document` in place of those that differ and
+  /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (formats that have_arrays() only). All
+  /// else is as it was read. Throws WriteError. The path is plain: no temporary, no renaming.
+  virtual void write(const std::filesystem::path& path, const MeshDocument& document,
+                     std::span<const DataArray> added_point_arrays,
+                     std::span<const DataArray> added_cell_arrays) const = 0;
+};
+
+/// A mesh as its file states it: every point, cell and array in the file's order, nothing interpreted. Readers
+/// guarantee finite coordinates, indices within range and arrays of the right length.
+struct MeshDocument {
+  FileFormat format = FileFormat::off;
+  std::vector<double> points;                    ///< x, y, z of every point; exact, also where the file holds float32
+  ScalarType point_type = ScalarType::float64;   ///< how the file stores coordinates: float32 or float64
+  CellList cells;
+  std::vector<DataArray> point_arrays;  ///< a row for every point
+  std::vector<DataArray> cell_arrays;   ///< a row for every cell
+  std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
+  std::vector<std::string> notes;       ///< what the reader has to say about the file, one sentence each
+  std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
+
+  std::size_t point_count() const { return points.size() / 3; }
+};
+
+}  // namespace trismooth

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// Reads a mesh file; its extension chooses the format. Nothing is interpreted: see planar_mesh.h for the triangles.
+/// Throws ReadError for an unknown extension, an unreadable file, or one that breaks its format's rules, with the
+/// place in the file. Counts and indices are checked against the file's size before anything is allocated.
+/// Complexity: linear in the file's size.
+MeshDocument read_mesh(const std::filesystem::path& path);
+
+/// Arrays to add to what a document holds, for the formats that have_arrays().
+struct AddedArrays {
+  std::vector<DataArray> point_arrays;
+  std::vector<DataArray> cell_arrays;
+};
+
+/// Writes the document to `path`; its extension chooses the format. In the format that it was read from, the output
+/// is the input with the coordinates that changed and nothing else; in another, all that the target can hold (see
+/// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
+/// any failure. A target that is not a regular file (a device, a pipe) is written directly.
+/// Throws WriteError, also for an unknown extension.
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
+
+/// What `target` cannot hold of the document, one sentence each ("OFF holds no cell arrays: region is not written");
+/// empty where nothing is lost, as always where `target` is the format that the document was read from.
+std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target);
+
+}  // namespace trismooth

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace trismooth {
+
+/// The number that `token` states as a whole (digits, optional sign, fraction, exponent), or nothing. Infinities and
+/// NaN come back as such; a value below the range is 0 with its sign, one above it infinite. Locale-independent.
+template <class T>
+std::optional<T> parse_number(std::string_view token);
+
+extern template std::optional<float> parse_number(std::string_view);
+extern template std::optional<double> parse_number(std::string_view);
+
+/// Appends the shortest text that reads back to the same value.
+void append_number(std::string& text, float value);
+void append_number(std::string& text, double value);
+
+}  // namespace trismooth

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace trismooth {
+
+/// Reads the white-space separated tokens of a text file and knows where it stands, for messages with a line number.
+/// LF, CR LF and CR alone end a line. Locale-independent. The text must outlive the scanner.
+class TextScanner {
+ public:
+  enum class Comments : bool { none, hash };  ///< hash: '#' starts a comment that runs to the end of the line
+
+  /// Scans text[begin, end of text); line numbers count from the start of `text`.
+  TextScanner(std::string_view text, std::filesystem::path path, Comments comments = Comments::none,
+              std::size_t begin = 0);
+
+  /// True where nothing but white space and comments is left.
+  bool at_end();
+  /// True where nothing but blanks and comments is left on this line (or in the file).
+  bool at_end_of_line();
+
+  /// The next token, across lines; fails at the end of the file: "expected <what>, got the end of the file".
+  std::string_view next_token(std::string_view what);
+  /// The next token without reading it; empty at the end of the file.
+  std::string_view peek_token();
+  /// The next token as a finite number (digits, optional sign, fraction, exponent); fails on anything else, on NaN,
+  /// on an infinity and on a value beyond the range. Values below the range are 0.
+  double next_double(std::string_view what);
+  /// The same, rounded to float32 as a reader of that type would.
+  float next_float(std::string_view what);
+  /// The next token as a whole number within [lowest, highest]; fails on anything else.
+  std::int64_t next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest);
+
+  /// The rest of this line, without its end; stands at the next line then.
+  std::string_view next_line();
+
+  /// Byte offset of the token that was read last / of the next byte to read.
+  std::size_t token_offset() const { return token_offset_; }
+  std::size_t offset() const { return offset_; }
+  void seek(std::size_t offset) { offset_ = offset; }
+  std::string_view text() const { return text_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Throws ReadError at the line of the token that was read last.
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void skip_space();
+  void skip_blanks();
+
+  std::string_view text_;
+  std::filesystem::path path_;
+  std::size_t offset_;
+  std::size_t token_offset_;
+  Comments comments_;
+};
+
+/// `count` elements that take at least `bytes_each` bytes of text or data: fails where `available` bytes cannot hold
+/// them ("declares 2000000000 vertices, but the file has room for 12 at most"). For checks before any allocation.
+void require_room(const std::filesystem::path& path, std::string_view what, std::uint64_t count,
+                  std::uint64_t bytes_each, std::uint64_t available);
+
+/// A token for messages: quoted, cut after 40 characters, control characters replaced.
+std::string quoted(std::string_view token);
+
+}  // namespace trismooth
