@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/file_format.h"
+#include "trismooth/quality/quality_report.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth {
+
+/// The stages of a run, in their order, for progress displays.
+enum class Stage : std::uint8_t { read, topology, check_before, smooth, check_after, write };
+
+template <>
+struct EnumText<Stage> {
+  static constexpr std::string_view what = "stage";
+  static constexpr std::array<std::pair<Stage, std::string_view>, 6> texts{{{Stage::read, "read"},
+                                                                            {Stage::topology, "topology"},
+                                                                            {Stage::check_before, "check_before"},
+                                                                            {Stage::smooth, "smooth"},
+                                                                            {Stage::check_after, "check_after"},
+                                                                            {Stage::write, "write"}}};
+};
+
+/// What to run.
+struct PipelineOptions {
+  std::filesystem::path input;
+  std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed
+  SmoothingOptions smoothing;
+  std::optional<std::string> region_array;          ///< absent: see find_regions
+  std::optional<std::string> fixed_array;           ///< absent: the point array "fixed", where there is one
+  std::optional<std::filesystem::path> fixed_ids;   ///< a file of vertex numbers
+  bool annotate = false;                            ///< add shape, fixed and displacement to VTK output
+  std::function<Progress(Stage)> stage_started;     ///< may answer stop: Cancelled is thrown then
+};
+
+/// The run was stopped by a callback; nothing was written.
+struct Cancelled : std::runtime_error {
+  Cancelled() : std::runtime_error("cancelled; nothing was written") {}
+};
+
+/// What was read.
+struct InputSummary {
+  std::filesystem::path path;
+  FileFormat format = FileFormat::off;
+  std::int64_t vertices = 0;
+  std::int64_t triangles = 0;
+  std::int64_t other_cells = 0;
+  std::int32_t regions = 0;     ///< 0: no region array
+  std::string region_array;     ///< the array that gave them, or empty
+  std::int32_t components = 0;  ///< connected through edges with exactly two triangles
+  std::int64_t fixed_vertices = 0;
+  std::int64_t free_vertices = 0;
+  std::int64_t reoriented_triangles = 0;  ///< listed against their component's majority
+};
+
+/// Milliseconds of each stage.
+struct PipelineTimings {
+  double read = 0, topology = 0, check_before = 0, transfer_in = 0, smooth = 0, transfer_out = 0, commit = 0,
+         check_after = 0, write = 0, total = 0;
+};
+
+/// What a run did and found. Cells and centroids of worst elements are those of the file.
+struct PipelineResult {
+  InputSummary input;
+  QualityReport before;
+  std::optional<QualityReport> after;        ///< absent where nothing was smoothed
+  std::optional<SmoothingResult> smoothing;  ///< likewise
+  std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
+  std::uint64_t uncommitted_hash = 0;        ///< the same before the commit
+  std::vector<std::string> notes;            ///< what the user should know, one sentence each
+  PipelineTimings timings_ms;
+  std::int64_t peak_memory_bytes = 0;  ///< of this process so far
+};
+
+/// Runs the stages read, check, smooth, check, export on one file. Throws ReadError or MeshError for an input that
+/// cannot be read or is no planar triangle mesh, WriteError for an output that cannot be written,
+/// std::invalid_argument for options that do not fit the input, Cancelled.
+PipelineResult run_pipeline(const PipelineOptions& options);
+
+}  // namespace trismooth

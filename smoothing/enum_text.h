@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace trismooth {
+
+/// The text forms of an enumeration, in one place: specialised beside each enumeration with a member `what` (the noun
+/// in messages) and a member `texts` (pairs of value and text).
+template <class Enum>
+struct EnumText;
+
+/// The text of a value, as options, messages and reports write it.
+template <class Enum>
+  requires requires { EnumText<Enum>::texts; }
+constexpr std::string_view to_string(Enum value) {
+  for (const auto& [candidate, text] : EnumText<Enum>::texts) {
+    if (candidate == value) {
+      return text;
+    }
+  }
+  return "?";
+}
+
+/// Every text of the enumeration: "a, b".
+template <class Enum>
+std::string valid_texts() {
+  std::string list;
+  for (const auto& [value, text] : EnumText<Enum>::texts) {
+    list.append(list.empty() ? "" : ", ").append(text);
+  }
+  return list;
+}
+
+/// The value of a text. Throws std::invalid_argument: "unknown form 'c'; valid are a, b".
+template <class Enum>
+Enum parse_enum(std::string_view text) {
+  for (const auto& [value, candidate] : EnumText<Enum>::texts) {
+    if (candidate == text) {
+      return value;
+    }
+  }
+  throw std::invalid_argument("unknown " + std::string(EnumText<Enum>::what) + " '" + std::string(text) +
+                              "'; valid are " + valid_texts<Enum>());
+}
+
+}  // namespace trismooth

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "trismooth/smoothing/enum_text.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth {
+
+class Backend;
+
+/// Where a vertex is moved to, and whether.
+enum class Method : std::uint8_t {
+  smart,      ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
+  laplacian,  ///< to the mean of its neighbours
+  weighted,   ///< to the mean of its neighbours weighted by inverse edge length
+};
+
+/// The paper's iteration forms.
+enum class Form : std::uint8_t {
+  swap,      ///< Form A: every move of a sweep is computed from the positions before the sweep (equation 1)
+  in_place,  ///< Form B: a move sees the neighbours already moved in this sweep (equation 2), colour by colour
+};
+
+/// Data layout on the device (CUDA only).
+enum class Layout : std::uint8_t { aos, soa };
+
+/// How the sweeps run on the device (CUDA only).
+enum class Execution : std::uint8_t { resident, single_block, cdp };
+
+/// The order of Form B: by colour (reproducible), or as threads happen to run (CUDA single-block and cdp only).
+enum class Order : std::uint8_t { colour, unordered };
+
+/// The working precision of the sweeps. The commit is always evaluated in double.
+enum class Precision : std::uint8_t { double_precision, single_precision };
+
+/// Which vertices a sweep evaluates. The result is the same bit for bit.
+enum class Evaluation : std::uint8_t {
+  changed,  ///< those whose closed neighbourhood changed since their last evaluation
+  all,      ///< every free vertex in every sweep, as in the paper: for comparison
+};
+
+/// The number type in which the caller stores the coordinates; results are rounded to it before the commit.
+enum class Storage : std::uint8_t { float64, float32 };
+
+/// What a progress callback answers.
+enum class Progress : std::uint8_t { proceed, stop };
+
+template <>
+struct EnumText<Method> {
+  static constexpr std::string_view what = "method";
+  static constexpr std::array<std::pair<Method, std::string_view>, 3> texts{
+      {{Method::smart, "smart"}, {Method::laplacian, "laplacian"}, {Method::weighted, "weighted"}}};
+};
+template <>
+struct EnumText<Form> {
+  static constexpr std::string_view what = "form";
+  static constexpr std::array<std::pair<Form, std::string_view>, 2> texts{{{Form::swap, "a"}, {Form::in_place, "b"}}};
+};
+template <>
+struct EnumText<Layout> {
+  static constexpr std::string_view what = "layout";
+  static constexpr std::array<std::pair<Layout, std::string_view>, 2> texts{
+      {{Layout::aos, "aos"}, {Layout::soa, "soa"}}};
+};
+template <>
+struct EnumText<Execution> {
+  static constexpr std::string_view what = "execution";
+  static constexpr std::array<std::pair<Execution, std::string_view>, 3> texts{
+      {{Execution::resident, "resident"}, {Execution::single_block, "single-block"}, {Execution::cdp, "cdp"}}};
+};
+template <>
+struct EnumText<Order> {
+  static constexpr std::string_view what = "order";
+  static constexpr std::array<std::pair<Order, std::string_view>, 2> texts{
+      {{Order::colour, "colour"}, {Order::unordered, "unordered"}}};
+};
+template <>
+struct EnumText<Precision> {
+  static constexpr std::string_view what = "precision";
+  static constexpr std::array<std::pair<Precision, std::string_view>, 2> texts{
+      {{Precision::double_precision, "double"}, {Precision::single_precision, "single"}}};
+};
+
+/// Everything that steers a smoothing. The defaults are those of the command line.
+struct SmoothingOptions {
+  Method method = Method::smart;
+  Form form = Form::in_place;
+  Layout layout = Layout::aos;
+  Execution execution = Execution::resident;
+  Order order = Order::colour;
+  Precision precision = Precision::double_precision;
+  Evaluation evaluation = Evaluation::changed;
+  bool guard = true;              ///< take back what made an element worse: see never_worse.h
+  std::int64_t max_sweeps = 1000;  ///< 0: no limit
+  /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
+  double tolerance = 1e-6;
+  double time_limit_seconds = std::numeric_limits<double>::infinity();  ///< checked after every sweep
+  std::optional<double> target_quality;  ///< stop as soon as the smallest shape of all triangles reaches this
+  int threads = 0;                       ///< 0: one for each core. The result does not depend on it
+  bool record_min_shape = false;         ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
+  /// Called after every sweep, from the thread that called; `stop` ends the smoothing with a valid mesh.
+  std::function<Progress(const SweepRecord&)> progress;
+  /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
+  const Backend* backend = nullptr;
+
+  /// Throws std::invalid_argument for values out of range (a negative count, a NaN) and for combinations that no
+  /// backend has: Order::unordered with Form::swap or Execution::resident.
+  void validate() const;
+};
+
+}  // namespace trismooth

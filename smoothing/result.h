@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "trismooth/quality/point2.h"
+#include "trismooth/smoothing/enum_text.h"
+
+namespace trismooth {
+
+/// Why a smoothing ended.
+enum class StopReason : std::uint8_t {
+  fixed_point,     ///< no vertex moved in the last sweep
+  tolerance,       ///< every move of the last sweep was within the tolerance
+  sweep_limit,     ///< max_sweeps were done
+  time_limit,      ///< the time was up
+  quality_target,  ///< the smallest shape reached the target
+  cancelled,       ///< the progress callback said stop
+};
+
+template <>
+struct EnumText<StopReason> {
+  static constexpr std::string_view what = "stop reason";
+  static constexpr std::array<std::pair<StopReason, std::string_view>, 6> texts{
+      {{StopReason::fixed_point, "fixed_point"},
+       {StopReason::tolerance, "tolerance"},
+       {StopReason::sweep_limit, "sweep_limit"},
+       {StopReason::time_limit, "time_limit"},
+       {StopReason::quality_target, "quality_target"},
+       {StopReason::cancelled, "cancelled"}}};
+};
+
+/// What one sweep did.
+struct SweepRecord {
+  std::int64_t sweep = 0;        ///< from 1
+  std::int64_t evaluated = 0;    ///< vertices whose update was computed
+  std::int64_t moved = 0;        ///< vertices that moved
+  double max_relative_move = 0;  ///< largest |move| / (root mean square distance to the neighbours)
+  double min_shape = std::numeric_limits<double>::quiet_NaN();  ///< after the sweep; NaN where it was not asked for
+};
+
+/// A vertex that the commit took back, and where it had been moved to (in the caller's coordinates).
+struct RevertedVertex {
+  std::int32_t vertex = 0;
+  Point2<double> position{};
+};
+
+/// Milliseconds of the parts of a smoothing.
+struct SmoothingTimings {
+  double prepare = 0;       ///< renumbering, colouring, packing: once for a topology
+  double transfer_in = 0;   ///< to the device
+  double smooth = 0;        ///< the sweeps
+  double transfer_out = 0;  ///< from the device
+  double commit = 0;        ///< the never-worse step
+};
+
+/// What a smoothing did. The coordinates themselves are in the caller's arrays.
+struct SmoothingResult {
+  std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
+  StopReason stop_reason = StopReason::fixed_point;
+  std::int64_t vertex_updates = 0;     ///< evaluations over all sweeps
+  std::int64_t moved_vertices = 0;     ///< vertices whose stored coordinates differ from the input's
+  std::int64_t reverted_vertices = 0;  ///< vertices that the commit put back
+  std::int64_t guard_rounds = 0;       ///< rounds of the commit, the last one, in which nothing offended, apart
+  std::int64_t free_vertices = 0;
+  std::int32_t colours = 0;  ///< of Form B; 0 for Form A
+  std::vector<SweepRecord> history;
+  std::vector<RevertedVertex> reverted;  ///< ascending by vertex
+  std::string backend;                   ///< "cpu", "cuda"
+  std::string device;                    ///< the processor or GPU by name
+  int threads = 0;                       ///< CPU threads used
+  SmoothingTimings timings;
+};
+
+}  // namespace trismooth
