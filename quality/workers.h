@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace trismooth {
+
+/// A number of threads to run loops on. No result of this project depends on the number: loops write to places of
+/// their own, and sums go over fixed blocks in a fixed order.
+class Workers {
+ public:
+  /// `threads` = 0: one for each core that the process may use. More threads than cores are really started.
+  explicit Workers(int threads)
+      : count_(threads > 0 ? threads : tbb::this_task_arena::max_concurrency()), arena_(count_) {
+    if (count_ > tbb::this_task_arena::max_concurrency()) {
+      limit_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count_);
+    }
+  }
+
+  int count() const { return count_; }
+
+  /// Calls `function` where for_blocks() is cheapest: many loops inside one call need not enter the arena each.
+  template <class Function>
+  void run(Function&& function) {
+    count_ == 1 ? function() : arena_.execute(std::forward<Function>(function));
+  }
+
+  /// Calls body(begin, end) on parts of [0, size) of at most about `grain` elements, in any order, on all threads;
+  /// on the calling thread alone, in one part, where there is one thread or no more than `grain` elements.
+  template <class Body>
+  void for_blocks(std::int64_t size, std::int64_t grain, const Body& body) {
+    if (size <= 0) {
+      return;
+    }
+    if (count_ == 1 || size <= grain) {
+      body(std::int64_t{0}, size);
+      return;
+    }
+    arena_.execute([&] {
+      // The scheduler orders what happens before, in and after the loop; the two counters say the same to tools that
+      // cannot see into its library (the thread sanitizer).
+      std::atomic<std::int64_t> started{1};
+      std::atomic<std::int64_t> finished{0};
+      tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, grain), [&](const auto& range) {
+        started.load(std::memory_order_acquire);
+        body(range.begin(), range.end());
+        finished.fetch_add(1, std::memory_order_release);
+      });
+      finished.load(std::memory_order_acquire);
+    });
+  }
+
+ private:
+  int count_;
+  std::unique_ptr<tbb::global_control> limit_;
+  tbb::task_arena arena_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/smoothing/triangle_topology.h"
+
+namespace trismooth {
+
+/// What the caller holds fixed beside what the mesh itself does (boundaries, non-manifold and bow-tie vertices,
+/// isolated vertices). All views may be empty; the caller owns them.
+struct Constraints {
+  std::span<const std::uint8_t> fixed;        ///< one flag a vertex; not zero: fixed
+  std::span<const std::int32_t> fixed_ids;    ///< vertex numbers
+  std::span<const std::uint8_t> other_cells;  ///< one flag a vertex: used by a cell that is not a triangle
+  std::span<const std::int32_t> regions;      ///< one number a triangle; ends of edges between two regions are fixed
+};
+
+/// Why each vertex is fixed: the bits of namespace hold; 0 is a free vertex. Throws std::invalid_argument for a view of
+/// the wrong length and a vertex number out of range. Complexity: linear.
+std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                         const Constraints& constraints);
+
+}  // namespace trismooth

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/quality/point2.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/workers.h"
+
+namespace trismooth {
+
+/// One-rings as the commit reads them, in the numbering of whoever calls.
+struct RingView {
+  std::span<const std::int64_t> offsets;      ///< vertex v has neighbours[offsets[v] .. offsets[v + 1]); maybe none
+  std::span<const std::int32_t> neighbours;   ///< counter-clockwise
+  std::span<const std::int32_t> input_index;  ///< the input's number of each vertex; empty: the same
+
+  std::int32_t size() const { return offsets.empty() ? 0 : static_cast<std::int32_t>(offsets.size() - 1); }
+  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
+    return neighbours.subspan(static_cast<std::size_t>(offsets[vertex]),
+                              static_cast<std::size_t>(offsets[vertex + 1] - offsets[vertex]));
+  }
+};
+
+/// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
+/// Written so that a quotient that is no number offends.
+constexpr TRISMOOTH_HOST_DEVICE bool offends(double before, double after, double threshold) {
+  return (before > 0 && !(after > 0)) || !(after >= threshold || after >= before);
+}
+
+/// What the commit took back.
+struct GuardOutcome {
+  std::vector<std::int32_t> reverted;  ///< vertices, ascending
+  std::int64_t rounds = 0;             ///< rounds that took something back
+};
+
+/// The never-worse commit. `before` and `after` are the coordinates as they were stored and as they would be, both in
+/// the local frame, one for every vertex. Let T be the smallest quality before among the elements touched by moved
+/// vertices: all moved vertices of all elements that offend (see offends) go back to where they were, at once, until
+/// none offends. Afterwards no element that was valid is invalid, and none is both worse than it was and worse than
+/// the worst touched element was. Elements are evaluated in float64 in canonical corner order (smallest input index
+/// first), so each gives the same bits from every vertex, in the report too. Ends: each round returns a vertex.
+GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
+                              std::span<Point2<double>> after, Workers& workers);
+
+}  // namespace trismooth

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/one_rings.h"
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth {
+
+/// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
+/// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last.
+struct PackedRings {
+  std::vector<std::int32_t> input_index;    ///< the caller's number of each packed vertex
+  std::vector<std::int64_t> offsets;        ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
+  std::vector<std::int32_t> neighbours;     ///< packed numbers, in ring order
+  std::vector<std::int32_t> batches{0};     ///< batch b holds packed vertices batches[b] .. batches[b + 1]
+  std::int32_t colours = 0;                 ///< 0 for Form A
+
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(input_index.size()); }
+  std::int32_t free_count() const { return batches.back(); }
+  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
+    return std::span(neighbours)
+        .subspan(static_cast<std::size_t>(offsets[vertex]),
+                 static_cast<std::size_t>(offsets[vertex + 1] - offsets[vertex]));
+  }
+};
+
+/// `points`: the caller's vertices in the local frame; used for the order alone. Complexity: n log n.
+PackedRings pack_rings(const OneRings& rings, std::span<const Point2<double>> points, Form form, Workers& workers);
+
+}  // namespace trismooth

@@ -1,0 +1,93 @@
+#include "trismooth/smoothing/smooth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+std::vector<Triangle> as_triangles(std::span<const std::int32_t> indices) {
+  if (indices.size() % 3 != 0) {
+    throw std::invalid_argument("triangles has " + std::to_string(indices.size()) + " entries, not three a triangle");
+  }
+  std::vector<Triangle> triangles(indices.size() / 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    triangles[t] = {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]};
+  }
+  return triangles;
+}
+
+std::vector<Point2<double>> as_points(std::span<const double> xy, std::int32_t vertex_count) {
+  if (xy.size() != 2 * static_cast<std::size_t>(vertex_count)) {
+    throw std::invalid_argument("xy has " + std::to_string(xy.size()) + " entries, expected two for each of " +
+                                std::to_string(vertex_count) + " vertices");
+  }
+  std::vector<Point2<double>> points(static_cast<std::size_t>(vertex_count));
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v] = {xy[2 * v], xy[2 * v + 1]};
+    if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
+      throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+const Backend& backend_of(const SmoothingOptions& options) {
+  return options.backend != nullptr ? *options.backend : cpu_backend();
+}
+
+SmoothingPlan::SmoothingPlan(std::int32_t vertex_count, std::span<const std::int32_t> triangles,
+                             const Constraints& constraints, const SmoothingOptions& options)
+    : options_(options), triangles_(as_triangles(triangles)) {
+  options.validate();
+  Workers workers(options.threads);
+  topology_ = connect_triangles(vertex_count, triangles_, workers);
+  fixed_ = fixed_vertices(topology_, triangles_, constraints);
+}
+
+SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
+  std::vector<Point2<double>> points = as_points(xy, topology_.vertex_count);
+  const LocalFrame frame = local_frame(points);
+  std::vector<Point2<double>> local(points.size());
+  std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  Orientation orientation = orient(topology_, triangles_, local);
+  if (smoother_ == nullptr || orientation.reversed != reversed_) {
+    reversed_ = std::move(orientation.reversed);
+    Workers workers(options_.threads);
+    smoother_ = backend_of(options_).prepare(one_rings(topology_, triangles_, reversed_, fixed_, workers), local,
+                                             options_);
+  }
+  const double fixed_quotient = options_.target_quality || options_.record_min_shape
+                                    ? smallest_fixed_quotient(local, triangles_, reversed_, fixed_)
+                                    : std::numeric_limits<double>::infinity();
+  SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    xy[2 * v] = points[v].x;
+    xy[2 * v + 1] = points[v].y;
+  }
+  return result;
+}
+
+SmoothingPlan plan(std::int32_t vertex_count, std::span<const std::int32_t> triangles, const Constraints& constraints,
+                   const SmoothingOptions& options) {
+  return {vertex_count, triangles, constraints, options};
+}
+
+SmoothingResult smooth(std::span<double> xy, std::span<const std::int32_t> triangles, const Constraints& constraints,
+                       const SmoothingOptions& options) {
+  if (xy.size() / 2 > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw MeshError("more than 2147483647 vertices");
+  }
+  return plan(static_cast<std::int32_t>(xy.size() / 2), triangles, constraints, options).smooth(xy);
+}
+
+}  // namespace trismooth
