@@ -89,7 +89,9 @@ class ObjReader {
     } else if (keyword == "g") {
       groups_.start(read_name(), document_.cells.size());
     } else if (is_keyword(keyword)) {
-      other_statements_.insert(keyword);
+      if (other_statements_.size() < most_statements_named) {
+        other_statements_.insert(keyword);
+      }
       read_name();
     } else {
       scanner_.fail("expected a statement of OBJ, got " + quoted(keyword));
@@ -98,9 +100,10 @@ class ObjReader {
 
   /// x y z, and a weight or a colour, or both.
   void read_vertex() {
-    if (document_.point_count() == std::numeric_limits<std::int32_t>::max()) {
+    if (document_.point_count() >= std::numeric_limits<std::int32_t>::max()) {
       scanner_.fail("has more vertices than 32-bit indices can tell apart");
     }
+    const std::size_t vertex = document_.point_count();
     std::size_t count = 0;
     for (; !scanner_.at_end_of_line(); ++count) {
       const double value = scanner_.next_double("a number of a vertex");
@@ -110,10 +113,9 @@ class ObjReader {
       }
     }
     if (count != 3 && count != 4 && count != 6 && count != 7) {
-      scanner_.fail("vertex " + std::to_string(vertex_number()) +
-                    ": expected 3 coordinates (and a weight, a colour "
-                    "or both), got " +
-                    std::to_string(count) + (count == 1 ? " number" : " numbers"));
+      scanner_.fail("vertex " + std::to_string(vertex + 1) +
+                    ": expected 3 coordinates (and a weight, a colour or both), got " + std::to_string(count) +
+                    (count == 1 ? " number" : " numbers"));
     }
     has_colours_or_weights_ = has_colours_or_weights_ || count > 3;
   }
@@ -209,7 +211,7 @@ class ObjReader {
     }
   }
 
-  std::size_t vertex_number() const { return (document_.points.size() + 2) / 3; }
+  static constexpr std::size_t most_statements_named = 16;  // some "OBJ" files are something else altogether
 
   TextScanner scanner_;
   MeshDocument document_;

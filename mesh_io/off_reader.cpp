@@ -89,7 +89,7 @@ class OffReader {
         scanner_.fail("binary OFF is not supported");
       }
     } else if (!parse_integer(token)) {
-      scanner_.next_token("the keyword OFF");
+      scanner_.next_token("the keyword OFF or the number of vertices");
       scanner_.fail("is not an OFF file: expected the keyword OFF or the number of vertices, got " + quoted(token));
     }
   }
