@@ -19,8 +19,9 @@ namespace trismooth {
 /// Throws ReadError where the file breaks the format's rules. Linear in the file's size.
 MeshDocument read_stl(const std::filesystem::path& path, std::string bytes);
 
-/// Writes the document's triangles as one solid of ASCII STL (binary STL would round coordinates to float32), each
-/// with its unit normal, which is 0 0 0 for a degenerate triangle. Throws WriteError.
+/// Writes the document's triangles as one solid of ASCII STL (binary STL would round coordinates to float32), in the
+/// shortest texts that read back to the same float64, each with its unit normal, which is 0 0 0 for a degenerate
+/// triangle. Throws WriteError.
 void write_stl(const std::filesystem::path& path, const MeshDocument& document);
 
 /// What write_stl leaves out or changes, one sentence each.

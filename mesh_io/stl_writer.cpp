@@ -42,25 +42,21 @@ Vector unit_normal(const Vector& a, const Vector& b, const Vector& c) {
   return length > 0 ? Vector{n[0] / length + 0.0, n[1] / length + 0.0, n[2] / length + 0.0} : Vector{};
 }
 
-void append_vector(std::string& text, const Vector& vector, ScalarType type) {
+void append_vector(std::string& text, const Vector& vector) {
   for (const double component : vector) {
     text += ' ';
-    if (type == ScalarType::float32) {
-      append_number(text, static_cast<float>(component));
-    } else {
-      append_number(text, component);
-    }
+    append_number(text, component);
   }
   text += '\n';
 }
 
-void append_facet(std::string& text, const std::array<Vector, 3>& corners, ScalarType type) {
+void append_facet(std::string& text, const std::array<Vector, 3>& corners) {
   text += "  facet normal";
-  append_vector(text, unit_normal(corners[0], corners[1], corners[2]), ScalarType::float32);
+  append_vector(text, unit_normal(corners[0], corners[1], corners[2]));
   text += "    outer loop\n";
   for (const Vector& corner : corners) {
     text += "      vertex";
-    append_vector(text, corner, type);
+    append_vector(text, corner);
   }
   text += "    endloop\n  endfacet\n";
 }
@@ -112,8 +108,7 @@ void write_stl(const std::filesystem::path& path, const MeshDocument& document) 
     const auto vertices = document.cells[c];
     text.clear();
     append_facet(text,
-                 {point_at(document, vertices[0]), point_at(document, vertices[1]), point_at(document, vertices[2])},
-                 document.point_type);
+                 {point_at(document, vertices[0]), point_at(document, vertices[1]), point_at(document, vertices[2])});
     writer.write(text);
   }
   writer.write("endsolid trismooth\n");
