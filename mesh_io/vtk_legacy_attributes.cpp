@@ -1,6 +1,8 @@
 #include "trismooth/mesh_io/vtk_legacy_attributes.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -84,8 +86,10 @@ class ArrayReader {
 
   std::uint64_t next_component_count() {
     const std::uint64_t components = input_.next_count("the number of components");
-    if (components == 0) {
-      input_.fail("an array has no components");
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    if (components == 0 || components > most) {
+      input_.fail("expected the number of components from 1 to " + std::to_string(most) + ", got " +
+                  std::to_string(components));
     }
     return components;
   }

@@ -68,6 +68,13 @@ void VtkLegacyInput::read_header() {
   binary_ = keyword == "binary";
 }
 
+std::string VtkLegacyInput::peek_keyword() {
+  const std::size_t offset = scanner_.offset();
+  std::string keyword = lower_case(scanner_.peek_token());
+  scanner_.seek(offset);
+  return keyword;
+}
+
 std::string_view VtkLegacyInput::next_token(std::string_view what) {
   if (binary_ && at_end()) {
     place_ = scanner_.offset();

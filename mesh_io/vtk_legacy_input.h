@@ -25,8 +25,9 @@ class VtkLegacyInput {
   /// True where nothing but white space is left.
   bool at_end() { return scanner_.at_end(); }
 
-  /// The next token in lower case without reading it; empty at the end of the file.
-  std::string peek_keyword() { return lower_case(scanner_.peek_token()); }
+  /// The next token in lower case; empty at the end of the file. The input stays where it is, before any white space:
+  /// that may belong to binary data.
+  std::string peek_keyword();
   /// The next token; fails at the end of the file: "expected <what>, got the end of the file".
   std::string_view next_token(std::string_view what);
   /// The next token, decoded.
