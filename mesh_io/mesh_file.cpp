@@ -45,21 +45,26 @@ MeshDocument read_mesh(const std::filesystem::path& path) {
   return document;
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
+FileFormat output_format(const std::filesystem::path& path) {
   const auto format = format_of(path);
   if (!format) {
     throw WriteError(path, unknown_extension(path));
   }
+  return *format;
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
+  const FileFormat format = output_format(path);
   OutputFile output(path);
-  if (is_written_back(document, *format)) {
+  if (is_written_back(document, format)) {
     document.original->write(output.path(), document, added.point_arrays, added.cell_arrays);
   } else {
     MeshDocument extended = document;
-    if (has_arrays(*format)) {
+    if (has_arrays(format)) {
       std::ranges::copy(added.point_arrays, std::back_inserter(extended.point_arrays));
       std::ranges::copy(added.cell_arrays, std::back_inserter(extended.cell_arrays));
     }
-    codec_of(*format).write(output.path(), extended);
+    codec_of(format).write(output.path(), extended);
   }
   output.commit();
 }
