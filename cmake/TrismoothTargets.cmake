@@ -15,7 +15,10 @@ function(trismooth_configure target)
     ${target}
     PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
             # Results are the same bits everywhere only if no multiply and add are ever fused.
-            -ffp-contract=off>
+            -ffp-contract=off
+            # No effect on any value: nobody looks at floating-point traps or errno, which lets a quotient be a
+            # select instead of a branch.
+            -fno-trapping-math -fno-math-errno>
             # GCC 12 warns of "literal" + std::string where nothing overlaps (its bug 105651).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(TRISMOOTH_WERROR)

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t grain = 4096;
 constexpr std::int32_t uncoloured = -1;
+constexpr std::int32_t done = -1;
 
 /// The smallest number from 0 that `taken` numbers do not hold.
 class SmallestFree {
@@ -41,10 +42,10 @@ class SmallestFree {
 };
 
 /// The colour of `vertex`, or uncoloured while a neighbour that comes before it has none.
-std::int32_t colour_of(std::int32_t vertex, const OneRings& rings, std::vector<std::int32_t>& colours) {
+std::int32_t colour_of(std::int32_t vertex, const RingView& rings, std::vector<std::int32_t>& colours) {
   SmallestFree free;
   for (const std::int32_t neighbour : rings[vertex]) {
-    if (rings.is_free(neighbour) && coloured_before(neighbour, vertex)) {
+    if (rings.is_free(neighbour) && coloured_before(rings.input(neighbour), rings.input(vertex))) {
       const std::int32_t colour = std::atomic_ref(colours[neighbour]).load(std::memory_order_relaxed);
       if (colour == uncoloured) {
         return uncoloured;
@@ -57,30 +58,27 @@ std::int32_t colour_of(std::int32_t vertex, const OneRings& rings, std::vector<s
 
 }  // namespace
 
-Colouring colour_free_vertices(const OneRings& rings, std::span<const std::int32_t> visit_order, Workers& workers) {
+Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
   Colouring colouring;
-  colouring.colours.assign(static_cast<std::size_t>(rings.vertex_count()), uncoloured);
-  std::vector<std::int32_t> waiting(visit_order.begin(), visit_order.end());
-  std::vector<std::int32_t> next(waiting.size());
+  colouring.colours.assign(static_cast<std::size_t>(rings.size()), uncoloured);
+  std::vector<std::int32_t> waiting;
+  waiting.reserve(static_cast<std::size_t>(rings.size()));
+  for (std::int32_t v = 0; v < rings.size(); ++v) {
+    if (rings.is_free(v)) {
+      waiting.push_back(v);
+    }
+  }
   while (!waiting.empty()) {
-    ++colouring.rounds;
     workers.for_blocks(static_cast<std::int64_t>(waiting.size()), grain, [&](std::int64_t begin, std::int64_t end) {
-      // A block keeps its vertices together and in their order, at its own place: then they are packed.
-      std::int64_t kept = begin;
       for (std::int64_t i = begin; i < end; ++i) {
-        const std::int32_t vertex = waiting[i];
-        const std::int32_t colour = colour_of(vertex, rings, colouring.colours);
-        if (colour == uncoloured) {
-          next[kept++] = vertex;
-        } else {
-          std::atomic_ref(colouring.colours[vertex]).store(colour, std::memory_order_relaxed);
+        const std::int32_t colour = colour_of(waiting[i], rings, colouring.colours);
+        if (colour != uncoloured) {
+          std::atomic_ref(colouring.colours[waiting[i]]).store(colour, std::memory_order_relaxed);
+          waiting[i] = done;
         }
       }
-      std::fill(next.begin() + kept, next.begin() + end, uncoloured);
     });
-    std::erase(next, uncoloured);
-    waiting.swap(next);
-    next.resize(waiting.size());
+    std::erase(waiting, done);
   }
   for (const std::int32_t colour : colouring.colours) {
     colouring.count = std::max(colouring.count, colour + 1);

@@ -86,7 +86,7 @@ class CpuSmoother final : public PreparedSmoother {
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
       const GuardOutcome outcome =
-          keep_never_worse({rings_.offsets, rings_.neighbours, rings_.input_index}, before, after, workers_);
+          keep_never_worse(rings_.view(), before, after, workers_);
       result.guard_rounds = outcome.rounds;
       result.reverted_vertices = static_cast<std::int64_t>(outcome.reverted.size());
       for (const std::int32_t v : outcome.reverted) {

@@ -35,13 +35,9 @@ class Guard {
  private:
   bool has_moved(std::int32_t vertex) const { return !(before_[vertex] == after_[vertex]); }
 
-  std::int32_t input_index(std::int32_t vertex) const {
-    return rings_.input_index.empty() ? vertex : rings_.input_index[vertex];
-  }
-
   /// The quotient of the element (a, b, c), counter-clockwise, in canonical corner order.
   double quotient(std::span<const Point2<double>> points, Triangle element) const {
-    const Triangle input{input_index(element[0]), input_index(element[1]), input_index(element[2])};
+    const Triangle input{rings_.input(element[0]), rings_.input(element[1]), rings_.input(element[2])};
     const auto first = static_cast<std::size_t>(std::ranges::min_element(input) - input.begin());
     return shape_quotient(points[element[first]], points[element[(first + 1) % 3]], points[element[(first + 2) % 3]]);
   }

@@ -7,21 +7,9 @@
 #include "trismooth/quality/point2.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/one_rings.h"
 
 namespace trismooth {
-
-/// One-rings as the commit reads them, in the numbering of whoever calls.
-struct RingView {
-  std::span<const std::int64_t> offsets;      ///< vertex v has neighbours[offsets[v] .. offsets[v + 1]); maybe none
-  std::span<const std::int32_t> neighbours;   ///< counter-clockwise
-  std::span<const std::int32_t> input_index;  ///< the input's number of each vertex; empty: the same
-
-  std::int32_t size() const { return offsets.empty() ? 0 : static_cast<std::int32_t>(offsets.size() - 1); }
-  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
-    return neighbours.subspan(static_cast<std::size_t>(offsets[vertex]),
-                              static_cast<std::size_t>(offsets[vertex + 1] - offsets[vertex]));
-  }
-};
 
 /// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
 /// Written so that a quotient that is no number offends.

@@ -11,7 +11,8 @@
 namespace trismooth {
 
 /// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
-/// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last.
+/// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
+/// windows of the curve vertices are sorted by ring size, so that the loops over rings are predictable.
 struct PackedRings {
   std::vector<std::int32_t> input_index;    ///< the caller's number of each packed vertex
   std::vector<std::int64_t> offsets;        ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
@@ -21,11 +22,7 @@ struct PackedRings {
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(input_index.size()); }
   std::int32_t free_count() const { return batches.back(); }
-  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
-    return std::span(neighbours)
-        .subspan(static_cast<std::size_t>(offsets[vertex]),
-                 static_cast<std::size_t>(offsets[vertex + 1] - offsets[vertex]));
-  }
+  RingView view() const { return {offsets, neighbours, input_index}; }
 };
 
 /// `points`: the caller's vertices in the local frame; used for the order alone. Complexity: n log n.

@@ -5,40 +5,44 @@
 
 namespace trismooth {
 
-/// The worst of a vertex's triangles.
-template <class T>
-struct RingQuality {
-  T worst;       ///< smallest shape quotient
-  int inverted;  ///< triangles with a negative one
-};
-
-/// The quality of the triangles (v, n_i, n_i+1) around `position`, evaluated in this corner order. Stops as soon as
-/// a quotient is not greater than `bound` (or is no number): `worst` is then that quotient, no more than an upper bound.
-template <class T, class Ring>
-constexpr TRISMOOTH_HOST_DEVICE RingQuality<T> ring_quality(Point2<T> position, const Ring& ring, T bound) {
+/// Calls `visit(quotient)` with the shape quotient of each triangle (v, n_i, n_i+1) around `position`, evaluated in this
+/// corner order. Edge vectors and squares are shared between triangles; the operations are those of shape_quotient.
+template <class T, class Ring, class Visit>
+constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
   const int size = ring.size();
-  RingQuality<T> quality{T(1), 0};
   const Point2<T> first = ring[0];
   const Point2<T> first_spoke = first - position;
   const T first_squared = squared_length(first_spoke);
   Point2<T> neighbour = first;
   Point2<T> spoke = first_spoke;
   T squared = first_squared;
-  for (int i = 1; i <= size; ++i) {
-    const Point2<T> next = i < size ? ring[i] : first;
-    const Point2<T> next_spoke = i < size ? next - position : first_spoke;
-    const T next_squared = i < size ? squared_length(next_spoke) : first_squared;
-    const T quotient = shape_quotient(spoke, next_spoke, squared, squared_length(next - neighbour), next_squared);
-    if (!(quotient > bound)) {
-      return {quotient, quality.inverted};
-    }
-    quality.worst = quotient < quality.worst ? quotient : quality.worst;
-    quality.inverted += quotient < T(0) ? 1 : 0;
+  for (int i = 1; i < size; ++i) {
+    const Point2<T> next = ring[i];
+    const Point2<T> next_spoke = next - position;
+    const T next_squared = squared_length(next_spoke);
+    visit(shape_quotient(spoke, next_spoke, squared, squared_length(next - neighbour), next_squared));
     neighbour = next;
     spoke = next_spoke;
     squared = next_squared;
   }
-  return quality;
+  visit(shape_quotient(spoke, first_spoke, squared, squared_length(first - neighbour), first_squared));
+}
+
+/// The smallest shape quotient of the triangles around `position`. Without branches: on a CPU a wrong guess costs more
+/// than the divisions that an early exit saves.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring& ring) {
+  T worst = 1;  // no quotient is above 1 / (2 sqrt(3))
+  for_ring_quotients(position, ring, [&](T quotient) { worst = quotient < worst ? quotient : worst; });
+  return worst;
+}
+
+/// How many of the triangles around `position` are inverted.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE int inverted_triangles(Point2<T> position, const Ring& ring) {
+  int inverted = 0;
+  for_ring_quotients(position, ring, [&](T quotient) { inverted += quotient < T(0) ? 1 : 0; });
+  return inverted;
 }
 
 /// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
@@ -46,10 +50,17 @@ constexpr TRISMOOTH_HOST_DEVICE RingQuality<T> ring_quality(Point2<T> position, 
 struct SmartLaplacian {
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
-    const RingQuality<T> before = ring_quality(position, ring, T(-2));  // no quotient is below -1 / (2 sqrt(3))
     const Point2<T> target = laplacian_position<T>(ring);
-    const RingQuality<T> after = ring_quality(target, ring, before.worst);
-    return after.worst > before.worst && after.inverted <= before.inverted ? Move<T>{target, true} : stay(position);
+    const T before = worst_quotient(position, ring);
+    const T after = worst_quotient(target, ring);
+    if (!(after > before)) {
+      return stay(position);
+    }
+    // Where nothing was inverted, a larger minimum says that nothing is.
+    if (before < T(0) && inverted_triangles(target, ring) > inverted_triangles(position, ring)) {
+      return stay(position);
+    }
+    return move_to(position, target);
   }
 };
 

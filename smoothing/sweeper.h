@@ -15,37 +15,12 @@
 
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/gathered_ring.h"
 #include "trismooth/smoothing/methods.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/packed_rings.h"
 
 namespace trismooth {
-
-/// The positions of one ring, fetched once for all the passes of an update.
-template <class T>
-class GatheredRing {
- public:
-  void gather(std::span<const Point2<T>> points, std::span<const std::int32_t> ring) {
-    size_ = static_cast<int>(ring.size());
-    if (ring.size() > few_.size()) {
-      many_.resize(ring.size());
-      data_ = many_.data();
-    } else {
-      data_ = few_.data();
-    }
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      data_[i] = points[ring[i]];
-    }
-  }
-  int size() const { return size_; }
-  Point2<T> operator[](int i) const { return data_[i]; }
-
- private:
-  std::array<Point2<T>, 32> few_;
-  std::vector<Point2<T>> many_;
-  Point2<T>* data_ = nullptr;
-  int size_ = 0;
-};
 
 /// What a part of a sweep did. All of it is independent of the order in which parts are joined.
 template <class T>
@@ -71,7 +46,7 @@ template <class T>
 class Sweeper {
  public:
   Sweeper(const PackedRings& rings, const SmoothingOptions& options, Workers& workers)
-      : rings_(rings), options_(options), workers_(workers) {}
+      : rings_(rings), view_(rings.view()), options_(options), workers_(workers) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -165,7 +140,7 @@ class Sweeper {
   template <class Update>
   void update_block(std::int32_t begin, std::int32_t end, std::span<const Point2<T>> from, std::span<Point2<T>> to,
                     std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next, SweepTally<T>& tally) {
-    GatheredRing<T> ring;
+    RingGatherer<T> gatherer;
     const bool all = options_.evaluation == Evaluation::all;
     const T tolerance = static_cast<T>(options_.tolerance);
     for (std::int32_t v = begin; v < end; ++v) {
@@ -178,13 +153,17 @@ class Sweeper {
       // No other thread touches this mark now: only the vertex itself and its neighbours, which are in other batches
       // (Form B) or write the next sweep's marks (Form A), ever do.
       marked[v] = 0;
-      ring.gather(from, rings_[v]);
       const Point2<T> position = from[v];
-      const Move<T> move = Update::template update<T>(position, ring);
-      to[v] = move.position;
+      const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
+        const Move<T> move = Update::template update<T>(position, ring);
+        to[v] = move.position;
+        if (move.moved) {
+          tally.join(measure(position, move.position, ring, tolerance));
+        }
+        return move.moved;
+      });
       ++tally.evaluated;
-      if (move.moved) {
-        tally.join(measure(position, move.position, ring, tolerance));
+      if (moved) {
         mark_neighbourhood(v, marked_next);
       }
     }
@@ -215,14 +194,15 @@ class Sweeper {
       }
     };
     mark(v);
-    for (const std::int32_t neighbour : rings_[v]) {
+    for (const std::int32_t neighbour : view_[v]) {
       if (neighbour < rings_.free_count()) {
         mark(neighbour);
       }
     }
   }
 
-  static SweepTally<T> measure(Point2<T> from, Point2<T> to, const GatheredRing<T>& ring, T tolerance) {
+  template <class Ring>
+  static SweepTally<T> measure(Point2<T> from, Point2<T> to, const Ring& ring, T tolerance) {
     T sum = 0;
     for (int i = 0; i < ring.size(); ++i) {
       sum += squared_length(ring[i] - from);
@@ -242,11 +222,12 @@ class Sweeper {
     T smallest = std::numeric_limits<T>::infinity();
     std::mutex joining;
     workers_.for_blocks(rings_.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
-      GatheredRing<T> ring;
+      RingGatherer<T> gatherer;
       T worst = std::numeric_limits<T>::infinity();
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        ring.gather(points, rings_[v]);
-        worst = std::min(worst, ring_quality(points[v], ring, T(-2)).worst);
+        worst = std::min(worst, gatherer.with_ring(points, view_[v], [&](const auto& ring) {
+          return worst_quotient(points[v], ring);
+        }));
       }
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);
@@ -256,6 +237,7 @@ class Sweeper {
   }
 
   const PackedRings& rings_;
+  RingView view_;
   const SmoothingOptions& options_;
   Workers& workers_;
   std::vector<Point2<T>> other_points_;

@@ -168,38 +168,46 @@ void find_components(std::span<const Triangle> triangles, TriangleTopology& topo
   }
 }
 
-/// Marks vertices whose corners are not all reached by walking around from one of them.
-void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
-  std::vector<std::int32_t> corners(static_cast<std::size_t>(topology.vertex_count), 0);
+void find_corners(std::span<const Triangle> triangles, TriangleTopology& topology) {
+  topology.degree.assign(static_cast<std::size_t>(topology.vertex_count), 0);
   topology.corner.assign(static_cast<std::size_t>(topology.vertex_count), -1);
   for (std::int32_t t = static_cast<std::int32_t>(triangles.size()) - 1; t >= 0; --t) {
     for (std::int32_t i = 2; i >= 0; --i) {
-      ++corners[triangles[t][i]];
+      ++topology.degree[triangles[t][i]];
       topology.corner[triangles[t][i]] = 3 * t + i;
     }
   }
-  std::vector<std::uint8_t> other_way(topology.parity.size());
-  std::ranges::transform(topology.parity, other_way.begin(), [](std::uint8_t p) { return p ^ 1U; });
-  workers.for_blocks(topology.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-      const std::int32_t first = topology.corner[v];
-      if (first < 0) {
-        topology.hold[v] |= hold::isolated;
-        continue;
-      }
-      std::int32_t reached = 1;
-      std::int32_t corner = next_corner(topology, triangles, topology.parity, first);
-      for (; corner >= 0 && corner != first; corner = next_corner(topology, triangles, topology.parity, corner)) {
-        ++reached;
-      }
-      if (corner < 0) {
-        // An open fan: walk to its other end as well.
-        corner = next_corner(topology, triangles, other_way, first);
-        for (; corner >= 0; corner = next_corner(topology, triangles, other_way, corner)) {
-          ++reached;
-        }
-      }
-      if (reached != corners[v]) {
+  for (std::int32_t v = 0; v < topology.vertex_count; ++v) {
+    if (topology.corner[v] < 0) {
+      topology.hold[v] |= hold::isolated;
+    }
+  }
+}
+
+/// The corners of the fan that `first` is in.
+std::int32_t fan_size(const TriangleTopology& topology, std::span<const Triangle> triangles, std::int32_t first) {
+  std::int32_t size = 1;
+  std::int32_t corner = next_corner(topology, triangles, topology.parity, first);
+  for (; corner >= 0 && corner != first; corner = next_corner(topology, triangles, topology.parity, corner)) {
+    ++size;
+  }
+  if (corner < 0) {
+    // An open fan: walk to its other end as well.
+    corner = previous_corner(topology, triangles, topology.parity, first);
+    for (; corner >= 0; corner = previous_corner(topology, triangles, topology.parity, corner)) {
+      ++size;
+    }
+  }
+  return size;
+}
+
+/// Marks vertices whose triangles form more than one fan. Walks in the order of the triangles: files list them with
+/// more locality than vertices.
+void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
+  workers.for_blocks(static_cast<std::int64_t>(triangles.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto corner = static_cast<std::int32_t>(3 * begin); corner < 3 * end; ++corner) {
+      const std::int32_t v = triangles[corner / 3][corner % 3];
+      if (topology.corner[v] == corner && fan_size(topology, triangles, corner) != topology.degree[v]) {
         topology.hold[v] |= hold::bow_tie;
       }
     }
@@ -219,6 +227,7 @@ TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Tr
     pair_edges(buckets, topology, workers);
   }
   find_components(triangles, topology);
+  find_corners(triangles, topology);
   find_bow_ties(triangles, topology, workers);
   return topology;
 }

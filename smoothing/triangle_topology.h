@@ -32,6 +32,7 @@ struct TriangleTopology {
   std::vector<std::int32_t> component;   ///< per triangle: from 0, in the order of their lowest triangles
   std::int32_t components = 0;           ///< connected through edges with exactly two triangles
   std::vector<std::int32_t> corner;      ///< per vertex: the lowest halfedge that starts there; -1: isolated
+  std::vector<std::int32_t> degree;      ///< per vertex: its triangles
   std::vector<std::uint8_t> hold;        ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
 };
 
@@ -51,21 +52,34 @@ struct Orientation {
 Orientation orient(const TriangleTopology& topology, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points);
 
-/// The corner after `corner` around its vertex, counter-clockwise in the orientation `reversed` (either `parity` or
-/// Orientation::reversed), or a negative value at the end of an open fan. A corner is named by its halfedge.
-inline std::int32_t next_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
-                                std::span<const std::uint8_t> reversed, std::int32_t corner) {
-  const std::int32_t triangle = corner / 3;
-  const std::int32_t i = corner % 3;
-  const std::int32_t vertex = triangles[triangle][i];
-  const std::int32_t across = reversed[triangle] != 0 ? corner : 3 * triangle + (i + 2) % 3;
+/// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative
+/// value where there is none. A corner is named by the halfedge that starts there.
+inline std::int32_t corner_across(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                  std::int32_t vertex, std::int32_t across) {
   const std::int32_t twin = topology.twins[across];
   if (twin < 0) {
     return twin;
   }
-  const std::int32_t other = twin / 3;
-  const std::int32_t j = twin % 3;
-  return triangles[other][j] == vertex ? twin : 3 * other + (j + 1) % 3;
+  const std::int32_t triangle = twin / 3;
+  const std::int32_t i = twin % 3;
+  return triangles[triangle][i] == vertex ? twin : 3 * triangle + (i + 1) % 3;
+}
+
+/// The corner after `corner` around its vertex, counter-clockwise in the orientation `reversed` (either `parity` or
+/// Orientation::reversed), or a negative value at the end of an open fan.
+inline std::int32_t next_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                std::span<const std::uint8_t> reversed, std::int32_t corner) {
+  const std::int32_t t = corner / 3;
+  const std::int32_t i = corner % 3;
+  return corner_across(topology, triangles, triangles[t][i], reversed[t] != 0 ? corner : 3 * t + (i + 2) % 3);
+}
+
+/// The same, clockwise.
+inline std::int32_t previous_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                    std::span<const std::uint8_t> reversed, std::int32_t corner) {
+  const std::int32_t t = corner / 3;
+  const std::int32_t i = corner % 3;
+  return corner_across(topology, triangles, triangles[t][i], reversed[t] != 0 ? 3 * t + (i + 2) % 3 : corner);
 }
 
 /// The neighbour with which the corner's triangle begins, counter-clockwise around the corner's vertex.

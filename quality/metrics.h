@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "trismooth/quality/point2.h"
+
+namespace trismooth {
+
+/// The quality metrics of a triangle, by their Verdict names and definitions (C. D. Stimpson, C. D. Ernst, P. Knupp,
+/// P. P. Pebay and D. Thompson, The Verdict Geometric Quality Library, SAND2007-1751). In the formulas l_min, l_mid
+/// and l_max are the lengths of the edges and A is the area. Where Verdict's value would not tell a valid triangle
+/// from an inverted one (clockwise, shape < 0), it is given a sign here: shape, area, scaled_jacobian and condition
+/// are negative for inverted triangles. The others are the same for both.
+enum class Metric : std::uint8_t {
+  shape,            ///< 4 sqrt(3) A / (l_min^2 + l_mid^2 + l_max^2), signed; see triangle_quality.h
+  area,             ///< A, signed
+  min_angle,        ///< smallest interior angle in degrees
+  max_angle,        ///< largest interior angle in degrees
+  aspect_ratio,     ///< l_max (l_min + l_mid + l_max) / (4 sqrt(3) A)
+  radius_ratio,     ///< circumradius / (2 inradius) = l_min l_mid l_max (l_min + l_mid + l_max) / (16 A^2)
+  edge_ratio,       ///< l_max / l_min
+  condition,        ///< 1 / shape, signed: of the map from the equilateral triangle, in the Frobenius norm, over 2
+  scaled_jacobian,  ///< 4 A / (sqrt(3) l_mid l_max), signed: the sine of the smallest angle over that of 60 degrees
+  equiangle_skew,   ///< max((max_angle - 60) / 120, (60 - min_angle) / 60), not below 0
+};
+
+inline constexpr std::size_t metric_count = 10;
+
+/// What a metric is called, means and ranges over.
+struct MetricInfo {
+  Metric metric;
+  std::string_view name;     ///< as in reports and on the command line
+  std::string_view unit;     ///< "degrees", "length^2"; empty for a pure number
+  bool larger_is_better;     ///< which end of the range is the good one (for area: inverted triangles are below 0)
+  double acceptable_low;     ///< the range that Verdict's manual calls acceptable
+  double acceptable_high;    ///< (see is_acceptable)
+  double lowest;             ///< the full range, up to rounding; infinite where there is no bound
+  double highest;            ///< (of condition, no value lies between -1 and 1)
+  std::string_view meaning;  ///< one line for help and reports
+};
+
+/// Every metric, in the order of the enumeration.
+std::span<const MetricInfo> all_metrics();
+
+/// What is known of the metric.
+const MetricInfo& info(Metric metric);
+
+/// The metric of that name, or nothing.
+std::optional<Metric> metric_named(std::string_view name);
+
+/// True where the value lies in the metric's acceptable range. The ideal end of a range is open: an equilateral
+/// triangle is acceptable also where its shape is rounded above 1. Inverted triangles are not acceptable by the signed
+/// metrics. False for NaN.
+bool is_acceptable(Metric metric, double value);
+
+/// The value of each metric, indexed by Metric.
+using MetricValues = std::array<double, metric_count>;
+
+/// The metric of the triangle (a, b, c), whose positive orientation is counter-clockwise.
+///
+/// The corners are finite and in a frame in which squares of lengths do not overflow (see LocalFrame); area comes in
+/// that frame's unit. Where the squares underflow (edges below 1e-162 in that frame) the triangle counts as degenerate,
+/// and from edges of 1e-146 down values lose digits.
+///
+/// A degenerate triangle (area 0, also where corners coincide) has shape, area, scaled_jacobian and min_angle 0,
+/// max_angle 180, equiangle_skew 1 and infinite aspect_ratio, radius_ratio and condition; its edge_ratio is infinite
+/// where two corners coincide. Ratios of nearly degenerate triangles may overflow to infinity as well. Never NaN.
+double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c);
+
+/// Every metric of the triangle, the same bits as evaluate gives, for about the price of the two angles.
+MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c);
+
+}  // namespace trismooth

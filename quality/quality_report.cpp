@@ -1,0 +1,241 @@
+#include "trismooth/quality/quality_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "trismooth/quality/thread_arena.h"
+#include "trismooth/quality/triangle_quality.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Triangles are taken in blocks of this size whatever the number of threads, and the blocks' results are combined in
+/// order: no rounding depends on scheduling. A block's values stay in the second-level cache.
+constexpr std::size_t block_size = 1024;
+
+std::size_t block_count(const TriangleView& view) {
+  return (view.triangles.size() + block_size - 1) / block_size;
+}
+
+/// Calls `function(block)` for every block of the view.
+template <class Function>
+void for_each_block(const TriangleView& view, int threads, const Function& function) {
+  const std::size_t blocks = block_count(view);
+  if (threads == 1) {
+    for (std::size_t block = 0; block < blocks; ++block) {
+      function(block);
+    }
+    return;
+  }
+  thread_arena(threads).execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const tbb::blocked_range<std::size_t>& range) {
+      for (std::size_t block = range.begin(); block < range.end(); ++block) {
+        function(block);
+      }
+    });
+  });
+}
+
+using CornerPoints = std::array<Point2<double>, 3>;
+
+CornerPoints corner_points(const TriangleView& view, std::size_t index) {
+  const Triangle corners = canonical_corners(view, index);
+  return {view.points[static_cast<std::size_t>(corners[0])], view.points[static_cast<std::size_t>(corners[1])],
+          view.points[static_cast<std::size_t>(corners[2])]};
+}
+
+bool is_worse(const WorstElement& a, const WorstElement& b) {
+  return a.shape < b.shape || (a.shape == b.shape && a.triangle < b.triangle);
+}
+
+/// Collects the worst `capacity` elements offered. A heap with the least bad one in front.
+class WorstList {
+ public:
+  explicit WorstList(std::size_t capacity) : capacity_(capacity) {}
+
+  bool would_take(double shape) const {
+    return elements_.size() < capacity_ || (capacity_ > 0 && shape <= elements_.front().shape);
+  }
+
+  void offer(const WorstElement& element) {
+    if (elements_.size() == capacity_) {
+      if (capacity_ == 0 || !is_worse(element, elements_.front())) {
+        return;
+      }
+      std::pop_heap(elements_.begin(), elements_.end(), is_worse);
+      elements_.pop_back();
+    }
+    elements_.push_back(element);
+    std::push_heap(elements_.begin(), elements_.end(), is_worse);
+  }
+
+  const std::vector<WorstElement>& elements() const { return elements_; }
+
+  /// The elements, worst first. Leaves the list empty.
+  std::vector<WorstElement> take_sorted() {
+    std::sort_heap(elements_.begin(), elements_.end(), is_worse);
+    return std::move(elements_);
+  }
+
+ private:
+  std::size_t capacity_;
+  std::vector<WorstElement> elements_;
+};
+
+constexpr MetricValues filled(double value) {
+  MetricValues values{};
+  values.fill(value);
+  return values;
+}
+
+/// What one block, or several in order, contribute to the report.
+struct Partial {
+  double count = 0;
+  std::int64_t inverted = 0;
+  MetricValues sum = filled(0);
+  MetricValues squared_deviations = filled(0);  ///< from the mean of these triangles, summed
+  MetricValues min = filled(std::numeric_limits<double>::infinity());
+  MetricValues max = filled(-std::numeric_limits<double>::infinity());
+  std::array<std::int64_t, metric_count> acceptable{};
+  std::array<std::int64_t, shape_bins> shape_histogram{};
+  std::vector<WorstElement> worst;
+};
+
+void count_shape(Partial& partial, double shape) {
+  if (shape < 0) {
+    ++partial.inverted;
+    return;
+  }
+  const auto bin = static_cast<std::size_t>(shape * static_cast<double>(shape_bins));
+  ++partial.shape_histogram[std::min(bin, shape_bins - 1)];
+}
+
+Partial evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
+  const std::size_t begin = block * block_size;
+  const std::size_t count = std::min(block_size, view.triangles.size() - begin);
+  // Gathered first, since only short loops overlap the cache misses of a mesh in random order.
+  std::array<CornerPoints, block_size> corners;
+  for (std::size_t t = 0; t < count; ++t) {
+    corners[t] = corner_points(view, begin + t);
+  }
+
+  std::array<MetricValues, block_size> values;
+  Partial partial;
+  partial.count = static_cast<double>(count);
+  WorstList worst(std::min(worst_count, count));
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto [a, b, c] = corners[t];
+    const MetricValues& of_triangle = values[t] = evaluate_all(a, b, c);
+    for (std::size_t m = 0; m < metric_count; ++m) {
+      partial.sum[m] += of_triangle[m];
+      partial.min[m] = std::min(partial.min[m], of_triangle[m]);
+      partial.max[m] = std::max(partial.max[m], of_triangle[m]);
+      partial.acceptable[m] += is_acceptable(static_cast<Metric>(m), of_triangle[m]) ? 1 : 0;
+    }
+    const double shape = of_triangle[static_cast<std::size_t>(Metric::shape)];
+    count_shape(partial, shape);
+    if (worst.would_take(shape)) {
+      worst.offer({static_cast<std::int64_t>(begin + t), shape, {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}});
+    }
+  }
+
+  MetricValues mean = partial.sum;
+  for (double& value : mean) {
+    value /= partial.count;
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t m = 0; m < metric_count; ++m) {
+      const double deviation = values[t][m] - mean[m];
+      partial.squared_deviations[m] += deviation * deviation;
+    }
+  }
+  partial.worst = worst.take_sorted();
+  return partial;
+}
+
+/// Adds the next block. Sums of squared deviations are merged as by T. F. Chan, G. H. Golub and R. J. LeVeque (1979).
+void append(Partial& total, const Partial& next) {
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    if (total.count > 0) {
+      const double between = next.sum[m] / next.count - total.sum[m] / total.count;
+      total.squared_deviations[m] += between * between * (total.count * next.count / (total.count + next.count));
+    }
+    total.squared_deviations[m] += next.squared_deviations[m];
+    total.sum[m] += next.sum[m];
+    total.min[m] = std::min(total.min[m], next.min[m]);
+    total.max[m] = std::max(total.max[m], next.max[m]);
+    total.acceptable[m] += next.acceptable[m];
+  }
+  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
+    total.shape_histogram[bin] += next.shape_histogram[bin];
+  }
+  total.count += next.count;
+  total.inverted += next.inverted;
+}
+
+MetricSummary summary(const Partial& total, std::size_t m) {
+  if (total.count == 0) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan, nan, nan, nan};
+  }
+  return {total.min[m], total.sum[m] / total.count, total.max[m], std::sqrt(total.squared_deviations[m] / total.count),
+          static_cast<double>(total.acceptable[m]) / total.count};
+}
+
+}  // namespace
+
+QualityReport quality_report(const TriangleView& view, const QualityOptions& options) {
+  const auto worst_count = static_cast<std::size_t>(std::max(options.worst_count, 0));
+  std::vector<Partial> partials(block_count(view));
+  for_each_block(view, options.threads,
+                 [&](std::size_t block) { partials[block] = evaluate_block(view, block, worst_count); });
+
+  Partial total;
+  WorstList worst(std::min(worst_count, view.triangles.size()));
+  for (const Partial& partial : partials) {
+    append(total, partial);
+    for (const WorstElement& element : partial.worst) {
+      worst.offer(element);
+    }
+  }
+
+  QualityReport report;
+  report.triangles = static_cast<std::int64_t>(view.triangles.size());
+  report.inverted = total.inverted;
+  report.shape_histogram = total.shape_histogram;
+  report.worst = worst.take_sorted();
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    report.metrics[m] = summary(total, m);
+  }
+  MetricSummary& area = report[Metric::area];
+  for (double* const value : {&area.min, &area.mean, &area.max, &area.stddev}) {
+    *value = std::ldexp(*value, 2 * view.exponent);
+  }
+  return report;
+}
+
+double smallest_shape(const TriangleView& view, int threads) {
+  if (view.triangles.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  std::vector<double> smallest(block_count(view));
+  for_each_block(view, threads, [&](std::size_t block) {
+    const std::size_t begin = block * block_size;
+    const std::size_t end = std::min(begin + block_size, view.triangles.size());
+    double smallest_of_block = std::numeric_limits<double>::infinity();
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = corner_points(view, t);
+      smallest_of_block = std::min(smallest_of_block, shape_quotient(a, b, c));
+    }
+    smallest[block] = smallest_of_block;
+  });
+  return shape_constant * *std::min_element(smallest.begin(), smallest.end());
+}
+
+}  // namespace trismooth

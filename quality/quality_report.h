@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "trismooth/quality/metrics.h"
+#include "trismooth/quality/triangle_view.h"
+
+namespace trismooth {
+
+/// One metric over all triangles of a mesh. Where a value is infinite, so is an end of the range, and mean and stddev
+/// are infinite or NaN. All NaN where there is no triangle.
+struct MetricSummary {
+  double min = 0;
+  double mean = 0;
+  double max = 0;
+  double stddev = 0;               ///< of these triangles (the sum of squared deviations over their number)
+  double acceptable_fraction = 0;  ///< of the triangles, see is_acceptable
+};
+
+/// One of the triangles with the smallest shape.
+struct WorstElement {
+  std::int64_t triangle = 0;  ///< index in the view
+  double shape = 0;           ///< negative where inverted
+  Point2<double> centroid{};  ///< in the local frame
+};
+
+inline constexpr std::size_t shape_bins = 20;
+
+/// The quality of a mesh's triangles.
+struct QualityReport {
+  std::int64_t triangles = 0;
+  std::int64_t inverted = 0;                          ///< triangles of shape < 0
+  std::array<MetricSummary, metric_count> metrics{};  ///< indexed by Metric; area in units of the file
+  /// Bin i counts the triangles with i <= 20 shape < i + 1; the last one has 1 and what is rounded above it, too.
+  /// Inverted triangles are in no bin: the bins and `inverted` add up to `triangles`.
+  std::array<std::int64_t, shape_bins> shape_histogram{};
+  std::vector<WorstElement> worst;  ///< by ascending shape, equal ones by index
+
+  const MetricSummary& operator[](Metric metric) const { return metrics[static_cast<std::size_t>(metric)]; }
+  MetricSummary& operator[](Metric metric) { return metrics[static_cast<std::size_t>(metric)]; }
+};
+
+struct QualityOptions {
+  int threads = 0;       ///< 0: all; 1: this thread alone
+  int worst_count = 10;  ///< how many of the worst triangles to list, at most
+};
+
+/// Every metric of every triangle, in its canonical corner order. The report is the same to the bit for every number
+/// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle.
+QualityReport quality_report(const TriangleView& view, const QualityOptions& options = {});
+
+/// The smallest shape alone, several times as fast: the report's [Metric::shape].min to the bit. NaN where there is no
+/// triangle. `threads` as in QualityOptions.
+double smallest_shape(const TriangleView& view, int threads = 0);
+
+/// Prints the report as a table for people, see quality_table.h.
+std::ostream& operator<<(std::ostream& stream, const QualityReport& report);
+
+}  // namespace trismooth

@@ -1,0 +1,225 @@
+#include "trismooth/quality/local_frame.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "catch.h"
+
+using trismooth::local_frame;
+using trismooth::LocalFrame;
+using trismooth::Point2;
+
+namespace {
+
+using Point = Point2<double>;
+using Points = std::vector<Point>;
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(Point a, Point b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y);
+}
+
+/// Points of a box of the extents around the centre, the box's corners among them.
+Points random_points(Point centre, Point extent, std::uint64_t seed = 1) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> part(-0.5, 0.5);
+  Points points;
+  for (const double corner : {-0.5, 0.5}) {
+    points.push_back({centre.x + corner * extent.x, centre.y + corner * extent.y});
+  }
+  for (int i = 0; i < 1000; ++i) {
+    const double x = part(random);
+    points.push_back({centre.x + x * extent.x, centre.y + part(random) * extent.y});
+  }
+  return points;
+}
+
+Points entered(const Points& stored) {
+  const LocalFrame frame = local_frame(stored);
+  Points local;
+  for (const Point point : stored) {
+    local.push_back(frame.enter(point));
+  }
+  return local;
+}
+
+/// Every point is within the local frame's range and comes back with all its bits.
+void require_lossless(const Points& stored) {
+  const LocalFrame frame = local_frame(stored);
+  CAPTURE(frame.centre_x, frame.centre_y, frame.exponent);
+  double low_x = 2;
+  double high_x = -2;
+  double low_y = 2;
+  double high_y = -2;
+  for (const Point point : stored) {
+    const Point local = frame.enter(point);
+    REQUIRE(same_bits(frame.leave(local), point));
+    low_x = std::min(low_x, local.x);
+    high_x = std::max(high_x, local.x);
+    low_y = std::min(low_y, local.y);
+    high_y = std::max(high_y, local.y);
+  }
+  CHECK(low_x >= -2);
+  CHECK(low_y >= -2);
+  CHECK(high_x <= 2);
+  CHECK(high_y <= 2);
+  const double extent = std::max(high_x - low_x, high_y - low_y);
+  CHECK(extent >= 0.5);
+  CHECK(extent <= 1);
+}
+
+}  // namespace
+
+TEST_CASE("stored coordinates survive the way into the local frame and back") {
+  SECTION("unit square") {
+    require_lossless(random_points({0.5, 0.5}, {1, 1}));
+  }
+  SECTION("around the origin, flat") {
+    require_lossless(random_points({0, 0}, {1000, 1e-3}));
+  }
+  SECTION("map coordinates") {
+    require_lossless(random_points({4e7, 5.5e6}, {1234, 567}));
+  }
+  SECTION("map coordinates, negative") {
+    require_lossless(random_points({-4e7, -5.5e6}, {1234, 567}));
+  }
+  SECTION("one axis far away") {
+    require_lossless(random_points({4e7, 0.1}, {1, 1}));
+  }
+  SECTION("just near enough not to be translated") {
+    require_lossless(random_points({1.49, -1.49}, {1, 1}));
+  }
+  SECTION("just far enough to be translated") {
+    require_lossless(random_points({1.51, -1.51}, {1, 1}));
+  }
+  SECTION("nearly all digits in the offset") {
+    require_lossless(random_points({1e16, -1e16}, {64, 32}));
+  }
+  SECTION("large") {
+    require_lossless(random_points({0, 1e200}, {1e200, 1e199}));
+  }
+  SECTION("small") {
+    require_lossless(random_points({1e-300, 0}, {1e-301, 1e-301}));
+  }
+  SECTION("half the range") {
+    const double most = std::numeric_limits<double>::max();
+    require_lossless({{0, 0}, {most, 0}, {0, most}, {most / 3, most / 7}});
+  }
+  SECTION("the whole range") {
+    const double most = std::numeric_limits<double>::max();
+    require_lossless({{-most, -most}, {most, most}, {most / 3, -most / 7}, {-1e300, 1e308}});
+  }
+  SECTION("far away in the last binade") {
+    const double most = std::numeric_limits<double>::max();
+    require_lossless({{most, -most}, {most * 0.9, -most * 0.9}, {most * 0.95, -most * 0.97}});
+  }
+  SECTION("subnormal") {
+    const double tiny = std::numeric_limits<double>::denorm_min();
+    require_lossless({{0, 0}, {1000 * tiny, 0}, {7 * tiny, 999 * tiny}});
+    require_lossless({{0, 0}, {tiny, 0}, {0, tiny}});
+    require_lossless({{100000 * tiny, -90000 * tiny}, {100001 * tiny, -90001 * tiny}, {100003 * tiny, -90000 * tiny}});
+  }
+}
+
+TEST_CASE("signs of zeros survive where there is no translation") {
+  const LocalFrame frame = local_frame(Points{{-0.0, 0.0}, {3, 3}});
+  CHECK(same_bits(frame.leave(frame.enter({-0.0, 0.0})), Point{-0.0, 0.0}));
+}
+
+TEST_CASE("entering rounds nothing") {
+  // 64 digits hold the difference of the coordinates; nothing here depends on the frame's own arithmetic.
+  STATIC_REQUIRE(std::numeric_limits<long double>::digits >= 64);
+  for (const Point centre : {Point{4e7, -3e9}, Point{0.3, 17}, Point{-1e5, 2}}) {
+    const Points stored = random_points(centre, {1.7, 0.3});
+    const LocalFrame frame = local_frame(stored);
+    for (const Point point : stored) {
+      const Point local = frame.enter(point);
+      REQUIRE(std::ldexp(static_cast<long double>(local.x), frame.exponent) ==
+              static_cast<long double>(point.x) - static_cast<long double>(frame.centre_x));
+      REQUIRE(std::ldexp(static_cast<long double>(local.y), frame.exponent) ==
+              static_cast<long double>(point.y) - static_cast<long double>(frame.centre_y));
+    }
+  }
+}
+
+TEST_CASE("an axis is translated only where its centre is far away") {
+  const LocalFrame frame = local_frame(random_points({100, 0.5}, {1, 1}));
+  CHECK(frame.centre_x == Approx(100).margin(0.1));
+  CHECK(frame.centre_y == 0);
+  CHECK(local_frame(random_points({1.49, 1.51}, {1, 1})).centre_x == 0);
+  CHECK(local_frame(random_points({1.49, 1.51}, {1, 1})).centre_y == Approx(1.51).margin(0.1));
+}
+
+TEST_CASE("a mesh scaled by a power of two enters to the same bits") {
+  for (const Point centre : {Point{0, 0}, Point{0.5, 0.5}, Point{4e7, -3e5}, Point{1.6, -1.4}, Point{1e15, 0}}) {
+    const Points stored = random_points(centre, {1, 0.7});
+    const Points expected = entered(stored);
+    for (const int power : {-900, -31, -1, 1, 2, 30, 900}) {
+      Points scaled;
+      for (const Point point : stored) {
+        scaled.push_back({std::ldexp(point.x, power), std::ldexp(point.y, power)});
+      }
+      CAPTURE(centre.x, centre.y, power);
+      CHECK(local_frame(scaled).exponent == local_frame(stored).exponent + power);
+      const Points actual = entered(scaled);
+      for (std::size_t i = 0; i < stored.size(); ++i) {
+        REQUIRE(same_bits(actual[i], expected[i]));
+      }
+    }
+  }
+}
+
+TEST_CASE("the same holds down into the subnormal range and up to the largest numbers") {
+  // Integers of 20 digits have exact multiples over the whole range of exponents.
+  std::mt19937_64 random(5);
+  std::uniform_int_distribution<int> near_by(0, 1000);
+  Points stored;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = 500000 + near_by(random);
+    stored.push_back({x, static_cast<double>(near_by(random))});
+  }
+  const Points expected = entered(stored);
+  for (const int power : {-1074, -1073, -1050, -1022, -500, 500, 1004}) {
+    Points scaled;
+    for (const Point point : stored) {
+      scaled.push_back({std::ldexp(point.x, power), std::ldexp(point.y, power)});
+    }
+    CAPTURE(power);
+    const Points actual = entered(scaled);
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+      REQUIRE(same_bits(actual[i], expected[i]));
+    }
+    require_lossless(scaled);
+  }
+}
+
+TEST_CASE("meshes without extent along an axis") {
+  SECTION("no points: the identity") {
+    const LocalFrame frame = local_frame({});
+    CHECK(same_bits(frame.enter({3, 4}), Point{3, 4}));
+    CHECK(frame.length_scale() == 1);
+  }
+  SECTION("one point is the origin of its frame") {
+    const LocalFrame frame = local_frame(Points{{3, -1e300}});
+    CHECK(frame.enter({3, -1e300}) == Point{0, 0});
+    CHECK(frame.leave({0, 0}) == Point{3, -1e300});
+    CHECK(frame.exponent == 0);
+  }
+  SECTION("a line is translated to an axis") {
+    const LocalFrame frame = local_frame(Points{{0, 5}, {10, 5}});
+    CHECK(frame.enter({10, 5}) == Point{0.625, 0});
+    CHECK(frame.leave({0.625, 0}) == Point{10, 5});
+  }
+}
+
+TEST_CASE("the length scale is the power of two of the frame") {
+  CHECK(local_frame(Points{{0, 0}, {10, 3}}).length_scale() == 16);
+  CHECK(local_frame(Points{{0, 0}, {0.75, 0.1}}).length_scale() == 1);
+  CHECK(local_frame(Points{{0, 0}, {0.25, 0.1}}).length_scale() == 0.5);
+}
