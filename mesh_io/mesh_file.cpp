@@ -61,14 +61,19 @@ MeshDocument read_mesh(const std::filesystem::path& path) {
   return document;
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
+FileFormat output_format(const std::filesystem::path& path) {
   const auto format = format_of(path);
   if (!format) {
     throw WriteError(path, unknown_extension(path));
   }
+  return *format;
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
+  const FileFormat format = output_format(path);
   OutputFile output(path);
   try {
-    write_plain(output.path(), *format, document, added);
+    write_plain(output.path(), format, document, added);
   } catch (const WriteError& error) {
     // Codecs know the temporary file only.
     throw WriteError(path, error.reason);

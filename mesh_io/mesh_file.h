@@ -27,6 +27,10 @@ struct AddedArrays {
 /// Throws WriteError, also for an unknown extension.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
 
+/// The format that write_mesh() would write to `path`. Throws WriteError for an unknown extension: to find that out
+/// before the work is done.
+FileFormat output_format(const std::filesystem::path& path);
+
 /// What `target` cannot hold of the document, one sentence each ("OFF holds no cell arrays: region is not written");
 /// empty where nothing is lost, as always where `target` is the format that the document was read from.
 std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target);

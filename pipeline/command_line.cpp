@@ -1,0 +1,133 @@
+#include "trismooth/pipeline/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/pipeline/exit_code.h"
+#include "trismooth/pipeline/failure.h"
+#include "trismooth/pipeline/messages.h"
+#include "trismooth/pipeline/subcommands.h"
+#include "trismooth/pipeline/version.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr const char* description =
+    "trismooth improves planar triangle meshes for finite elements by Smart Laplacian smoothing.\n"
+    "Boundaries and material interfaces do not move, no element gets worse than the worst one touched,\n"
+    "and everything else in the file stays as it is.";
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  trismooth smooth plate.vtk smoother.vtk\n"
+    "  trismooth smooth coast.vtu out.vtu --fixed-ids anchors.txt --report run.html\n"
+    "  trismooth quality plate.vtk --require 'min_angle>=20' --require 'inverted==0'\n"
+    "\n"
+    "'trismooth COMMAND --help' lists a command's options.\n"
+    "\n"
+    "Exit codes: 0 done; 1 a --require failed; 2 wrong usage; 3 the input cannot be used;\n"
+    "4 the output cannot be written; 5 CUDA error or no device; 130 cancelled.";
+
+constexpr std::size_t help_column = 34;
+
+/// Help with a blank line between its parts, never two, and a required argument not marked as such: its place among the
+/// others says it.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(help_column);
+    label("SUBCOMMAND", "COMMAND");
+    label("Positionals", "Arguments");
+    label("REQUIRED", "");
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return '\n' + Formatter::make_usage(app, std::move(name));
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string help = Formatter::make_help(app, std::move(name), mode);
+    for (std::size_t at = help.find("\n\n\n"); at != std::string::npos; at = help.find("\n\n\n", at)) {
+      help.erase(at, 1);
+    }
+    help.erase(help.find_last_not_of('\n') + 1);
+    return help + '\n';
+  }
+};
+
+/// The parser's message, or a better one where it would not help.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string message = error.what();
+  if (app.get_subcommands().empty()) {
+    const auto rest = app.remaining();
+    return rest.empty() ? "no command given" : "unknown command '" + rest.front() + "'";
+  }
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
+    return message.substr(0, message.find(':')) + ": expected one value, and to be given once";
+  }
+  return message;
+}
+
+ExitCode wrong_usage(const CLI::App& app, const CLI::ParseError& error, std::ostream& err) {
+  print_error(err, usage_message(app, error));
+  std::string command = app.get_name();
+  for (const CLI::App* const subcommand : app.get_subcommands()) {
+    command += " " + subcommand->get_name();
+  }
+  print_note(err, "'" + command + " --help' shows what is possible");
+  return ExitCode::wrong_usage;
+}
+
+ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const CommandEnvironment& environment) {
+  const std::array<Subcommand, 4> subcommands{
+      add_smooth_command(app, environment), add_quality_command(app, environment),
+      add_generate_command(app, environment), add_info_command(app, environment)};
+  for (const Subcommand& subcommand : subcommands) {
+    subcommand.app->group("Commands");
+  }
+  app.footer(footer);  // set last: commands would take it over
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return static_cast<ExitCode>(app.exit(help_or_version, environment.out, environment.err));
+  } catch (const CLI::ParseError& error) {
+    return wrong_usage(app, error, environment.err);
+  }
+  const auto chosen =
+      std::ranges::find_if(subcommands, [](const Subcommand& subcommand) { return subcommand.app->parsed(); });
+  return chosen->run();
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment) {
+  CLI::App app(description, "trismooth");
+  app.set_version_flag("--version", "trismooth " + std::string(version()), "Print the version and exit");
+  app.set_help_flag("--help,-h", "Print this help and exit");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.require_subcommand(1);
+  ExitCode code = ExitCode::done;
+  try {
+    code = run_chosen(app, argc, argv, environment);
+    if (!environment.out.flush()) {
+      throw WriteError("standard output", "cannot be written");
+    }
+  } catch (...) {
+    code = report_failure(environment.err);
+  }
+  environment.err.flush();
+  return static_cast<int>(code);
+}
+
+int run_command_line(int argc, const char* const* argv) {
+  return run_command_line(argc, argv, {std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0});
+}
+
+}  // namespace trismooth

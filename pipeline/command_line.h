@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <ostream>
+
+#include "trismooth/pipeline/pipeline.h"
+
+namespace trismooth {
+
+/// What a command line is connected to. Tests hand in streams and a run of their own.
+struct CommandEnvironment {
+  std::ostream& out;             ///< results
+  std::ostream& err;             ///< messages
+  bool err_is_terminal = false;  ///< progress is shown
+  std::function<PipelineResult(const PipelineOptions&)> run = &run_pipeline;
+};
+
+/// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for
+/// anything that the user or a file did: that becomes a message. While a mesh is being read, smoothed or made, SIGINT
+/// and SIGTERM are caught.
+int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
+
+/// The same on the standard streams of this process.
+int run_command_line(int argc, const char* const* argv);
+
+}  // namespace trismooth

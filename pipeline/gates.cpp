@@ -1,0 +1,155 @@
+#include "trismooth/pipeline/gates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/number_text.h"
+#include "trismooth/quality/metrics.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, double MetricSummary::*>, 5> statistics{
+    {{"min_", &MetricSummary::min},
+     {"mean_", &MetricSummary::mean},
+     {"max_", &MetricSummary::max},
+     {"stddev_", &MetricSummary::stddev},
+     {"acceptable_", &MetricSummary::acceptable_fraction}}};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  return begin == std::string_view::npos ? std::string_view{}
+                                         : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+}
+
+std::optional<double> find_value(std::string_view name, const QualityReport& report) {
+  if (name == "triangles") {
+    return static_cast<double>(report.triangles);
+  }
+  if (name == "inverted") {
+    return static_cast<double>(report.inverted);
+  }
+  // The extreme angles of the mesh go by the metrics' own names: nobody means min_min_angle by another.
+  if (name == info(Metric::min_angle).name) {
+    return report[Metric::min_angle].min;
+  }
+  if (name == info(Metric::max_angle).name) {
+    return report[Metric::max_angle].max;
+  }
+  for (const auto& [prefix, statistic] : statistics) {
+    if (name.starts_with(prefix)) {
+      if (const auto metric = metric_named(name.substr(prefix.size()))) {
+        return report[*metric].*statistic;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool holds(double value, Comparison comparison, double bound) {
+  switch (comparison) {
+    case Comparison::at_least:
+      return value >= bound;
+    case Comparison::at_most:
+      return value <= bound;
+    case Comparison::above:
+      return value > bound;
+    case Comparison::below:
+      return value < bound;
+    case Comparison::equal:
+      break;
+  }
+  return value == bound;
+}
+
+bool is_count(double value) {
+  return value == std::trunc(value) && std::abs(value) < 1e15;
+}
+
+/// Counts in full, never as 1e+07; other numbers as short as their value allows.
+std::string number(double value) {
+  if (is_count(value)) {
+    return fmt::format("{:.0f}", value);
+  }
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+/// The value in four significant digits, or in as many as it takes to be told from the bound.
+std::string distinct_number(double value, double bound) {
+  if (is_count(value)) {
+    return number(value);
+  }
+  const std::string rounded = fmt::format("{:.4g}", value);
+  return parse_number<double>(rounded) == bound ? number(value) : rounded;
+}
+
+}  // namespace
+
+std::vector<std::string> gate_names() {
+  std::vector<std::string> names{"triangles", "inverted", std::string(info(Metric::min_angle).name),
+                                 std::string(info(Metric::max_angle).name)};
+  for (const MetricInfo& metric : all_metrics()) {
+    for (const auto& [prefix, statistic] : statistics) {
+      names.emplace_back(prefix).append(metric.name);
+    }
+  }
+  return names;
+}
+
+double gate_value(std::string_view name, const QualityReport& report) {
+  if (const auto value = find_value(name, report)) {
+    return *value;
+  }
+  std::string prefixes;
+  for (const auto& [prefix, statistic] : statistics) {
+    prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
+  }
+  std::string metrics;
+  for (const MetricInfo& metric : all_metrics()) {
+    metrics.append(metrics.empty() ? "" : ", ").append(metric.name);
+  }
+  throw std::invalid_argument(fmt::format(
+      "unknown metric '{}'; valid are triangles, inverted, min_angle, max_angle, and one of {} before one of {}", name,
+      prefixes, metrics));
+}
+
+Gate parse_gate(std::string_view text) {
+  const std::size_t begin = text.find_first_of("<>=");
+  const std::size_t end = std::min(text.size(), text.find_first_not_of("<>=", begin));
+  if (begin == std::string_view::npos) {
+    throw std::invalid_argument(fmt::format("expected NAME>=VALUE (or {}), got '{}'", valid_texts<Comparison>(), text));
+  }
+  Gate gate;
+  gate.name = trimmed(text.substr(0, begin));
+  gate_value(gate.name, {});
+  gate.comparison = parse_enum<Comparison>(text.substr(begin, end - begin));
+  const std::string_view bound = trimmed(text.substr(end));
+  const auto value = parse_number<double>(bound);
+  if (!value || !std::isfinite(*value)) {
+    throw std::invalid_argument(fmt::format("expected a number after '{}' in '{}'", to_string(gate.comparison), text));
+  }
+  gate.bound = *value;
+  return gate;
+}
+
+std::optional<std::string> gate_failure(const Gate& gate, const QualityReport& report) {
+  const double value = gate_value(gate.name, report);
+  if (holds(value, gate.comparison, gate.bound)) {
+    return std::nullopt;
+  }
+  const std::string demand =
+      fmt::format("gate failed: {} {} {}", gate.name, to_string(gate.comparison), number(gate.bound));
+  return std::isnan(value) ? demand + ", is not defined for this mesh"
+                           : demand + ", is " + distinct_number(value, gate.bound);
+}
+
+}  // namespace trismooth

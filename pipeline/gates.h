@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/quality/quality_report.h"
+#include "trismooth/smoothing/enum_text.h"
+
+namespace trismooth {
+
+/// How a gate compares.
+enum class Comparison : std::uint8_t { at_least, at_most, above, below, equal };
+
+template <>
+struct EnumText<Comparison> {
+  static constexpr std::string_view what = "comparison";
+  static constexpr std::array<std::pair<Comparison, std::string_view>, 5> texts{{{Comparison::at_least, ">="},
+                                                                                 {Comparison::at_most, "<="},
+                                                                                 {Comparison::above, ">"},
+                                                                                 {Comparison::below, "<"},
+                                                                                 {Comparison::equal, "=="}}};
+};
+
+/// A demand on a mesh's quality, as `--require 'min_shape>=0.3'` states it.
+struct Gate {
+  std::string name;  ///< one of gate_names()
+  Comparison comparison = Comparison::at_least;
+  double bound = 0;
+};
+
+/// Parses NAME OP VALUE, with or without blanks between them. Throws std::invalid_argument; for an unknown name, the
+/// message lists the valid ones.
+Gate parse_gate(std::string_view text);
+
+/// Every name that a gate may have: triangles, inverted, min_angle and max_angle (the smallest and the largest angle of
+/// the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1).
+std::vector<std::string> gate_names();
+
+/// The value of that name in the report. Throws std::invalid_argument for a name that is not one of gate_names().
+double gate_value(std::string_view name, const QualityReport& report);
+
+/// Nothing where the report meets the gate; otherwise what is wrong: "gate failed: min_shape >= 0.3, is 0.2134". A
+/// value that is not a number (that of a mesh without triangles) meets no gate.
+std::optional<std::string> gate_failure(const Gate& gate, const QualityReport& report);
+
+}  // namespace trismooth

@@ -1,0 +1,68 @@
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/subcommands.h"
+
+namespace trismooth {
+
+namespace {
+
+struct GenerateSettings {
+  std::filesystem::path output;
+  std::int64_t vertices = 0;
+  std::uint64_t seed = 1;
+};
+
+/// The mesh as a document, in the plane z = 0.
+MeshDocument to_document(const RandomMesh& mesh) {
+  MeshDocument document;
+  document.points.reserve(3 * mesh.points.size());
+  for (const Point2<double>& point : mesh.points) {
+    document.points.insert(document.points.end(), {point.x, point.y, 0.0});
+  }
+  for (const auto& triangle : mesh.triangles) {
+    document.cells.append(cell_type::triangle, triangle);
+  }
+  return document;
+}
+
+ExitCode run_generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
+  output_format(settings.output);  // an unknown extension is told before the work, not after it
+  const InterruptGuard guard(OnInterrupt::exit);
+  const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed);
+  write_mesh(settings.output, to_document(mesh));
+  environment.out << fmt::format("generated:  {} vertices, {} triangles, seed {}\nwritten:    {}\n", mesh.points.size(),
+                                 mesh.triangles.size(), settings.seed, settings.output.string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environment) {
+  const auto settings = std::make_shared<GenerateSettings>();
+  CLI::App& command = *app.add_subcommand("generate", "Make a random Delaunay mesh of the unit square");
+  add_parsed_option(command, "OUTPUT", "", "Mesh to write; its extension names the format",
+                    [settings](const std::string& text) { settings->output = text; })
+      ->required();
+  add_parsed_option(command, "--vertices", "N", "Number of vertices, at least 4; points are uniformly random",
+                    [settings](const std::string& text) {
+                      settings->vertices = parse_integer(text, std::int64_t{4}, max_random_mesh_vertices);
+                    })
+      ->required();
+  add_parsed_option(command, "--seed", "S", "Another seed gives another mesh, the same seed the same [1]",
+                    [settings](const std::string& text) {
+                      settings->seed = parse_integer(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+                    });
+  return {&command, [settings, &environment] { return run_generate(*settings, environment); }};
+}
+
+}  // namespace trismooth

@@ -1,0 +1,329 @@
+#include "trismooth/pipeline/html_report.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/html_style.h"
+#include "trismooth/pipeline/html_text.h"
+#include "trismooth/pipeline/svg_charts.h"
+#include "trismooth/pipeline/text_report.h"
+#include "trismooth/pipeline/version.h"
+#include "trismooth/quality/report_text.h"
+
+namespace trismooth {
+
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;  // name and value, both HTML
+
+const QualityReport* after_of(const PipelineResult& result) {
+  return result.after ? &*result.after : nullptr;
+}
+
+const QualityReport& final_report(const PipelineResult& result) {
+  return result.after ? *result.after : result.before;
+}
+
+std::string section(std::string_view title, const std::string& content) {
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
+}
+
+std::string header(const PipelineOptions& options, const PipelineResult& result) {
+  const InputSummary& input = result.input;
+  std::string counts =
+      fmt::format("{} vertices, {} triangles", count_text(input.vertices), count_text(input.triangles));
+  if (input.other_cells > 0) {
+    counts += fmt::format(", {} other cells", count_text(input.other_cells));
+  }
+  std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
+                                 options.output ? "Mesh smoothing report" : "Mesh quality report",
+                                 escape_html(input.path.filename().string()), counts);
+  if (options.output) {
+    html +=
+        fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n", escape_html(options.output->string()));
+  }
+  return html + "</header>\n";
+}
+
+/// The outcome in one sentence or two.
+std::string lead(const PipelineResult& result) {
+  const QualityReport& last = final_report(result);
+  std::string text;
+  if (last.triangles == 0) {
+    text = "The mesh has no triangles.";
+  } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
+    text = "No vertex could be improved: the mesh is as it was.";
+  } else if (result.smoothing) {
+    text = fmt::format("{} of {} free vertices moved in {} sweeps; {}.", count_text(result.smoothing->moved_vertices),
+                       count_text(result.input.free_vertices), count_text(result.smoothing->sweeps),
+                       describe(result.smoothing->stop_reason));
+  }
+  if (last.inverted > 0) {
+    text += fmt::format(" {} of {} triangles {} inverted.", count_text(last.inverted), count_text(last.triangles),
+                        result.smoothing ? "are still" : "are");
+  } else if (last.triangles > 0) {
+    text += " No triangle is inverted.";
+  }
+  return fmt::format("<p class=\"lead{}\">{}</p>\n", last.inverted > 0 ? " bad" : "", text);
+}
+
+std::string card(std::string_view label, const std::string& value, const std::string& detail) {
+  return fmt::format(
+      "<div class=\"card\"><div class=\"label\">{}</div><div class=\"value\">{}</div><small>{}</small></div>\n", label,
+      value, detail);
+}
+
+/// "0.12 → 0.34", or the one value of a run without smoothing.
+std::string change(const PipelineResult& result, const std::string& before, const std::string& after) {
+  return result.after ? fmt::format("<span class=\"from\">{} →</span> {}", before, after) : before;
+}
+
+std::string metric_card(const PipelineResult& result, std::string_view label, Metric metric,
+                        double MetricSummary::*value, std::string_view unit, const std::string& detail) {
+  const auto text_of = [&](const QualityReport& report) {
+    const double number = report[metric].*value;
+    return number_text(number, decimals(metric)) + (number == number ? std::string(unit) : "");
+  };
+  return card(label, change(result, text_of(result.before), text_of(final_report(result))), detail);
+}
+
+std::string cards(const PipelineResult& result) {
+  const QualityReport& last = final_report(result);
+  std::string html =
+      metric_card(result, "Smallest shape", Metric::shape, &MetricSummary::min, "", "1 is equilateral, 0 degenerate");
+  html += metric_card(result, "Mean shape", Metric::shape, &MetricSummary::mean, "",
+                      percent_text(last[Metric::shape].acceptable_fraction) + " % of the triangles are acceptable");
+  html += metric_card(result, "Smallest angle", Metric::min_angle, &MetricSummary::min, "°",
+                      "largest angle " + number_text(last[Metric::max_angle].max, decimals(Metric::max_angle)) + "°");
+  const std::string inverted =
+      fmt::format("<span class=\"{}\">{}</span>", last.inverted > 0 ? "bad" : "good", count_text(last.inverted));
+  html += card("Inverted triangles",
+               result.after
+                   ? fmt::format("<span class=\"from\">{} →</span> {}", count_text(result.before.inverted), inverted)
+                   : inverted,
+               fmt::format("of {}", count_text(last.triangles)));
+  const InputSummary& input = result.input;
+  html += card("Free vertices", count_text(input.free_vertices),
+               fmt::format("{} fixed{}", count_text(input.fixed_vertices),
+                           input.region_array.empty()
+                               ? std::string{}
+                               : fmt::format("; {} regions by {}", input.regions, escape_html(input.region_array))));
+  html += card("Time", duration_text(result.timings_ms.total),
+               result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
+  return "<div class=\"cards\">\n" + html + "</div>\n";
+}
+
+std::string cell(const std::string& text, std::string_view classes = "") {
+  return classes.empty() ? fmt::format("<td>{}</td>", text) : fmt::format("<td class=\"{}\">{}</td>", classes, text);
+}
+
+std::string metric_name_cell(const MetricInfo& metric) {
+  const std::string unit = metric.unit.empty() ? std::string{} : fmt::format(", {}", escape_html(metric.unit));
+  return cell(fmt::format("{}<small>{}{}</small>", metric.name, escape_html(metric.meaning), unit));
+}
+
+std::string metric_table(const QualityReport& report) {
+  std::string html =
+      "<table>\n<thead><tr><th>metric</th><th>min</th><th>mean</th><th>max</th><th>std. deviation</th>"
+      "<th>acceptable %</th></tr></thead>\n<tbody>\n";
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& summary = report[metric.metric];
+    const int digits = decimals(metric.metric);
+    html += "<tr>" + metric_name_cell(metric) +
+            cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "") +
+            cell(number_text(summary.mean, digits)) +
+            cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong") +
+            cell(number_text(summary.stddev, digits)) + cell(percent_text(summary.acceptable_fraction)) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string_view verdict_class(std::string_view verdict) {
+  if (verdict == "better") {
+    return "word good";
+  }
+  return verdict == "worse" ? "word bad" : verdict == "mixed" ? "word mixed" : "word soft";
+}
+
+std::string metric_table(const QualityReport& before, const QualityReport& after) {
+  std::string html =
+      "<table>\n<thead><tr><th></th><th class=\"group start\" colspan=\"2\">min</th>"
+      "<th class=\"group start\" colspan=\"2\">mean</th><th class=\"group start\" colspan=\"2\">max</th>"
+      "<th class=\"group start\" colspan=\"2\">acceptable %</th><th></th></tr>\n<tr><th>metric</th>";
+  for (int group = 0; group < 4; ++group) {
+    html += "<th class=\"start\">before</th><th>after</th>";
+  }
+  html += "<th></th></tr></thead>\n<tbody>\n";
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& from = before[metric.metric];
+    const MetricSummary& to = after[metric.metric];
+    const auto pair = [digits = decimals(metric.metric)](double first, double second, bool strong) {
+      return cell(number_text(first, digits), "start") + cell(number_text(second, digits), strong ? "strong" : "");
+    };
+    const std::string_view judged = verdict(metric.metric, from, to);
+    html += "<tr>" + metric_name_cell(metric) + pair(from.min, to.min, metric.larger_is_better) +
+            pair(from.mean, to.mean, false) + pair(from.max, to.max, !metric.larger_is_better) +
+            cell(percent_text(from.acceptable_fraction), "start") + cell(percent_text(to.acceptable_fraction)) +
+            cell(std::string(judged), verdict_class(judged)) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string histogram(const PipelineResult& result) {
+  std::string html = "<figure>\n";
+  if (result.after) {
+    html +=
+        "<div class=\"legend\"><span><i class=\"before\"></i>before</span><span><i class=\"after\"></i>after</span>"
+        "</div>\n";
+  }
+  return html + shape_histogram_svg(result.before, after_of(result)) + "</figure>\n";
+}
+
+std::string worst_table(std::string_view title, const QualityReport& report) {
+  std::string html = fmt::format(
+      "<div>\n{}<table>\n<thead><tr><th>element</th><th>shape</th><th>centroid</th></tr>"
+      "</thead>\n<tbody>\n",
+      title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title));
+  for (const WorstElement& element : report.worst) {
+    html += "<tr>" + cell(std::to_string(element.triangle)) +
+            cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
+            cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y)) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n</div>\n";
+}
+
+std::string worst_tables(const PipelineResult& result) {
+  if (!result.after) {
+    return worst_table("", result.before);
+  }
+  return "<div class=\"two\">\n" + worst_table("before", result.before) + worst_table("after", *result.after) +
+         "</div>\n";
+}
+
+std::string row_table(const Rows& rows) {
+  std::string html = "<table>\n<tbody>\n";
+  for (const auto& [name, value] : rows) {
+    html += "<tr>" + cell(name) + cell(value) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string optional_number(double value, std::string_view unit) {
+  return value < std::numeric_limits<double>::infinity() ? fmt::format("{}{}", value, unit) : std::string("none");
+}
+
+std::string options_table(const PipelineOptions& options, const SmoothingResult& smoothing) {
+  const SmoothingOptions& chosen = options.smoothing;
+  Rows rows{{"method", std::string(to_string(chosen.method))},
+            {"form", std::string(to_string(chosen.form))},
+            {"precision", std::string(to_string(chosen.precision))},
+            {"guard", chosen.guard ? "on" : "off"},
+            {"sweep limit", chosen.max_sweeps == 0 ? "none" : count_text(chosen.max_sweeps)},
+            {"tolerance", fmt::format("{}", chosen.tolerance)},
+            {"time limit", optional_number(chosen.time_limit_seconds, " s")},
+            {"quality target", chosen.target_quality ? fmt::format("{}", *chosen.target_quality) : "none"}};
+  if (options.fixed_array) {
+    rows.emplace_back("fixed by array", escape_html(*options.fixed_array));
+  }
+  if (options.fixed_ids) {
+    rows.emplace_back("fixed by file", escape_html(options.fixed_ids->string()));
+  }
+  rows.emplace_back("backend", escape_html(fmt::format("{}, {} thread{}", smoothing.backend, smoothing.threads,
+                                                       smoothing.threads == 1 ? "" : "s")));
+  rows.emplace_back("device", escape_html(smoothing.device));
+  return row_table(rows);
+}
+
+std::string outcome_table(const SmoothingResult& smoothing) {
+  return row_table({{"stopped by", escape_html(to_string(smoothing.stop_reason))},
+                    {"sweeps", count_text(smoothing.sweeps)},
+                    {"vertex updates", count_text(smoothing.vertex_updates)},
+                    {"vertices moved", count_text(smoothing.moved_vertices)},
+                    {"vertices put back", count_text(smoothing.reverted_vertices)},
+                    {"guard rounds", count_text(smoothing.guard_rounds)}});
+}
+
+std::string timings_table(const PipelineTimings& timings) {
+  const std::pair<std::string_view, double> parts[] = {{"read", timings.read},
+                                                       {"find neighbours", timings.topology},
+                                                       {"check before", timings.check_before},
+                                                       {"transfer in", timings.transfer_in},
+                                                       {"smooth", timings.smooth},
+                                                       {"transfer out", timings.transfer_out},
+                                                       {"commit", timings.commit},
+                                                       {"check after", timings.check_after},
+                                                       {"write", timings.write}};
+  double longest = 0;
+  for (const auto& [name, milliseconds] : parts) {
+    longest = std::max(longest, milliseconds);
+  }
+  std::string html = "<table>\n<tbody>\n";
+  for (const auto& [name, milliseconds] : parts) {
+    if (milliseconds > 0) {
+      html += fmt::format(
+          "<tr><td>{}</td><td>{}</td><td class=\"meter\"><span style=\"width: {:.1f}%\"></span></td></tr>\n", name,
+          duration_text(milliseconds), 100 * milliseconds / longest);
+    }
+  }
+  return html +
+         fmt::format("<tr><td>total</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n", duration_text(timings.total));
+}
+
+std::string notes_list(const std::vector<std::string>& notes) {
+  std::string html = "<ul>\n";
+  for (const std::string& note : notes) {
+    html += "<li>" + escape_html(note) + "</li>\n";
+  }
+  return html + "</ul>\n";
+}
+
+std::string footer(const PipelineResult& result) {
+  constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
+  return fmt::format(
+      "<footer>trismooth {}; input <code>{}</code>; coordinates <code>{}</code> (XXH64); peak memory {:.0f} "
+      "MiB</footer>\n",
+      version(), escape_html(result.input.path.string()), hash_text(result.coordinates_hash),
+      static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
+}
+
+std::string body(const PipelineOptions& options, const PipelineResult& result) {
+  std::string html = header(options, result) + lead(result);
+  const QualityReport* const after = after_of(result);
+  if (result.before.triangles > 0) {
+    html += cards(result);
+    html += section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
+    html += section("Distribution of shape", histogram(result));
+  }
+  if (result.smoothing && !result.smoothing->history.empty()) {
+    html += section("Convergence", "<h3>vertices moved in each sweep</h3>\n<figure>\n" +
+                                       convergence_svg(result.smoothing->history) + "</figure>\n");
+  }
+  if (!result.before.worst.empty()) {
+    html += section("Worst elements", worst_tables(result));
+  }
+  if (!result.notes.empty()) {
+    html += section("Notes", notes_list(result.notes));
+  }
+  if (result.smoothing) {
+    html += "<div class=\"two\">\n" + section("Options", options_table(options, *result.smoothing)) +
+            section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
+  }
+  return html + section("Time", timings_table(result.timings_ms)) + footer(result);
+}
+
+}  // namespace
+
+std::string html_report(const PipelineOptions& options, const PipelineResult& result) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{} - trismooth</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+      escape_html(result.input.path.filename().string()), html_style, body(options, result));
+}
+
+}  // namespace trismooth

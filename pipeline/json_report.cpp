@@ -1,0 +1,143 @@
+#include "trismooth/pipeline/json_report.h"
+
+#include <cmath>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/version.h"
+#include "trismooth/quality/metrics.h"
+
+namespace trismooth {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::optional<std::string>& text) {
+  return text ? Json(*text) : Json(nullptr);
+}
+
+template <class Enum>
+Json name_of(Enum value) {
+  return std::string(to_string(value));
+}
+
+Json input_json(const InputSummary& input) {
+  return {{"path", input.path.string()},
+          {"format", name_of(input.format)},
+          {"vertices", input.vertices},
+          {"triangles", input.triangles},
+          {"other_cells", input.other_cells},
+          {"regions", input.regions},
+          {"region_array", input.region_array.empty() ? Json(nullptr) : Json(input.region_array)},
+          {"components", input.components},
+          {"fixed_vertices", input.fixed_vertices},
+          {"free_vertices", input.free_vertices},
+          {"reoriented_triangles", input.reoriented_triangles}};
+}
+
+Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
+  const SmoothingOptions& smoothing = options.smoothing;
+  return {{"output", options.output ? Json(options.output->string()) : Json(nullptr)},
+          {"method", name_of(smoothing.method)},
+          {"form", name_of(smoothing.form)},
+          {"layout", name_of(smoothing.layout)},
+          {"backend", result ? result->backend : "cpu"},
+          {"execution", name_of(smoothing.execution)},
+          {"order", name_of(smoothing.order)},
+          {"precision", name_of(smoothing.precision)},
+          {"guard", smoothing.guard},
+          {"threads", result ? result->threads : smoothing.threads},
+          {"max_sweeps", smoothing.max_sweeps},
+          {"tolerance", number(smoothing.tolerance)},
+          {"time_limit", number(smoothing.time_limit_seconds)},
+          {"target_quality", number(smoothing.target_quality)},
+          {"region_array", text_or_null(options.region_array)},
+          {"fixed_array", text_or_null(options.fixed_array)},
+          {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
+          {"annotate", options.annotate}};
+}
+
+Json quality_json(const QualityReport& report) {
+  Json metrics = Json::object();
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& summary = report[metric.metric];
+    metrics[std::string(metric.name)] = {{"min", number(summary.min)},
+                                         {"mean", number(summary.mean)},
+                                         {"max", number(summary.max)},
+                                         {"stddev", number(summary.stddev)},
+                                         {"acceptable_fraction", number(summary.acceptable_fraction)}};
+  }
+  Json worst = Json::array();
+  for (const WorstElement& element : report.worst) {
+    worst.push_back({{"cell", element.triangle},
+                     {"shape", number(element.shape)},
+                     {"centroid", Json::array({number(element.centroid.x), number(element.centroid.y)})}});
+  }
+  return {{"triangles", report.triangles},
+          {"inverted", report.inverted},
+          {"metrics", std::move(metrics)},
+          {"histogram", {{"shape", report.shape_histogram}}},
+          {"worst", std::move(worst)}};
+}
+
+Json smoothing_json(const SmoothingResult& smoothing) {
+  Json history = Json::array();
+  for (const SweepRecord& record : smoothing.history) {
+    history.push_back({{"sweep", record.sweep},
+                       {"evaluated", record.evaluated},
+                       {"moved", record.moved},
+                       {"max_relative_move", number(record.max_relative_move)},
+                       {"min_shape", number(record.min_shape)}});
+  }
+  return {{"sweeps", smoothing.sweeps},
+          {"stop_reason", name_of(smoothing.stop_reason)},
+          {"vertex_updates", smoothing.vertex_updates},
+          {"moved_vertices", smoothing.moved_vertices},
+          {"reverted_vertices", smoothing.reverted_vertices},
+          {"device", smoothing.device},
+          {"guard_rounds", smoothing.guard_rounds},
+          {"history", std::move(history)}};
+}
+
+Json timings_json(const PipelineTimings& timings) {
+  return {{"read", number(timings.read)},
+          {"topology", number(timings.topology)},
+          {"check_before", number(timings.check_before)},
+          {"transfer_in", number(timings.transfer_in)},
+          {"smooth", number(timings.smooth)},
+          {"transfer_out", number(timings.transfer_out)},
+          {"commit", number(timings.commit)},
+          {"check_after", number(timings.check_after)},
+          {"write", number(timings.write)},
+          {"total", number(timings.total)}};
+}
+
+}  // namespace
+
+std::string json_report(const PipelineOptions& options, const PipelineResult& result) {
+  const Json report{{"trismooth", std::string(version())},
+                    {"input", input_json(result.input)},
+                    {"options", options_json(options, result.smoothing)},
+                    {"before", quality_json(result.before)},
+                    {"after", result.after ? quality_json(*result.after) : Json(nullptr)},
+                    {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
+                    {"coordinates_hash", hash_text(result.coordinates_hash)},
+                    {"uncommitted_hash", hash_text(result.uncommitted_hash)},
+                    {"timings_ms", timings_json(result.timings_ms)},
+                    {"peak_memory_bytes", result.peak_memory_bytes}};
+  constexpr int indent = 2;
+  return report.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace trismooth

@@ -1,0 +1,184 @@
+#include "trismooth/pipeline/mesh_run.h"
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/pipeline/messages.h"
+#include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/progress_bar.h"
+#include "trismooth/pipeline/report_file.h"
+#include "trismooth/pipeline/text_report.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr int most_threads = 4096;
+
+std::string sweep_line(const SweepRecord& record) {
+  std::string line = fmt::format("sweep {}: {} evaluated, {} moved, largest move {:.3g} of the edge length",
+                                 record.sweep, record.evaluated, record.moved, record.max_relative_move);
+  if (!std::isnan(record.min_shape)) {
+    line += fmt::format(", smallest shape {:.6g}", record.min_shape);
+  }
+  return line;
+}
+
+std::string timings_line(const PipelineTimings& timings) {
+  const std::pair<std::string_view, double> parts[] = {{"read", timings.read},
+                                                       {"topology", timings.topology},
+                                                       {"check before", timings.check_before},
+                                                       {"transfer in", timings.transfer_in},
+                                                       {"smooth", timings.smooth},
+                                                       {"transfer out", timings.transfer_out},
+                                                       {"commit", timings.commit},
+                                                       {"check after", timings.check_after},
+                                                       {"write", timings.write},
+                                                       {"total", timings.total}};
+  std::string line = "times:";
+  for (const auto& [name, milliseconds] : parts) {
+    if (milliseconds > 0) {
+      line += fmt::format(" {} {},", name, duration_text(milliseconds));
+    }
+  }
+  line.pop_back();
+  return line;
+}
+
+void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream& err) {
+  constexpr std::size_t most_notes = 5;
+  const bool all = verbosity == Verbosity::verbose || result.notes.size() <= most_notes + 1;
+  const std::size_t shown = all ? result.notes.size() : most_notes;
+  for (std::size_t i = 0; i < shown; ++i) {
+    print_note(err, result.notes[i]);
+  }
+  if (!all) {
+    print_note(err, fmt::format("{} more notes; --verbose shows them", result.notes.size() - shown));
+  }
+}
+
+Progress proceed_unless_interrupted() {
+  return interrupt_requested() ? Progress::stop : Progress::proceed;
+}
+
+/// Runs the pipeline while it shows the progress and looks out for Ctrl-C.
+PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
+  const InterruptGuard guard(OnInterrupt::ask);
+  std::optional<ProgressBar> bar;
+  if (environment.err_is_terminal && verbosity == Verbosity::normal) {
+    bar.emplace(environment.err);
+  }
+  options.stage_started = [&bar](Stage stage) {
+    if (bar) {
+      bar->stage_started(stage);
+    }
+    return proceed_unless_interrupted();
+  };
+  options.smoothing.progress = [&](const SweepRecord& record) {
+    if (bar) {
+      bar->sweep_done(record);
+    }
+    if (verbosity == Verbosity::verbose) {
+      environment.err << sweep_line(record) << '\n';
+    }
+    return proceed_unless_interrupted();
+  };
+  try {
+    return environment.run(options);
+  } catch (const MeshError& error) {
+    throw ReadError(options.input, error.what());
+  }
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
+  PipelineOptions& options = settings.pipeline;
+  add_parsed_option(command, "--region-array", "NAME",
+                    "Cell array that gives the regions; vertices between two\n"
+                    "regions are fixed [the first of region, mat_id,\n"
+                    "material, ... that the file has]",
+                    [&options](const std::string& text) { options.region_array = text; })
+      ->group("Regions and fixed vertices");
+  add_parsed_option(command, "--fixed-array", "NAME",
+                    "Point array; where it is not 0, the vertex is fixed\n[fixed, if the file has it]",
+                    [&options](const std::string& text) { options.fixed_array = text; })
+      ->group("Regions and fixed vertices");
+  add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
+                    [&options](const std::string& text) { options.fixed_ids = text; })
+      ->group("Regions and fixed vertices");
+}
+
+void add_result_options(CLI::App& command, MeshRunSettings& settings) {
+  add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
+                    [&settings](const std::string& text) {
+                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads);
+                    })
+      ->group("Running");
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--report", "FILE", "Write a report: FILE.json or FILE.html. Repeatable",
+      [&settings](const std::string& text) {
+        require_report_extension(text);
+        settings.reports.emplace_back(text);
+      },
+      repeatable)
+      ->group("Results");
+  add_parsed_option(
+      command, "--require", "'NAME>=X'",
+      "Exit with 1 if the result misses this. Compares by\n"
+      ">= <= > < ==; names: min_angle, max_angle, inverted,\n"
+      "triangles, and min_, mean_, max_, stddev_ or\n"
+      "acceptable_ before a metric: min_shape. Repeatable",
+      [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
+      ->group("Results");
+  const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
+    const auto choose = [&settings, verbosity] {
+      if (settings.verbosity != Verbosity::normal) {
+        throw CLI::ExcludesError("--quiet", "--verbose");
+      }
+      settings.verbosity = verbosity;
+    };
+    command.add_flag_callback(name, choose, help)->group("Results");
+  };
+  add_verbosity_flag("--quiet", Verbosity::quiet, "Print errors and failed gates only");
+  add_verbosity_flag("--verbose", Verbosity::verbose, "Print every sweep, note and time");
+}
+
+ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environment) {
+  PipelineOptions& options = settings.pipeline;
+  const Verbosity verbosity = settings.verbosity;
+  options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
+
+  const PipelineResult result = run_watched(options, verbosity, environment);
+
+  if (verbosity != Verbosity::quiet) {
+    environment.out << text_report(options, result) << std::flush;
+    print_notes(result, verbosity, environment.err);
+  }
+  if (verbosity == Verbosity::verbose) {
+    environment.err << timings_line(result.timings_ms) << '\n';
+  }
+  for (const std::filesystem::path& report : settings.reports) {
+    write_report(report, options, result);
+    if (verbosity != Verbosity::quiet) {
+      environment.out << "report:     " << report.string() << '\n';
+    }
+  }
+  ExitCode code = ExitCode::done;
+  for (const Gate& gate : settings.gates) {
+    if (const auto failure = gate_failure(gate, result.after ? *result.after : result.before)) {
+      environment.err << *failure << '\n';
+      code = ExitCode::gate_failed;
+    }
+  }
+  return code;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,56 @@
+#include "trismooth/pipeline/option_parsing.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/number_text.h"
+
+namespace trismooth {
+
+CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, const std::string& value_text,
+                               const std::string& help, const std::function<void(const std::string&)>& parse,
+                               bool repeatable) {
+  const auto parse_each = [name, parse](const CLI::results_t& texts) {
+    for (const std::string& text : texts) {
+      try {
+        parse(text);
+      } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError(name, error.what());
+      }
+    }
+    return true;
+  };
+  CLI::Option* const option = app.add_option(name, parse_each, help)->option_text(value_text);
+  // Each time the option is given it takes one value: the next word may be INPUT or OUTPUT.
+  option->type_size(1)->expected(1)->allow_extra_args(false);
+  if (repeatable) {
+    option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+  return option;
+}
+
+template <class Integer>
+Integer parse_integer(std::string_view text, Integer lowest, Integer highest) {
+  Integer value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < lowest || value > highest) {
+    throw std::invalid_argument(fmt::format("expected a whole number from {} to {}, got '{}'", lowest, highest, text));
+  }
+  return value;
+}
+
+template int parse_integer(std::string_view, int, int);
+template std::int64_t parse_integer(std::string_view, std::int64_t, std::int64_t);
+template std::uint64_t parse_integer(std::string_view, std::uint64_t, std::uint64_t);
+
+double parse_finite(std::string_view text) {
+  const auto value = parse_number<double>(text);
+  if (!value || !std::isfinite(*value)) {
+    throw std::invalid_argument(fmt::format("expected a number, got '{}'", text));
+  }
+  return *value;
+}
+
+}  // namespace trismooth
