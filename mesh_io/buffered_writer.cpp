@@ -29,7 +29,8 @@ BufferedWriter::~BufferedWriter() {
 }
 
 void BufferedWriter::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
+  // fwrite takes no null pointer, not even for no bytes.
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
     fail();
   }
 }
