@@ -1,6 +1,7 @@
 #include "trismooth/mesh_io/ply_header.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 #include <utility>
@@ -18,12 +19,16 @@ struct TypeName {
   std::string_view sized_name;
 };
 
-constexpr TypeName type_names[]{
-    {ScalarType::int8, "char", "int8"},        {ScalarType::uint8, "uchar", "uint8"},
-    {ScalarType::int16, "short", "int16"},     {ScalarType::uint16, "ushort", "uint16"},
-    {ScalarType::int32, "int", "int32"},       {ScalarType::uint32, "uint", "uint32"},
-    {ScalarType::float32, "float", "float32"}, {ScalarType::float64, "double", "float64"},
-};
+constexpr std::array<TypeName, 8> type_names{{
+    {ScalarType::int8, "char", "int8"},
+    {ScalarType::uint8, "uchar", "uint8"},
+    {ScalarType::int16, "short", "int16"},
+    {ScalarType::uint16, "ushort", "uint16"},
+    {ScalarType::int32, "int", "int32"},
+    {ScalarType::uint32, "uint", "uint32"},
+    {ScalarType::float32, "float", "float32"},
+    {ScalarType::float64, "double", "float64"},
+}};
 
 class HeaderParser {
  public:

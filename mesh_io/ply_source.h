@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
@@ -79,9 +80,8 @@ class PlyTextSource {
 /// The rows of a binary file of either byte order.
 class PlyBinarySource {
  public:
-  PlyBinarySource(const std::filesystem::path& path, std::string_view bytes, std::size_t begin,
-                  CoordinateEncoding encoding)
-      : path_(path),
+  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, CoordinateEncoding encoding)
+      : path_(std::move(path)),
         bytes_(bytes),
         offset_(begin),
         number_offset_(begin),

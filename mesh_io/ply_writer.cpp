@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "trismooth/mesh_io/buffered_writer.h"
 #include "trismooth/mesh_io/other_cells.h"
 #include "trismooth/mesh_io/ply.h"
@@ -211,15 +213,16 @@ void describe_arrays(std::vector<std::string>& lost, std::string_view kind, cons
       continue;
     }
     if (first->type != array.type) {
-      lost.push_back("PLY holds no numbers of 64-bit integer types: " + label + " is written as " +
-                     std::string(to_string(first->type)));
+      lost.push_back(fmt::format("PLY holds no numbers of 64-bit integer types: {} is written as {}", label,
+                                 to_string(first->type)));
     }
     if (array.components > 1) {
-      const std::string& last = (first + static_cast<std::ptrdiff_t>(array.components) - 1)->name;
-      lost.push_back("PLY holds one number a property: " + label + " is written as '" + first->name + "' to '" + last +
-                     "'");
+      const auto last = first + static_cast<std::ptrdiff_t>(array.components) - 1;
+      lost.push_back(fmt::format("PLY holds one number a property: {} is written as '{}' to '{}'", label, first->name,
+                                 last->name));
     } else if (first->name != array.name) {
-      lost.push_back("PLY has no such name: " + label + " is written as '" + first->name + "'");
+      lost.push_back(
+          fmt::format("PLY cannot have a property of that name there: {} is written as '{}'", label, first->name));
     }
   }
 }

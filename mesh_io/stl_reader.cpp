@@ -32,10 +32,9 @@ T number_at(std::string_view bytes, std::size_t offset) {
   return std::bit_cast<T>(stored);
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return lower;
+/// True where the token is `word`, which is in lower case, in any case.
+bool is_word(std::string_view token, std::string_view word) {
+  return std::ranges::equal(token, word, {}, [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
 }
 
 /// Makes triangles of corners, three after three, and remembers where each corner stands in the file.
@@ -116,7 +115,7 @@ class TextReader {
     do {
       expect("solid");
       names.append(names.empty() ? "" : ", ").append(quoted(trimmed(scanner_.next_line())));
-      while (keyword("'facet' or 'endsolid'", "facet", "endsolid") == "facet") {
+      while (next_is_facet()) {
         read_facet();
       }
       scanner_.next_line();
@@ -155,16 +154,22 @@ class TextReader {
     expect("endfacet");
   }
 
-  void expect(std::string_view word) { keyword("'" + std::string(word) + "'", word, word); }
-
-  /// The next token in lower case, which must be one of the two.
-  std::string keyword(const std::string& what, std::string_view one, std::string_view other) {
-    const std::string_view token = scanner_.next_token(what);
-    std::string word = lower_case(token);
-    if (word != one && word != other) {
-      scanner_.fail("expected " + what + ", got " + quoted(token));
+  void expect(std::string_view word) {
+    const std::string_view token = scanner_.next_token(word);
+    if (!is_word(token, word)) {
+      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
     }
-    return word;
+  }
+
+  /// Reads 'facet' or 'endsolid' and says whether it was 'facet'.
+  bool next_is_facet() {
+    constexpr std::string_view what = "facet or endsolid";
+    const std::string_view token = scanner_.next_token(what);
+    const bool is_facet = is_word(token, "facet");
+    if (!is_facet && !is_word(token, "endsolid")) {
+      scanner_.fail("expected " + std::string(what) + ", got " + quoted(token));
+    }
+    return is_facet;
   }
 
   static std::string_view trimmed(std::string_view text) {
@@ -181,7 +186,7 @@ class TextReader {
 bool begins_with_solid(std::string_view bytes) {
   constexpr std::string_view word = "solid";
   const std::size_t begin = std::min(bytes.find_first_not_of(" \t\v\f\r\n"), bytes.size());
-  return lower_case(bytes.substr(begin, word.size())) == word;
+  return is_word(bytes.substr(begin, word.size()), word);
 }
 
 /// Binary files may begin with "solid" too, but text has no zero bytes.

@@ -159,9 +159,9 @@ TEST_CASE("PLY: a document that did not change gives the file's bytes") {
 TEST_CASE("PLY: changed coordinates are the only bytes that change") {
   const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
   MeshDocument document = ply_codec.read("square.ply", square_file(flavour));
-  document.points[3 * 4] = 0.1;
-  document.points[3 * 4 + 1] = -1e-300;
-  document.points[3 * 2 + 2] = 1.0 / 3;
+  document.points[12] = 0.1;
+  document.points[13] = -1e-300;
+  document.points[8] = 1.0 / 3;
   Coordinates moved = square;
   moved[4][0] = {0.1, "0.1"};
   moved[4][1] = {-1e-300, "-1e-300"};

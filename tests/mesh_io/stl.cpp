@@ -30,14 +30,20 @@ bool contains(const std::string& text, const std::string& part) {
 /// Four triangles around `centre`: a file in which a user moves one vertex.
 std::string fan_text(const std::string& centre, const std::string& line_end = "\n") {
   const std::vector<std::string> corners{"0 0 0", "1.0 0 -0", "1e0 +1 0", "-0.0 1 0", "0 0 0"};
-  std::string text = "solid fan  of four" + line_end;
+  std::string text;
+  const auto add_line = [&](const std::string& line) { text.append(line).append(line_end); };
+  add_line("solid fan  of four");
   for (std::size_t i = 0; i < 4; ++i) {
-    text += " FACET normal 0 0 1" + line_end + "  outer Loop" + line_end;
-    text +=
-        "   vertex " + corners[i] + line_end + "\tvertex " + corners[i + 1] + line_end + "vertex  " + centre + line_end;
-    text += "  endloop" + line_end + " EndFacet" + line_end;
+    add_line(" FACET normal 0 0 1");
+    add_line("  outer Loop");
+    add_line("   vertex " + corners[i]);
+    add_line("\tvertex " + corners[i + 1]);
+    add_line("vertex  " + centre);
+    add_line("  endloop");
+    add_line(" EndFacet");
   }
-  return text + "endsolid fan of four" + line_end;
+  add_line("endsolid fan of four");
+  return text;
 }
 
 std::string binary_file(const std::vector<std::array<float, 9>>& facets, const std::vector<std::uint16_t>& attributes,
@@ -107,15 +113,15 @@ TEST_CASE("STL: a moved point changes at all its corners, and no other byte does
   SECTION("text") {
     MeshDocument document = stl_codec.read("fan.stl", fan_text("0.5 .25 0"));
     CHECK(document.point_type == ScalarType::float64);
-    document.points[3 * 2] = 0.1;
+    document.points[6] = 0.1;
     CHECK(written_back(document) == fan_text("0.1 .25 0"));
-    document.points[3 * 2 + 1] = 1.0 / 3;
+    document.points[7] = 1.0 / 3;
     CHECK(written_back(document) == fan_text("0.1 0.3333333333333333 0"));
   }
   SECTION("binary") {
     MeshDocument document = stl_codec.read("fan.stl", fan_binary(0.5F, 0.25F, 9));
     CHECK(document.point_type == ScalarType::float32);
-    document.points[3 * 2] = static_cast<double>(0.1F);
+    document.points[6] = static_cast<double>(0.1F);
     const std::string before = fan_binary(0.5F, 0.25F, 9);
     const std::string after = written_back(document);
     CHECK(after == fan_binary(0.1F, 0.25F, 9));
@@ -240,16 +246,16 @@ TEST_CASE("STL: what is no STL is refused with its place") {
   const std::vector<Case> cases{
       {"", "too short"},
       {"OFF\n", "does not begin with 'solid'"},
-      {"solid s\n", "'facet' or 'endsolid', got the end of the file"},
-      {begin + corners + end, ":9: expected 'facet' or 'endsolid', got the end of the file"},
-      {begin + corners + "endloop\n", "expected 'endfacet', got the end of the file"},
-      {begin + "vertex 0 0 0\nvertex 1 0 0\nendloop\n", ":6: expected 'vertex', got 'endloop'"},
-      {begin + corners + "vertex 1 1 0\n" + end, ":7: expected 'endloop', got 'vertex'"},
+      {"solid s\n", "facet or endsolid, got the end of the file"},
+      {begin + corners + end, ":9: expected facet or endsolid, got the end of the file"},
+      {begin + corners + "endloop\n", "expected endfacet, got the end of the file"},
+      {begin + "vertex 0 0 0\nvertex 1 0 0\nendloop\n", ":6: expected vertex, got 'endloop'"},
+      {begin + corners + "vertex 1 1 0\n" + end, ":7: expected endloop, got 'vertex'"},
       {begin + "vertex 0 nan 0\n", ":4: expected a coordinate (a finite number), got 'nan'"},
       {begin + "vertex 0 0 1e999\n", ":4: expected a coordinate"},
       {begin + "vertex 0 0\nvertex 1 0 0\n", ":5: expected a coordinate (a finite number), got 'vertex'"},
-      {"solid s\nfacet normal 0 0\nouter loop\n", ":3: expected 'outer', got 'loop'"},
-      {begin + corners + end + "endsolid s\ntrailing\n", ":10: expected 'solid', got 'trailing'"},
+      {"solid s\nfacet normal 0 0\nouter loop\n", ":3: expected outer, got 'loop'"},
+      {begin + corners + end + "endsolid s\ntrailing\n", ":10: expected solid, got 'trailing'"},
       {binary_file({{0, 0, 0, 1, 0, nan, 0, 1, 0}}, {0}), "byte 116: facet 0"},
       {binary_file({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, -infinity, 0, 1, 0, 0, 0, 1, 0}}, {0, 0}), "byte 150: facet 1"},
       {huge, "declares 4294967295 facets, but the file has room for 1"},
