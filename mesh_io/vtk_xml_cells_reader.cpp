@@ -148,7 +148,7 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::read_cells(const std::string& s
   bool all_int32 = true;
   bool all_int64 = true;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    if (counts[i] == 0) {
+    if (counts[i] == 0 && vtk_xml_arrays_of(pieces_[i].element->child(section)).empty()) {
       continue;
     }
     const Arrays arrays = arrays_of(pieces_[i], section);

@@ -17,6 +17,8 @@
 #include <vtkFieldData.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationInformationVectorKey.h>
 #include <vtkLZ4DataCompressor.h>
 #include <vtkLZMADataCompressor.h>
 #include <vtkNew.h>
@@ -67,8 +69,25 @@ void write_text(std::ostream& stream, vtkIndent indent, std::span<const T> value
   stream << text;
 }
 
-/// VTK's writer with two faults mended: it writes -0 as 0 in text, and values that are not finite as text that its own
-/// reader cannot read. It also writes to a stream of ours, so it does not delete what it failed to write.
+/// Ranges that VTK has computed for the array. It would write them beside the numbers, by chance (where something
+/// asked for them before), and its reader complains where they are not finite.
+void forget_ranges(vtkAbstractArray& array) {
+  vtkInformation& information = *array.GetInformation();
+  information.Remove(vtkDataArray::L2_NORM_RANGE());
+  information.Remove(vtkDataArray::L2_NORM_FINITE_RANGE());
+  information.Remove(vtkAbstractArray::PER_COMPONENT());
+  information.Remove(vtkAbstractArray::PER_FINITE_COMPONENT());
+}
+
+void forget_ranges(vtkFieldData& fields) {
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    forget_ranges(*fields.GetAbstractArray(i));
+  }
+}
+
+/// VTK's writer with faults mended: it writes -0 as 0 in text, values that are not finite as text that its own reader
+/// cannot read, and ranges that it has just computed. It also writes to a stream of ours, so it does not delete what it
+/// failed to write.
 template <class Writer>
 class ExactWriter : public Writer {
  public:
@@ -99,6 +118,7 @@ class ExactWriter : public Writer {
     } else {
       Writer::WriteInlineData(array, indent);
     }
+    forget_ranges(*array);
   }
 };
 
@@ -205,9 +225,11 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
                      const VtkXmlEncoding& encoding) {
   const vtkSmartPointer<vtkPointSet> copy = vtkSmartPointer<vtkPointSet>::Take(data.NewInstance());
   copy->ShallowCopy(&data);
-  escape_names(*copy->GetPointData());
-  escape_names(*copy->GetCellData());
-  escape_names(*copy->GetFieldData());
+  for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
+                                     static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
+    forget_ranges(*fields);
+    escape_names(*fields);
+  }
   vtkDataArray* const points = data.GetPoints()->GetData();
   if (needs_escape(*points)) {
     const vtkNew<vtkPoints> escaped;

@@ -137,8 +137,8 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
   XML_SetCharacterDataHandler(parser.get(), &on_text);
   XML_SetStartDoctypeDeclHandler(parser.get(), &on_document_type);
 
-  // expat takes int lengths.
-  constexpr std::size_t chunk_size = std::size_t{1} << 24;
+  // expat takes int lengths, and copies what it is given.
+  constexpr std::size_t chunk_size = std::size_t{1} << 16;
   XML_Status status = XML_STATUS_OK;
   std::size_t parsed = 0;
   do {
