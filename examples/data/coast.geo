@@ -1,5 +1,5 @@
-// A stretch of coast with two inlets and eleven islands, as digitised from a chart, open to the sea in the west. Metres,
-// with the large offsets of a national grid. The shapes are invented.
+// A stretch of coast with two inlets and eleven islands, open to the sea in the west. Metres, with the large offsets of
+// a national grid. The shapes are invented.
 
 x0 = 512000;
 y0 = 6642000;

@@ -91,7 +91,7 @@ def fixed_vertices(mesh):
 
 
 def jitter(mesh, amount, lowest_shape, seed):
-    """Moves each free vertex by up to `amount` times its shortest edge, unless a triangle's shape falls below the limit."""
+    """Moves each free vertex by up to `amount` times its shortest edge, unless a triangle's shape falls too low."""
     draw = random.Random(seed).random  # the one method whose sequence Python promises to keep
     fixed = fixed_vertices(mesh)
     incident = [[] for _ in mesh.points]
@@ -212,8 +212,8 @@ def main():
     parser.add_argument("input", type=pathlib.Path, help="Gmsh mesh, format 2.2, ASCII")
     parser.add_argument("output", type=pathlib.Path, help="by extension: .off, .vtk (keeps lines as cells) or .vtu")
     parser.add_argument("--title", default="", help="one line for the file's head")
-    parser.add_argument("--jitter", type=float, default=0, metavar="F", help="how far to move: F times a vertex's shortest edge")
-    parser.add_argument("--lowest-shape", type=float, default=0.05, metavar="Q", help="jitter makes none worse than this")
+    parser.add_argument("--jitter", type=float, default=0, metavar="F", help="move by up to F shortest edges")
+    parser.add_argument("--lowest-shape", type=float, default=0.05, metavar="Q", help="jitter stops at this")
     parser.add_argument("--seed", type=int, default=1, help="of the jitter")
     parser.add_argument("--decimals", type=int, default=9, help="digits after the point that coordinates keep")
     parser.add_argument("--encoding", choices=("ascii", "base64", "zlib"), default="ascii", help="of VTU arrays")
