@@ -13,6 +13,7 @@
 #include "trismooth/mesh_io/plane_smoothing.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/quality/local_frame.h"
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
@@ -195,7 +196,7 @@ class Run {
     std::vector<double> shapes(document_.cells.size(), 0.0);  // cells that are no triangles have none
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto [a, b, c] = canonical_corners(mesh_.triangles[t], reversed_[t] != 0);
-      shapes[static_cast<std::size_t>(mesh_.cells[t])] = shape(local_[a], local_[b], local_[c]);
+      shapes[static_cast<std::size_t>(mesh_.cells[t])] = trismooth::shape(local_[a], local_[b], local_[c]);
     }
     std::vector<std::uint8_t> flags(fixed_.size());
     std::ranges::transform(fixed_, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
