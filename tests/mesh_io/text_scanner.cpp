@@ -51,7 +51,7 @@ TEST_CASE("a comment runs to the end of its line, only where comments are asked 
 TEST_CASE("a backslash at the end of a line joins it with the next, only where that is asked for") {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     CAPTURE(end);
-    const std::string text = replace_all("a \\@ b\\@c\\d@e", "@", end);
+    const std::string text = replace_all(R"(a \@ b\@c\d@e)", "@", end);
     TextScanner scanner(text, "", Comments::hash, 0, Continuation::backslash);
     CHECK(scanner.next_token("a") == "a");
     CHECK_FALSE(scanner.at_end_of_line());
