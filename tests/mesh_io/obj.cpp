@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -232,11 +233,11 @@ TEST_CASE("OBJ: writing back changes the coordinates that changed and no other b
     std::vector<std::string> tokens;
     std::vector<double> values;
     for (std::size_t i = 0; i < 3 * vertices; ++i) {
-      char buffer[400];
-      std::snprintf(buffer, sizeof(buffer), formats[random() % formats.size()],
+      std::array<char, 400> buffer{};
+      std::snprintf(buffer.data(), buffer.size(), formats[random() % formats.size()],
                     std::ldexp(static_cast<double>(random()) - 2e9, static_cast<int>(random() % 80) - 60));
-      tokens.emplace_back(buffer);
-      values.push_back(std::strtod(buffer, nullptr));
+      tokens.emplace_back(buffer.data());
+      values.push_back(std::strtod(buffer.data(), nullptr));
       text += i % 3 == 0 ? pick({"v ", " v\t", "vn 1 2 3\nv ", "f 1 2 3\nv "}) : pick({" ", "\t ", "\\\n", " \\\r\n"});
       text += "@";
       text += i % 3 == 2 ? pick({"\n", "\r\n", " \r", "#1 2\n", " 1\n", " 1 2 3 # c\n\n"}) : "";

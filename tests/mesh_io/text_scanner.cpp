@@ -9,6 +9,7 @@
 
 #include "catch.h"
 #include "mesh_io/scratch_folder.h"
+#include "mesh_io/text_template.h"
 
 using trismooth::ReadError;
 using trismooth::TextScanner;
@@ -50,7 +51,7 @@ TEST_CASE("a comment runs to the end of its line, only where comments are asked 
 TEST_CASE("a backslash at the end of a line joins it with the next, only where that is asked for") {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     CAPTURE(end);
-    const std::string text = "a \\" + end + " b\\" + end + "c\\d" + end + "e";
+    const std::string text = replace_all(R"(a \@ b\@c\d@e)", "@", end);
     TextScanner scanner(text, "", Comments::hash, 0, Continuation::backslash);
     CHECK(scanner.next_token("a") == "a");
     CHECK_FALSE(scanner.at_end_of_line());
@@ -136,7 +137,7 @@ TEST_CASE("only finite numbers are numbers") {
 
 TEST_CASE("messages name the line, whatever ends lines") {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    const std::string text = "1" + end + "# 2" + end + end + "x";
+    const std::string text = replace_all("1@# 2@@x", "@", end);
     CHECK(failure_of(text, [](TextScanner& scanner) {
             scanner.next_double("a number");
             scanner.next_double("a number");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <string>
@@ -22,8 +23,8 @@ inline std::string fill(std::string_view text, const std::vector<std::string>& t
 
 /// The shortest text of a number, by the standard library.
 inline std::string shortest(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
 /// `text` with every `from` replaced by `to`.
