@@ -27,7 +27,8 @@ BufferedWriter::~BufferedWriter() {
 }
 
 void BufferedWriter::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
+  // An empty view may have no address, which fwrite does not take.
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
     fail();
   }
 }
