@@ -37,6 +37,16 @@ Columns make_columns(const PlyElement& element, const std::set<std::string_view>
 struct CellBlock {
   const PlyElement* element = nullptr;
   Columns columns;
+  std::map<std::string_view, std::size_t> positions;  ///< of the columns, by name
+
+  CellBlock(const PlyElement& cells, const std::set<std::string_view>& others)
+      : element(&cells), columns(make_columns(cells, others)) {
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+      if (columns[p]) {
+        positions.emplace(cells.properties[p].name, p);
+      }
+    }
+  }
 };
 
 std::uint8_t face_type(std::size_t vertices) {
@@ -52,7 +62,11 @@ template <class Source>
 class BodyReader {
  public:
   BodyReader(const std::filesystem::path& path, const PlyHeader& header, Source source)
-      : path_(path), header_(header), vertex_count_(header.find("vertex")->count), source_(std::move(source)) {}
+      : path_(path),
+        header_(header),
+        vertex_count_(header.find("vertex")->count),
+        source_(std::move(source)),
+        zero_rows_left_(4 * source_.room()) {}
 
   /// Fills everything but the original.
   std::pair<MeshDocument, CoordinateSites> read() {
@@ -187,7 +201,7 @@ class BodyReader {
     if (element.count > 0 && (!list || !element.properties[*list].is_list() || is_floating(element, *list))) {
       throw ReadError(path_, "element 'face' has no list of integers 'vertex_indices' or 'vertex_index'");
     }
-    CellBlock block{&element, make_columns(element, {})};
+    CellBlock block(element, {});
     std::vector<std::int32_t> vertices;
     read_rows(
         element, list, [&](std::uint64_t row, std::size_t p, double value) { block.columns[p]->store(row, value); },
@@ -211,7 +225,7 @@ class BodyReader {
         throw ReadError(path_, element.properties[end].label + " is not an integer");
       }
     }
-    CellBlock block{&element, make_columns(element, {"vertex1", "vertex2"})};
+    CellBlock block(element, {"vertex1", "vertex2"});
     std::array<std::int32_t, 2> vertices{};
     read_rows(
         element, std::nullopt,
@@ -252,43 +266,47 @@ class BodyReader {
     }
   }
 
-  /// A cell array needs a row for every cell: the columns of one name and type are joined, in the blocks' order.
+  /// A cell array needs a row for every cell: the columns of one name and type are joined, in the blocks' order, and
+  /// 0 fills the rows of a block that has none.
   void make_cell_arrays() {
-    std::vector<std::map<std::string_view, const ScalarColumn*>> by_name(blocks_.size());
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      for (const auto& column : blocks_[b].columns) {
-        if (column) {
-          by_name[b].emplace(column->name(), &*column);
-        }
-      }
-    }
     std::set<std::string_view> done;
     for (const CellBlock& block : blocks_) {
       for (const auto& column : block.columns) {
-        if (!column || !done.insert(column->name()).second) {
-          continue;
+        if (column && done.insert(column->name()).second) {
+          make_cell_array(*column);
         }
-        ScalarColumn joined(column->name(), column->type(), 0);
-        for (std::size_t b = 0; b < blocks_.size(); ++b) {
-          const auto found = by_name[b].find(column->name());
-          if (found != by_name[b].end() && found->second->type() == column->type()) {
-            joined.append(*found->second);
-          } else if (blocks_[b].element->count > 0) {
-            joined.append_zeros(blocks_[b].element->count);
-            document_.notes.push_back("element " + trismooth::quoted(blocks_[b].element->name) + " has no property " +
-                                      trismooth::quoted(column->name()) + " of type " +
-                                      std::string(to_string(column->type())) + ": its cells have 0 there");
-          }
-        }
-        document_.cell_arrays.push_back(joined.take_array());
       }
     }
+  }
+
+  void make_cell_array(const ScalarColumn& like) {
+    ScalarColumn joined(like.name(), like.type(), 0);
+    for (const CellBlock& block : blocks_) {
+      const std::uint64_t rows = block.element->count;
+      const auto position = block.positions.find(like.name());
+      if (position != block.positions.end() && block.columns[position->second]->type() == like.type()) {
+        joined.append(*block.columns[position->second]);
+      } else if (rows > zero_rows_left_) {
+        document_.notes.push_back("property " + trismooth::quoted(like.name()) +
+                                  " is not read: too many cells lack it; PLY output keeps it");
+        return;
+      } else if (rows > 0) {
+        zero_rows_left_ -= rows;
+        joined.append_zeros(rows);
+        document_.notes.push_back("element " + trismooth::quoted(block.element->name) + " has no property " +
+                                  trismooth::quoted(like.name()) + " of type " + std::string(to_string(like.type())) +
+                                  ": its cells have 0 there");
+      }
+    }
+    document_.cell_arrays.push_back(joined.take_array());
   }
 
   const std::filesystem::path& path_;
   const PlyHeader& header_;
   std::uint64_t vertex_count_;
   Source source_;
+  /// A file of many properties of faces and many edges could ask for zeros out of all proportion to its size.
+  std::uint64_t zero_rows_left_;
   MeshDocument document_;
   CoordinateSites sites_;
   std::vector<CellBlock> blocks_;

@@ -8,11 +8,14 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <unistd.h>
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
+
+#include "catch.h"
 
 namespace byte_files {
 
@@ -81,6 +84,18 @@ inline bool is_valid(const trismooth::MeshDocument& document) {
          std::ranges::all_of(cells.connectivity, [&](std::int32_t v) { return v >= 0 && v < points; }) &&
          std::ranges::all_of(document.point_arrays, has_rows(document.point_count())) &&
          std::ranges::all_of(document.cell_arrays, has_rows(cells.size()));
+}
+
+inline bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != text.npos;
+}
+
+/// The numbers of an array that must be there, of type T.
+template <class T>
+std::vector<T> values(const trismooth::DataArray* array) {
+  REQUIRE(array != nullptr);
+  const auto view = array->as<T>();
+  return {view.begin(), view.end()};
 }
 
 }  // namespace byte_files

@@ -23,10 +23,6 @@ namespace cell_type = trismooth::cell_type;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Four triangles around `centre`: a file in which a user moves one vertex.
 std::string fan_text(const std::string& centre, const std::string& line_end = "\n") {
   const std::vector<std::string> corners{"0 0 0", "1.0 0 -0", "1e0 +1 0", "-0.0 1 0", "0 0 0"};
