@@ -5,15 +5,9 @@ namespace trismooth {
 
 namespace {
 
-MeshDocument read(const std::filesystem::path& path, std::string) {
-  throw ReadError(path, "format not there yet");
-}
-void write(const std::filesystem::path& path, const MeshDocument&) {
-  throw WriteError(path, "format not there yet");
-}
-std::vector<std::string> lost(const MeshDocument&) {
-  return {};
-}
+MeshDocument read(const std::filesystem::path& path, std::string) { throw ReadError(path, "format not there yet"); }
+void write(const std::filesystem::path& path, const MeshDocument&) { throw WriteError(path, "format not there yet"); }
+std::vector<std::string> lost(const MeshDocument&) { return {}; }
 
 }  // namespace
 
