@@ -4,14 +4,13 @@
 #include <optional>
 #include <string>
 
+#include <vtkAbstractArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkSmartPointer.h>
 
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/memory_block.h"
-
-class vtkAbstractArray;
-class vtkDataArray;
-class vtkFieldData;
 
 namespace trismooth {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "trismooth/mesh_io/mesh_document.h"
+#include <vtkCellArray.h>
 
-class vtkCellArray;
+#include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
 

@@ -133,7 +133,7 @@ void read_information_keys(const XmlElement& array, vtkInformation& information,
       messages.clear();
     }
   }
-  information.RemoveAllObservers();
+  messages.unwatch(&information);
 }
 
 }  // namespace trismooth

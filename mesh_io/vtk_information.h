@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/xml_tree.h"
+#include <vtkInformation.h>
 
-class vtkInformation;
+#include "trismooth/mesh_io/xml_tree.h"
 
 namespace trismooth {
 

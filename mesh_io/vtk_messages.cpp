@@ -11,6 +11,10 @@ void VtkMessages::watch(vtkObject* object) {
   object->AddObserver(vtkCommand::WarningEvent, collector_);
 }
 
+void VtkMessages::unwatch(vtkObject* object) {
+  object->RemoveObserver(collector_);
+}
+
 void VtkMessages::Collector::Execute(vtkObject*, unsigned long event, void* data) {
   if (event != vtkCommand::ErrorEvent || !first_error.empty() || data == nullptr) {
     return;

@@ -3,17 +3,16 @@
 #include <string>
 
 #include <vtkCommand.h>
-#include <vtkNew.h>
-
-class vtkObject;
+#include <vtkObject.h>
+#include <vtkSmartPointer.h>
 
 namespace trismooth {
 
-/// Takes the errors and warnings of VTK objects, which go to standard error otherwise. Must outlive what it watches,
-/// or what it watches must not speak any more.
+/// Takes the errors and warnings of VTK objects, which go to standard error otherwise.
 class VtkMessages {
  public:
   void watch(vtkObject* object);
+  void unwatch(vtkObject* object);
 
   /// The first error since the start or the last clear(), one line; empty where there was none.
   const std::string& first_error() const { return collector_->first_error; }
@@ -22,12 +21,11 @@ class VtkMessages {
  private:
   class Collector : public vtkCommand {
    public:
-    static Collector* New() { return new Collector; }
     void Execute(vtkObject* caller, unsigned long event, void* data) override;
     std::string first_error;
   };
 
-  vtkNew<Collector> collector_;
+  vtkSmartPointer<Collector> collector_ = vtkSmartPointer<Collector>::Take(new Collector);
 };
 
 }  // namespace trismooth

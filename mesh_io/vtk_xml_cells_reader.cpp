@@ -85,7 +85,7 @@ void VtkXmlCellsReader::append_integers(const XmlElement& array, std::uint64_t c
                           "array " + trismooth::quoted(*array.attribute("Name")) + " holds " + std::to_string(value) +
                               ", which is out of range");
         }
-        const auto converted = static_cast<Index>(value);
+        const auto converted = static_cast<Index>(value);  // NOLINT(bugprone-signed-char-misuse): a number
         std::memcpy(integers.extend(sizeof(Index)), &converted, sizeof(Index));
       }
     }

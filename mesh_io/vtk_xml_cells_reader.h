@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <vtkCellArray.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "trismooth/mesh_io/vtk_xml_decoder.h"
 #include "trismooth/mesh_io/vtk_xml_pieces.h"
-
-class vtkCellArray;
-class vtkUnsignedCharArray;
 
 namespace trismooth {
 

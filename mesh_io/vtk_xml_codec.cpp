@@ -236,7 +236,7 @@ void write_poly_data(const std::filesystem::path& path, const MeshDocument& docu
   data->GetPoints()->GetData()->SetName("Points");
   std::vector<DataArray> cell_arrays = document.cell_arrays;
   const std::vector<std::size_t> order = joined(groups);
-  if (order != all_cells(document.cells)) {
+  if (order.size() != document.cells.size() || !std::ranges::is_sorted(order)) {
     std::ranges::transform(document.cell_arrays, cell_arrays.begin(),
                            [&order](const DataArray& array) { return with_rows(array, order); });
   }
@@ -258,6 +258,7 @@ std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
     }
   }
   std::vector<std::string> sentences;
+  sentences.reserve(dropped.size() + 1);
   for (const auto& [type, count] : dropped) {
     sentences.push_back("VTP holds no cells of type " + std::to_string(type) + ": " + std::to_string(count) +
                         (count == 1 ? " cell is" : " cells are") + " not written");

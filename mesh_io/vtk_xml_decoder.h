@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <vtkDataCompressor.h>
 #include <vtkSmartPointer.h>
 
 #include "trismooth/mesh_io/data_array.h"
@@ -16,8 +17,6 @@
 #include "trismooth/mesh_io/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml_header.h"
 #include "trismooth/mesh_io/xml_tree.h"
-
-class vtkDataCompressor;
 
 namespace trismooth {
 

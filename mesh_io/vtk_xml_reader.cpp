@@ -211,7 +211,7 @@ void Reader::set_active_attributes(const XmlElement& section, vtkDataSetAttribut
                             trismooth::quoted(*name) + ", which cannot be one; it is not kept");
     }
   }
-  target.RemoveAllObservers();
+  messages.unwatch(&target);
 }
 
 void Reader::read_attributes(const std::string& section, std::uint64_t VtkXmlPiece::*rows,

@@ -91,10 +91,10 @@ void forget_ranges(vtkFieldData& fields) {
 template <class Writer>
 class ExactWriter : public Writer {
  public:
-  static ExactWriter* New() {
+  static vtkSmartPointer<ExactWriter> make() {
     auto* const writer = new ExactWriter;
     writer->InitializeObjectBase();
-    return writer;
+    return vtkSmartPointer<ExactWriter>::Take(writer);
   }
 
   void set_stream(std::ostream& stream) { this->Stream = &stream; }
@@ -174,6 +174,7 @@ void escape_names(vtkFieldData& fields) {
   if (!any) {
     return;
   }
+  copies.reserve(static_cast<std::size_t>(fields.GetNumberOfArrays()));
   for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
     copies.push_back(escaped_copy(*fields.GetAbstractArray(i)));
   }
@@ -196,7 +197,7 @@ void escape_names(vtkFieldData& fields) {
 template <class Writer>
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
                      const VtkXmlEncoding& encoding) {
-  const vtkNew<ExactWriter<Writer>> writer;
+  const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
   VtkMessages messages;
   messages.watch(writer);
   writer->set_stream(stream);

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "trismooth/mesh_io/vtk_xml_header.h"
+#include <vtkPointSet.h>
 
-class vtkPointSet;
+#include "trismooth/mesh_io/vtk_xml_header.h"
 
 namespace trismooth {
 

@@ -19,6 +19,7 @@ import zlib
 
 CODES = {"Int8": "b", "UInt8": "B", "Int16": "h", "UInt16": "H", "Int32": "i", "UInt32": "I", "Int64": "q",
          "UInt64": "Q", "Float32": "f", "Float64": "d"}
+COUNTS = ("NumberOfPoints", "NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfPolys", "NumberOfStrips")
 ATTRIBUTES = ("Scalars", "Vectors", "Normals", "TCoords", "Tensors", "GlobalIds", "PedigreeIds", "EdgeFlag",
               "Tangents", "RationalWeights", "HigherOrderDegrees")
 
@@ -110,8 +111,8 @@ class VtkFile:
                 raise FileError("a compressed block has the wrong size")
         return b"".join(blocks)
 
-    def values(self, element):
-        """The bytes of an array's values, little-endian."""
+    def values(self, element, rows):
+        """The bytes of an array's values, little-endian; of bits, one byte each."""
         kind = element.get("type")
         mode = element.get("format", "ascii")
         text = element.text or ""
@@ -130,6 +131,9 @@ class VtkFile:
         else:
             source = Source(self.appended[int(element.get("offset")):], self.appended_base64)
         data = self.decode(source)
+        if kind == "Bit":
+            count = rows * int(element.get("NumberOfComponents", "1"))
+            return bytes(data[i // 8] >> (7 - i % 8) & 1 for i in range(count))
         if kind in CODES and self.order == ">":
             size = struct.calcsize("<" + CODES[kind])
             count = len(data) // size
@@ -143,24 +147,22 @@ class VtkFile:
         if data_set is None:
             raise FileError("no data set")
         pieces = data_set.findall("Piece") or [data_set]
-        self.facts["counts"] = [
-            sum(int(piece.get(key, "0")) for piece in pieces)
-            for key in ("NumberOfPoints", "NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfPolys",
-                        "NumberOfStrips")]
+        self.facts["counts"] = [sum(int(piece.get(key, "0")) for piece in pieces) for key in COUNTS]
         for number, piece in enumerate(pieces):
+            cells = sum(int(piece.get(key, "0")) for key in COUNTS[1:])
             for section in piece:
-                self.add(section, number)
+                self.add(section, number, {"PointData": int(piece.get(COUNTS[0], "0")), "CellData": cells})
         field_data = data_set.find("FieldData")
         if field_data is not None:
-            self.add(field_data, 0)
+            self.add(field_data, 0, {})
 
-    def add(self, section, piece):
+    def add(self, section, piece, rows):
         arrays = self.sections.setdefault(section.tag, [])
         for index, element in enumerate(section.findall("DataArray") + section.findall("Array")):
             components = int(element.get("NumberOfComponents", "1"))
             names = tuple(element.get(f"ComponentName{i}") for i in range(components))
-            # VTK marks its ids in new files only, and reads the others the same.
-            entry = [element.get("Name"), element.get("type"), components, self.values(element), names]
+            count = rows.get(section.tag, int(element.get("NumberOfTuples", "0")))
+            entry = [element.get("Name"), element.get("type"), components, self.values(element, count), names]
             if piece == 0:
                 arrays.append(entry)
                 self.modes.setdefault(element.get("format", "ascii"), 0)
