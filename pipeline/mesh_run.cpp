@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include "trismooth/pipeline/progress_bar.h"
 #include "trismooth/pipeline/report_file.h"
 #include "trismooth/pipeline/text_report.h"
+#include "trismooth/pipeline/timings.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
@@ -31,24 +31,13 @@ std::string sweep_line(const SweepRecord& record) {
 }
 
 std::string timings_line(const PipelineTimings& timings) {
-  const std::pair<std::string_view, double> parts[] = {{"read", timings.read},
-                                                       {"topology", timings.topology},
-                                                       {"check before", timings.check_before},
-                                                       {"transfer in", timings.transfer_in},
-                                                       {"smooth", timings.smooth},
-                                                       {"transfer out", timings.transfer_out},
-                                                       {"commit", timings.commit},
-                                                       {"check after", timings.check_after},
-                                                       {"write", timings.write},
-                                                       {"total", timings.total}};
   std::string line = "times:";
-  for (const auto& [name, milliseconds] : parts) {
+  for (const auto& [name, milliseconds] : timing_parts(timings)) {
     if (milliseconds > 0) {
       line += fmt::format(" {} {},", name, duration_text(milliseconds));
     }
   }
-  line.pop_back();
-  return line;
+  return line + fmt::format(" total {}", duration_text(timings.total));
 }
 
 void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream& err) {

@@ -101,7 +101,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   const auto settings = std::make_shared<SmoothSettings>();
   PipelineOptions& options = settings->run.pipeline;
   CLI::App& command = *app.add_subcommand("smooth", "Check a mesh, smooth it, check it again and write it");
-  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format (see 'trismooth info')",
+  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
                     [&options](const std::string& text) { options.input = text; })
       ->required();
   add_parsed_option(command, "OUTPUT", "", "Mesh to write; may be INPUT. An old file survives any failure",

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "trismooth/quality/quality_report.h"
+
+namespace trismooth {
+
+/// Numbers of a quality report as tables for people show them.
+
+/// Decimals that suit the metric's values.
+int decimals(Metric metric);
+
+/// With `decimals`, at most six digits in all; scientific where fewer than three digits would show or the number is
+/// large; "-" for NaN. `more` adds digits.
+std::string number_text(double value, int decimals, int more = 0);
+
+struct TextPair {
+  std::string before;
+  std::string after;
+};
+
+/// Two values in as many digits as it takes to tell them apart where they differ.
+TextPair distinct_texts(double before, double after, int decimals);
+
+/// 1234567 as 1,234,567.
+std::string count_text(std::int64_t count);
+
+/// A fraction in per cent without the sign, cut rather than rounded: 100 and 0 are said of all and of none only.
+std::string percent_text(double fraction);
+
+/// The end of the metric's range over the mesh that is the bad one.
+double worst_of(Metric metric, const MetricSummary& summary);
+
+/// "better" where of the worst value and the mean one improved and none got worse, "worse" for the opposite, "mixed",
+/// "same"; empty where that cannot be said.
+std::string_view verdict(Metric metric, const MetricSummary& before, const MetricSummary& after);
+
+}  // namespace trismooth
