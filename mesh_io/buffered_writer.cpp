@@ -13,11 +13,13 @@ constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
 }  // namespace
 
-BufferedWriter::BufferedWriter(const std::filesystem::path& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+BufferedWriter::BufferedWriter(const std::filesystem::path& path)
+    : path_(path), block_(block_bytes), file_(std::fopen(path.c_str(), "wb")) {
   if (file_ == nullptr) {
     fail();
   }
-  std::setvbuf(file_, nullptr, _IOFBF, block_bytes);
+  // The C library heeds the size only with a buffer of ours.
+  std::setvbuf(file_, block_.data(), _IOFBF, block_.size());
 }
 
 BufferedWriter::~BufferedWriter() {
@@ -27,7 +29,8 @@ BufferedWriter::~BufferedWriter() {
 }
 
 void BufferedWriter::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
+  // fwrite takes no null pointer, not even for no bytes.
+  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
     fail();
   }
 }
@@ -40,6 +43,8 @@ void BufferedWriter::close() {
   }
 }
 
-void BufferedWriter::fail() const { throw WriteError(path_, std::string("cannot be written: ") + std::strerror(errno)); }
+void BufferedWriter::fail() const {
+  throw WriteError(path_, std::string("cannot be written: ") + std::strerror(errno));
+}
 
 }  // namespace trismooth

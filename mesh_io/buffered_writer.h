@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace trismooth {
 
@@ -22,6 +23,7 @@ class BufferedWriter {
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
+  std::vector<char> block_;
   std::FILE* file_;
 };
 

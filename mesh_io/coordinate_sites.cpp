@@ -13,9 +13,10 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::string_view token_ends = " \t\v\f\r\n#";
+/// Ends of coordinate tokens: white space, a comment, the line continuation of OBJ.
+constexpr std::string_view token_ends = " \t\v\f\r\n#\\";
 
-/// Replaces the coordinate at one site, if it differs. Returns how many bytes of the original it took the place of.
+/// The new bytes of a coordinate.
 class SitePatcher {
  public:
   SitePatcher(std::string_view bytes, const CoordinateSites& sites) : bytes_(bytes), sites_(sites) {}

@@ -18,7 +18,9 @@ struct ReadError : std::runtime_error {
 /// A file that cannot be written. The message names it; what stood there before is untouched.
 struct WriteError : std::runtime_error {
   WriteError(const std::filesystem::path& file, const std::string& message)
-      : std::runtime_error(file.string() + ": " + message) {}
+      : std::runtime_error(file.string() + ": " + message), reason(message) {}
+
+  std::string reason;  ///< the message without the file
 };
 
 }  // namespace trismooth

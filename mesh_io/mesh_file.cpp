@@ -33,6 +33,22 @@ bool is_written_back(const MeshDocument& document, FileFormat target) {
   return document.original != nullptr && document.format == target;
 }
 
+void write_plain(const std::filesystem::path& path, FileFormat format, const MeshDocument& document,
+                 const AddedArrays& added) {
+  if (is_written_back(document, format)) {
+    document.original->write(path, document, added.point_arrays, added.cell_arrays);
+    return;
+  }
+  if (!has_arrays(format) || (added.point_arrays.empty() && added.cell_arrays.empty())) {
+    codec_of(format).write(path, document);
+    return;
+  }
+  MeshDocument extended = document;
+  std::ranges::copy(added.point_arrays, std::back_inserter(extended.point_arrays));
+  std::ranges::copy(added.cell_arrays, std::back_inserter(extended.cell_arrays));
+  codec_of(format).write(path, extended);
+}
+
 }  // namespace
 
 MeshDocument read_mesh(const std::filesystem::path& path) {
@@ -56,15 +72,11 @@ FileFormat output_format(const std::filesystem::path& path) {
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
   const FileFormat format = output_format(path);
   OutputFile output(path);
-  if (is_written_back(document, format)) {
-    document.original->write(output.path(), document, added.point_arrays, added.cell_arrays);
-  } else {
-    MeshDocument extended = document;
-    if (has_arrays(format)) {
-      std::ranges::copy(added.point_arrays, std::back_inserter(extended.point_arrays));
-      std::ranges::copy(added.cell_arrays, std::back_inserter(extended.cell_arrays));
-    }
-    codec_of(format).write(output.path(), extended);
+  try {
+    write_plain(output.path(), format, document, added);
+  } catch (const WriteError& error) {
+    // Codecs know the temporary file only.
+    throw WriteError(path, error.reason);
   }
   output.commit();
 }

@@ -36,12 +36,17 @@ void append_shortest(std::string& text, T value) {
   text.append(buffer.data(), result.ptr);
 }
 
+/// from_chars knows no plus sign.
+const char* begin_of_number(std::string_view token) {
+  const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+';
+  return token.data() + (plus ? 1 : 0);
+}
+
 }  // namespace
 
 template <class T>
 std::optional<T> parse_number(std::string_view token) {
-  const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+';
-  const char* const begin = token.data() + (plus ? 1 : 0);
+  const char* const begin = begin_of_number(token);
   const char* const end = token.data() + token.size();
   T value{};
   const auto [stop, error] = std::from_chars(begin, end, value);
@@ -59,7 +64,22 @@ std::optional<T> parse_number(std::string_view token) {
 template std::optional<float> parse_number(std::string_view);
 template std::optional<double> parse_number(std::string_view);
 
-void append_number(std::string& text, float value) { append_shortest(text, value); }
-void append_number(std::string& text, double value) { append_shortest(text, value); }
+std::optional<std::int64_t> parse_integer(std::string_view token) {
+  std::int64_t value = 0;
+  const char* const end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(begin_of_number(token), end, value);
+  return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+void append_number(std::string& text, float value) {
+  append_shortest(text, value);
+}
+void append_number(std::string& text, double value) {
+  append_shortest(text, value);
+}
+
+void append_integer(std::string& text, std::int64_t value) {
+  append_shortest(text, value);
+}
 
 }  // namespace trismooth

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,8 +15,14 @@ std::optional<T> parse_number(std::string_view token);
 extern template std::optional<float> parse_number(std::string_view);
 extern template std::optional<double> parse_number(std::string_view);
 
+/// The whole number that `token` states as a whole, or nothing; also nothing beyond the range of 64 bits.
+std::optional<std::int64_t> parse_integer(std::string_view token);
+
 /// Appends the shortest text that reads back to the same value.
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);
+
+/// Appends the number's decimal digits.
+void append_integer(std::string& text, std::int64_t value);
 
 }  // namespace trismooth

@@ -1,14 +1,14 @@
 #include "trismooth/mesh_io/output_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <string>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "trismooth/mesh_io/errors.h"
 
@@ -47,45 +47,68 @@ void forget(const std::string& name) {
   throw WriteError(path, what + ": " + std::strerror(errno));
 }
 
-mode_t default_permissions() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
+/// The file that a name stands for, every symbolic link followed, also where that file does not exist yet.
+std::filesystem::path follow_links(const std::filesystem::path& target) {
+  constexpr int most_links = 40;
+  std::filesystem::path path = target;
+  std::error_code error;
+  for (int links = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)); ++links) {
+    if (links == most_links) {
+      throw WriteError(target, "leads through too many symbolic links");
+    }
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  }
+  return path;
+}
+
+/// A name beside `target` that differs with every call. The extension stays last: some writers look at it.
+std::string temporary_name(const std::filesystem::path& target) {
+  constexpr std::size_t longest_stem = 200;  // most file systems allow names of 255 bytes
+  static std::atomic<unsigned> counter{0};
+  const std::string suffix = "." + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string stem = target.stem().string().substr(0, longest_stem);
+  return (target.parent_path() / ("." + stem + suffix + target.extension().string())).string();
+}
+
+/// Makes a new file beside `target`; sets `name` to its name. Negative where that is impossible.
+int create_beside(const std::filesystem::path& target, std::string& name) {
+  constexpr mode_t read_and_write = 0666;  // less the process's mask
+  int descriptor = -1;
+  do {
+    name = temporary_name(target);
+    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, read_and_write);
+  } while (descriptor < 0 && errno == EEXIST);
+  return descriptor;
 }
 
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& target) {
   std::error_code error;
-  target_ = std::filesystem::weakly_canonical(target, error);
-  if (error) {
-    target_ = target;
-  }
-  const std::filesystem::file_status status = std::filesystem::status(target_, error);
+  const std::filesystem::file_status status = std::filesystem::status(target, error);
   if (std::filesystem::is_directory(status)) {
     throw WriteError(target, "is a folder");
   }
   direct_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   if (direct_) {
-    path_ = target_;
+    target_ = target;
+    path_ = target;
     return;
   }
-  if (std::filesystem::exists(status) && ::access(target_.c_str(), W_OK) != 0) {
-    fail(target, "cannot be written");
-  }
-  // The extension stays last: some writers look at it.
-  std::string name = (target_.parent_path() / ("." + target_.stem().string() + ".XXXXXX")).string();
-  const std::string extension = target_.extension().string();
-  name += extension;
-  const int descriptor = ::mkstemps(name.data(), static_cast<int>(extension.size()));
+  target_ = follow_links(target);
+  struct stat old {};
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  std::string name;
+  const bool writable = !replaces || ::access(target_.c_str(), W_OK) == 0;
+  const int descriptor = writable ? create_beside(target_, name) : -1;
   if (descriptor < 0) {
     fail(target, "cannot be written");
   }
   path_ = name;
   remember(name);
-  struct stat old {};
-  const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  ::fchmod(descriptor, replaces ? old.st_mode & 07777 : default_permissions());
+  if (replaces) {
+    ::fchmod(descriptor, old.st_mode & 07777);
+  }
   ::close(descriptor);
 }
 

@@ -51,9 +51,4 @@ std::vector<std::uint8_t> fixed_by_array(const MeshDocument& document, const std
 /// number that is not below `vertex_count`.
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
 
-/// Puts moved in-plane coordinates back into the document: `points` are coordinates of `mesh.plane`. Vertices whose
-/// in-plane coordinates are those of `mesh.points` keep their coordinates bit for bit, the others their offset from the
-/// plane. Coordinates are rounded to document.point_type.
-void store_points(const PlanarMesh& mesh, const std::vector<Point2<double>>& points, MeshDocument& document);
-
 }  // namespace trismooth

@@ -1,16 +1,9 @@
+#include "trismooth/mesh_io/ply.h"
+
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
-namespace {
-
-MeshDocument read(const std::filesystem::path& path, std::string) { throw ReadError(path, "format not there yet"); }
-void write(const std::filesystem::path& path, const MeshDocument&) { throw WriteError(path, "format not there yet"); }
-std::vector<std::string> lost(const MeshDocument&) { return {}; }
-
-}  // namespace
-
-const Codec ply_codec{&read, &write, &lost};
+const Codec ply_codec{&read_ply, &write_ply, &what_ply_loses};
 
 }  // namespace trismooth

@@ -1,16 +1,9 @@
+#include "trismooth/mesh_io/stl.h"
+
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
-namespace {
-
-MeshDocument read(const std::filesystem::path& path, std::string) { throw ReadError(path, "format not there yet"); }
-void write(const std::filesystem::path& path, const MeshDocument&) { throw WriteError(path, "format not there yet"); }
-std::vector<std::string> lost(const MeshDocument&) { return {}; }
-
-}  // namespace
-
-const Codec stl_codec{&read, &write, &lost};
+const Codec stl_codec{&read_stl, &write_stl, &what_stl_loses};
 
 }  // namespace trismooth

@@ -1,7 +1,7 @@
 #include "trismooth/mesh_io/text_scanner.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,8 +12,34 @@ namespace trismooth {
 
 namespace {
 
-constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+// The classes of characters that mean something between tokens, one bit each; a table, since every byte is looked up.
+constexpr unsigned blank = 1;
+constexpr unsigned line_end = 2;
+constexpr unsigned hash = 4;
+constexpr unsigned backslash = 8;
+
+constexpr std::array<unsigned char, 256> make_classes() {
+  std::array<unsigned char, 256> classes{};
+  for (const char c : {' ', '\t', '\v', '\f'}) {
+    classes[static_cast<unsigned char>(c)] = blank;
+  }
+  classes['\n'] = line_end;
+  classes['\r'] = line_end;
+  classes['#'] = hash;
+  classes['\\'] = backslash;
+  return classes;
+}
+constexpr std::array<unsigned char, 256> classes = make_classes();
+
+constexpr unsigned class_of(char c) {
+  return classes[static_cast<unsigned char>(c)];
+}
+constexpr bool is_blank(char c) {
+  return class_of(c) == blank;
+}
+constexpr bool is_line_end(char c) {
+  return class_of(c) == line_end;
+}
 
 /// Lines before `offset`; CR LF counts once.
 std::size_t line_at(std::string_view text, std::size_t offset) {
@@ -28,12 +54,36 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
 
 }  // namespace
 
-TextScanner::TextScanner(std::string_view text, std::filesystem::path path, Comments comments, std::size_t begin)
-    : text_(text), path_(std::move(path)), offset_(begin), token_offset_(begin), comments_(comments) {}
+TextScanner::TextScanner(std::string_view text, std::filesystem::path path, Comments comments, std::size_t begin,
+                         Continuation continuation)
+    : text_(text),
+      path_(std::move(path)),
+      offset_(begin),
+      token_offset_(begin),
+      comments_(comments),
+      continuation_(continuation),
+      token_ends_(blank | line_end | (comments == Comments::hash ? hash : 0) |
+                  (continuation == Continuation::backslash ? backslash : 0)) {}
+
+/// Bytes of the line end at `offset`: CR LF counts as one end.
+std::size_t TextScanner::line_end_length(std::size_t offset) const {
+  return text_[offset] == '\r' && offset + 1 < text_.size() && text_[offset + 1] == '\n' ? 2 : 1;
+}
+
+bool TextScanner::is_continuation(std::size_t offset) const {
+  return continuation_ == Continuation::backslash && text_[offset] == '\\' && offset + 1 < text_.size() &&
+         is_line_end(text_[offset + 1]);
+}
 
 void TextScanner::skip_blanks() {
-  while (offset_ < text_.size() && is_blank(text_[offset_])) {
-    ++offset_;
+  while (offset_ < text_.size()) {
+    if (is_blank(text_[offset_])) {
+      ++offset_;
+    } else if (is_continuation(offset_)) {
+      offset_ += 1 + line_end_length(offset_ + 1);
+    } else {
+      break;
+    }
   }
   if (comments_ == Comments::hash && offset_ < text_.size() && text_[offset_] == '#') {
     while (offset_ < text_.size() && !is_line_end(text_[offset_])) {
@@ -63,8 +113,9 @@ bool TextScanner::at_end_of_line() {
 std::string_view TextScanner::peek_token() {
   skip_space();
   std::size_t end = offset_;
-  while (end < text_.size() && !is_blank(text_[end]) && !is_line_end(text_[end]) &&
-         !(comments_ == Comments::hash && text_[end] == '#')) {
+  // A backslash within a line is part of its token.
+  while (end < text_.size() &&
+         ((class_of(text_[end]) & token_ends_) == 0 || (text_[end] == '\\' && !is_continuation(end)))) {
     ++end;
   }
   return text_.substr(offset_, end - offset_);
@@ -100,17 +151,17 @@ float TextScanner::next_float(std::string_view what) {
 
 std::int64_t TextScanner::next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest) {
   const std::string_view token = next_token(what);
-  const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-';
-  std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(token.data() + (plus ? 1 : 0), token.data() + token.size(), value);
-  if (stop != token.data() + token.size() || error == std::errc::invalid_argument) {
+  const std::optional<std::int64_t> value = parse_integer(token);
+  if (value && lowest <= *value && *value <= highest) {
+    return *value;
+  }
+  // Digits beyond 64 bits are a whole number too, out of any range.
+  const std::string_view digits = token.substr(token.find_first_not_of("+-") == 1 ? 1 : 0);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
     fail("expected " + std::string(what) + " (a whole number), got " + quoted(token));
   }
-  if (error == std::errc::result_out_of_range || value < lowest || value > highest) {
-    fail("expected " + std::string(what) + " from " + std::to_string(lowest) + " to " + std::to_string(highest) +
-         ", got " + quoted(token));
-  }
-  return value;
+  fail("expected " + std::string(what) + " from " + std::to_string(lowest) + " to " + std::to_string(highest) +
+       ", got " + quoted(token));
 }
 
 std::string_view TextScanner::next_line() {
@@ -121,14 +172,17 @@ std::string_view TextScanner::next_line() {
   }
   const std::string_view line = text_.substr(begin, offset_ - begin);
   if (offset_ < text_.size()) {
-    const bool crlf = text_[offset_] == '\r' && offset_ + 1 < text_.size() && text_[offset_ + 1] == '\n';
-    offset_ += crlf ? 2 : 1;
+    offset_ += line_end_length(offset_);
   }
   return line;
 }
 
 void TextScanner::fail(const std::string& message) const {
-  throw ReadError(path_, line_at(text_, token_offset_), message);
+  fail_at(token_offset_, message);
+}
+
+void TextScanner::fail_at(std::size_t offset, const std::string& message) const {
+  throw ReadError(path_, line_at(text_, offset), message);
 }
 
 void require_room(const std::filesystem::path& path, std::string_view what, std::uint64_t count,

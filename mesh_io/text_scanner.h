@@ -11,11 +11,12 @@ namespace trismooth {
 /// LF, CR LF and CR alone end a line. Locale-independent. The text must outlive the scanner.
 class TextScanner {
  public:
-  enum class Comments : bool { none, hash };  ///< hash: '#' starts a comment that runs to the end of the line
+  enum class Comments : bool { none, hash };           ///< hash: '#' starts a comment that runs to the end of the line
+  enum class Continuation : bool { none, backslash };  ///< backslash: one that ends a line makes that end a blank
 
   /// Scans text[begin, end of text); line numbers count from the start of `text`.
   TextScanner(std::string_view text, std::filesystem::path path, Comments comments = Comments::none,
-              std::size_t begin = 0);
+              std::size_t begin = 0, Continuation continuation = Continuation::none);
 
   /// True where nothing but white space and comments is left.
   bool at_end();
@@ -34,7 +35,7 @@ class TextScanner {
   /// The next token as a whole number within [lowest, highest]; fails on anything else.
   std::int64_t next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest);
 
-  /// The rest of this line, without its end; stands at the next line then.
+  /// The rest of this line as it is, comments and continuations too, without its end; stands at the next line then.
   std::string_view next_line();
 
   /// Byte offset of the token that was read last / of the next byte to read.
@@ -46,16 +47,22 @@ class TextScanner {
 
   /// Throws ReadError at the line of the token that was read last.
   [[noreturn]] void fail(const std::string& message) const;
+  /// Throws ReadError at the line of the byte at `offset`.
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const;
 
  private:
   void skip_space();
   void skip_blanks();
+  bool is_continuation(std::size_t offset) const;
+  std::size_t line_end_length(std::size_t offset) const;
 
   std::string_view text_;
   std::filesystem::path path_;
   std::size_t offset_;
   std::size_t token_offset_;
   Comments comments_;
+  Continuation continuation_;
+  unsigned token_ends_;  ///< the classes of characters that may end a token
 };
 
 /// `count` elements that take at least `bytes_each` bytes of text or data: fails where `available` bytes cannot hold

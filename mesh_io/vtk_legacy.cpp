@@ -1,16 +1,89 @@
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/coordinate_sites.h"
+#include "trismooth/mesh_io/vtk_legacy_layout.h"
+#include "trismooth/mesh_io/vtk_legacy_reader.h"
+#include "trismooth/mesh_io/vtk_legacy_writer.h"
 
 namespace trismooth {
 
 namespace {
 
-MeshDocument read(const std::filesystem::path& path, std::string) { throw ReadError(path, "format not there yet"); }
-void write(const std::filesystem::path& path, const MeshDocument&) { throw WriteError(path, "format not there yet"); }
-std::vector<std::string> lost(const MeshDocument&) { return {}; }
+using Section = VtkLegacyLayout::Section;
+
+class VtkLegacyFile : public OriginalFile {
+ public:
+  explicit VtkLegacyFile(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  MeshDocument read(const std::filesystem::path& path) { return read_vtk_legacy(path, bytes_, layout_); }
+
+  void write(const std::filesystem::path& path, const MeshDocument& document,
+             std::span<const DataArray> added_point_arrays,
+             std::span<const DataArray> added_cell_arrays) const override {
+    write_patched(path, bytes_, layout_.coordinates, document.points,
+                  suffix(document, added_point_arrays, added_cell_arrays));
+  }
+
+ private:
+  /// The added arrays, to stand behind the file's last byte. VTK's reader takes POINT_DATA after CELL_DATA and the
+  /// other way round, but neither after itself: arrays of the section that the file ends in stand first, as more of it.
+  std::string suffix(const MeshDocument& document, std::span<const DataArray> point_arrays,
+                     std::span<const DataArray> cell_arrays) const {
+    std::string text;
+    if (point_arrays.empty() && cell_arrays.empty()) {
+      return text;
+    }
+    VtkLegacyOutput output(layout_.binary, [&](std::string_view block) { text += block; });
+    // Ends an unfinished last line, and METADATA, which lasts until an empty line.
+    output.text("\n\n");
+    const auto add_points = [&] {
+      if (!point_arrays.empty()) {
+        if (layout_.last_section != Section::point_data) {
+          output.text("POINT_DATA " + std::to_string(document.point_count()) + "\n");
+        }
+        output.field(point_arrays, layout_.point_names);
+      }
+    };
+    const auto add_cells = [&] {
+      if (!cell_arrays.empty()) {
+        if (layout_.last_section != Section::cell_data) {
+          output.text("CELL_DATA " + std::to_string(document.cells.size()) + "\n");
+        }
+        output.field(cell_arrays, layout_.cell_names);
+      }
+    };
+    if (layout_.last_section == Section::cell_data) {
+      add_cells();
+      add_points();
+    } else {
+      add_points();
+      add_cells();
+    }
+    output.flush();
+    return text;
+  }
+
+  std::string bytes_;
+  VtkLegacyLayout layout_;
+};
+
+MeshDocument read(const std::filesystem::path& path, std::string bytes) {
+  const auto file = std::make_shared<VtkLegacyFile>(std::move(bytes));
+  MeshDocument document = file->read(path);
+  document.original = file;
+  return document;
+}
+
+/// Legacy VTK files hold everything that a document does.
+std::vector<std::string> what_is_lost(const MeshDocument&) {
+  return {};
+}
 
 }  // namespace
 
-const Codec vtk_legacy_codec{&read, &write, &lost};
+const Codec vtk_legacy_codec{&read, &write_vtk_legacy, &what_is_lost};
 
 }  // namespace trismooth

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,8 +21,12 @@ namespace {
 constexpr std::int32_t ghost = -1;
 
 /// Directed edges 3t, 3t+1 and 3t+2 are those of triangle t, counter-clockwise.
-constexpr std::int32_t next_edge(std::int32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
-constexpr std::int32_t previous_edge(std::int32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+constexpr std::int32_t next_edge(std::int32_t edge) {
+  return edge % 3 == 2 ? edge - 2 : edge + 1;
+}
+constexpr std::int32_t previous_edge(std::int32_t edge) {
+  return edge % 3 == 0 ? edge + 2 : edge - 1;
+}
 
 /// A Delaunay triangulation that grows point by point. Vertices are indices into the points it was given.
 class GrowingTriangulation {
@@ -98,7 +101,8 @@ void GrowingTriangulation::insert(std::int32_t p) {
 }
 
 /// An edge of a triangle that conflicts with p: of the one that holds p, or of a ghost triangle whose hull edge p lies
-/// beyond. Steps through any edge that has p strictly beyond it; in a Delaunay triangulation that cannot run in circles.
+/// beyond. Steps through any edge that has p strictly beyond it; in a Delaunay triangulation that cannot run in
+/// circles.
 std::int32_t GrowingTriangulation::locate(GridPoint p) const {
   std::int32_t entry = is_right_of(latest_edge_, p) ? twin_[latest_edge_] : latest_edge_;
   while (origin_[previous_edge(entry)] != ghost) {
@@ -201,8 +205,8 @@ std::vector<std::int32_t> hilbert_order(std::span<const GridPoint> points) {
                  static_cast<std::int32_t>(i)};
   }
   std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end(),
-                                        [](const auto& a, const auto& b) { return a.first == b.first; });
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice != sorted.end()) {
     throw std::invalid_argument("point " + text_of(points[twice->second]) + " occurs twice");
   }

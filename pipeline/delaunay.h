@@ -18,7 +18,7 @@ namespace trismooth {
 /// Throws std::invalid_argument for a coordinate outside [0, 2^30) and for a point that occurs twice,
 /// std::length_error for more than 2^31 / 6 points.
 /// Complexity: O(n log n) for the sorting and O(n) expected for the rest where points are spread at random; O(n^2) at
-/// worst. Memory: about 75 bytes a point beside the result's 24.
+/// worst. Memory: about 60 bytes a point beside the result's 24.
 std::vector<std::array<std::int32_t, 3>> delaunay(std::span<const GridPoint> points);
 
 }  // namespace trismooth

@@ -1,6 +1,5 @@
 #include "trismooth/pipeline/mirrored_tiles.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <utility>

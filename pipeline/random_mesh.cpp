@@ -26,8 +26,9 @@ RandomMesh single_tile(std::int64_t vertices, std::mt19937_64& generator) {
   RandomMesh mesh;
   mesh.points.resize(grid_points.size());
   constexpr double unit = 1.0 / (1 << grid_bits);
-  std::transform(grid_points.begin(), grid_points.end(), mesh.points.begin(),
-                 [](GridPoint point) { return Point2<double>{point[0] * unit, point[1] * unit}; });
+  std::transform(grid_points.begin(), grid_points.end(), mesh.points.begin(), [](GridPoint point) {
+    return Point2<double>{point[0] * unit, point[1] * unit};
+  });
   mesh.triangles = delaunay(grid_points);
   return mesh;
 }

@@ -11,7 +11,7 @@ namespace trismooth {
 /// those: TBB would not start them and would complain on standard error.
 inline tbb::task_arena thread_arena(int threads) {
   const auto limit = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  return tbb::task_arena(threads > 0 ? std::min(threads, limit) : limit);
+  return {threads > 0 ? std::min(threads, limit) : limit};
 }
 
 }  // namespace trismooth

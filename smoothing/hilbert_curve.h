@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace trismooth {
@@ -12,7 +13,7 @@ namespace detail {
 /// generate four orientations, each its own inverse, so two bits hold one: 1 = x and y are exchanged, 2 = both are
 /// complemented. An entry is a walk down four levels at once: their eight bits of the index, and above them the
 /// orientation that they lead to. Subscript: orientation, four bits of x, four bits of y.
-using HilbertTable = std::array<std::uint16_t, 4 * 16 * 16>;
+using HilbertTable = std::array<std::uint16_t, std::size_t{4} * 16 * 16>;
 
 constexpr HilbertTable make_hilbert_table() {
   HilbertTable table{};

@@ -1,6 +1,7 @@
 #include "trismooth/mesh_io/number_text.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -8,7 +9,9 @@
 
 #include "catch.h"
 
+using trismooth::append_integer;
 using trismooth::append_number;
+using trismooth::parse_integer;
 using trismooth::parse_number;
 
 namespace {
@@ -64,4 +67,17 @@ TEST_CASE("values beyond the range are infinite, values below it zero") {
   CHECK(parse_number<double>("1e-99999999999999999999") == 0.0);
   CHECK(parse_number<double>("0.000" + std::string(400, '0') + "1") == 0.0);
   CHECK(parse_number<double>("1" + std::string(400, '0')) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("whole numbers are whole tokens within 64 bits") {
+  CHECK(parse_integer("9223372036854775807") == std::numeric_limits<std::int64_t>::max());
+  CHECK(parse_integer("-9223372036854775808") == std::numeric_limits<std::int64_t>::min());
+  CHECK(parse_integer("+7") == 7);
+  for (const char* token : {"", "+", "-", "+-1", "1.", "1e3", "0x1", "9223372036854775808", "18446744073709551617"}) {
+    CAPTURE(token);
+    CHECK_FALSE(parse_integer(token).has_value());
+  }
+  std::string text = "n ";
+  append_integer(text, std::numeric_limits<std::int64_t>::min());
+  CHECK(text == "n -9223372036854775808");
 }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// One sentence for every kind of array that the document has, naming the arrays: "OFF holds no cell arrays: region
+/// is not written". For formats that hold no arrays; `format` is the format's name in the sentences.
+std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document);
+
+/// The sentence for the cells whose type is not in `written_types`, at most one: "OFF holds faces only: 12 cells of
+/// type line are not written". `holds` says what the format does hold ("faces").
+std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,
+                                             std::span<const std::uint8_t> written_types, const CellList& cells);
+
+}  // namespace trismooth

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/mesh_io/triangle_mesh.h"
+#include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/one_rings.h"
+#include "trismooth/smoothing/triangle_topology.h"
+
+namespace trismooth {
+
+/// Fills a halfedge mesh with triangles in their consistent orientation: vertex v is input vertex v, face t is triangle
+/// t. A vertex whose triangles form several fans (at bow ties and non-manifold edges), which no halfedge mesh can hold,
+/// is there once for each fan: the copies come after the input's vertices and are listed by `copies_of`.
+struct HalfedgeMesh {
+  TriangleMesh mesh;
+  std::vector<std::int32_t> copies_of;  ///< the input vertex of mesh vertex vertex_count + i
+};
+
+/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Complexity: linear.
+HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
+                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed);
+
+/// The one-rings of the vertices whose `fixed` byte is 0; those must be interior vertices of `mesh`. There is a byte
+/// for each vertex of the input; further vertices of the mesh are copies and fixed. `reversed`, one byte a face, tells
+/// faces of components that `mesh` orients clockwise; empty: there are none. Complexity: linear.
+OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
+                   std::span<const std::uint8_t> reversed, Workers& workers);
+
+/// The faces of `mesh` as a triangle list.
+std::vector<Triangle> face_list(const TriangleMesh& mesh);
+
+}  // namespace trismooth

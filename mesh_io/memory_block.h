@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace trismooth {
+
+/// Bytes from malloc() that can grow at the end and can be handed to a library that calls free() on them.
+class MemoryBlock {
+ public:
+  std::size_t size() const { return size_; }
+  std::byte* data() { return data_.get(); }
+  const std::byte* data() const { return data_.get(); }
+
+  /// Makes room for `count` bytes more at the end and returns where they start; they are not initialised. Capacity
+  /// doubles, so many small steps cost little. Throws std::bad_alloc.
+  std::byte* extend(std::size_t count) {
+    if (count > capacity_ - size_) {
+      reallocate(std::max(size_ + count, 2 * capacity_));
+    }
+    std::byte* const begin = data_.get() + size_;
+    size_ += count;
+    return begin;
+  }
+
+  /// Makes room for `count` bytes more, exactly. Throws std::bad_alloc.
+  void reserve_more(std::size_t count) {
+    if (count > capacity_ - size_) {
+      reallocate(size_ + count);
+    }
+  }
+
+  void shrink_to_fit() {
+    if (size_ != 0 && size_ != capacity_) {
+      reallocate(size_);
+    }
+  }
+
+  /// Hands the bytes over: the caller calls free(). The block is empty then.
+  std::byte* release() {
+    size_ = 0;
+    capacity_ = 0;
+    return data_.release();
+  }
+
+ private:
+  struct Free {
+    void operator()(std::byte* bytes) const { std::free(bytes); }
+  };
+
+  void reallocate(std::size_t capacity) {
+    auto* const bytes = static_cast<std::byte*>(std::realloc(data_.get(), capacity));
+    if (bytes == nullptr) {
+      throw std::bad_alloc();
+    }
+    [[maybe_unused]] std::byte* const moved_from = data_.release();
+    data_.reset(bytes);
+    capacity_ = capacity;
+  }
+
+  std::unique_ptr<std::byte, Free> data_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,66 @@
+#include "trismooth/mesh_io/off_keyword.h"
+
+namespace trismooth {
+
+std::size_t OffKeyword::least_extras() const {
+  return (normals ? 3U : 0U) + (colours ? 3U : 0U) + (texture_coordinates ? 2U : 0U);
+}
+
+bool OffKeyword::allows_extras(std::size_t count) const {
+  return count == least_extras() || (colours && count == least_extras() + 1);
+}
+
+std::string OffKeyword::describe_extras() const {
+  const std::size_t least = least_extras();
+  if (least == 0) {
+    return "no numbers";
+  }
+  return std::to_string(least) + (colours ? " or " + std::to_string(least + 1) : "") + " numbers";
+}
+
+std::string OffKeyword::text_or_default() const {
+  return text.empty() ? "OFF" : std::string(text);
+}
+
+OffExtras OffKeyword::split(std::span<const double> row) const {
+  const std::size_t normal_count = normals ? 3 : 0;
+  const std::size_t texture_count = texture_coordinates ? 2 : 0;
+  const std::size_t colour_count = row.size() - normal_count - texture_count;
+  const std::size_t normal_begin = colours_first ? colour_count : 0;
+  const std::size_t colour_begin = colours_first ? 0 : normal_count;
+  return {row.subspan(normal_begin, normal_count), row.subspan(colour_begin, colour_count), row.last(texture_count)};
+}
+
+std::optional<OffKeyword> parse_off_keyword(std::string_view token) {
+  const std::size_t off = token.find("OFF");
+  if (off == std::string_view::npos) {
+    return std::nullopt;
+  }
+  const std::size_t end = off + 3;
+  if (token.find_first_not_of("0123456789", end) != std::string_view::npos) {
+    return std::nullopt;
+  }
+  OffKeyword keyword;
+  keyword.text = token.substr(0, end);
+  const std::string_view prefix = token.substr(0, off);
+  for (std::size_t i = 0; i < prefix.size(); ++i) {
+    if (prefix.substr(i, 2) == "ST") {
+      keyword.texture_coordinates = true;
+      ++i;
+    } else if (prefix[i] == 'C') {
+      keyword.colours_first = keyword.normals;
+      keyword.colours = true;
+    } else if (prefix[i] == 'N') {
+      keyword.normals = true;
+    } else if (prefix[i] == '4') {
+      keyword.homogeneous = true;
+    } else if (prefix[i] == 'n') {
+      keyword.any_dimension = true;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return keyword;
+}
+
+}  // namespace trismooth

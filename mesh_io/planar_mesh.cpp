@@ -1,0 +1,161 @@
+#include "trismooth/mesh_io/planar_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+#include "trismooth/mesh_io/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  return vertices.size() == 3 && (type == cell_type::triangle || type == cell_type::polygon);
+}
+
+bool repeats_a_vertex(std::span<const std::int32_t> triangle) {
+  return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+}
+
+std::string counted(std::int64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
+  std::int64_t degenerate = 0;
+  std::size_t first_degenerate = 0;
+  mesh.in_other_cell.assign(document.point_count(), 0);
+  mesh.triangles.reserve(document.cells.size());
+  mesh.cells.reserve(document.cells.size());
+  for (std::size_t c = 0; c < document.cells.size(); ++c) {
+    const auto vertices = document.cells[c];
+    const bool triangular = is_triangle(document.cells.types[c], vertices);
+    if (triangular && !repeats_a_vertex(vertices)) {
+      mesh.triangles.push_back({vertices[0], vertices[1], vertices[2]});
+      mesh.cells.push_back(static_cast<std::int32_t>(c));
+      continue;
+    }
+    if (triangular && degenerate++ == 0) {
+      first_degenerate = c;
+    }
+    ++mesh.other_cells;
+    for (const std::int32_t v : vertices) {
+      mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  if (degenerate > 0) {
+    mesh.notes.push_back(counted(degenerate, "triangle") + " repeating a vertex (the first is cell " +
+                         std::to_string(first_degenerate) + "): kept as they are, their vertices held fixed");
+  }
+  if (mesh.other_cells > degenerate) {
+    mesh.notes.push_back(counted(mesh.other_cells - degenerate, "cell") +
+                         " of other types than triangle: kept as they are, their vertices held fixed");
+  }
+}
+
+std::string array_names(std::span<const DataArray> arrays) {
+  std::string names;
+  for (const DataArray& array : arrays) {
+    names.append(names.empty() ? "" : ", ").append(array.name);
+  }
+  return names.empty() ? "none" : names;
+}
+
+constexpr std::array<std::string_view, 7> region_array_names{
+    "region", "mat_id", "material", "MaterialIds", "CellEntityIds", "gmsh:physical", "medit:ref"};
+
+/// The values of the array at the mesh's triangles, numbered from 0 in ascending order.
+Regions number_regions(const DataArray& array, const PlanarMesh& mesh) {
+  Regions regions;
+  regions.array = array.name;
+  std::vector<double> of_triangle(mesh.cells.size());
+  std::ranges::transform(mesh.cells, of_triangle.begin(),
+                         [&](std::int32_t cell) { return array.value(static_cast<std::size_t>(cell)); });
+  std::vector<double> values = of_triangle;
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+  regions.count = static_cast<std::int32_t>(values.size());
+  regions.of_triangle.resize(of_triangle.size());
+  std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](double value) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(values, value) - values.begin());
+  });
+  return regions;
+}
+
+}  // namespace
+
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
+  if (document.point_count() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw ReadError(path, "holds more than 2147483647 vertices");
+  }
+  PlanarMesh mesh;
+  sort_cells(document, mesh);
+  if (mesh.triangles.empty() && document.cells.size() > 0) {
+    throw ReadError(path, "holds " + counted(static_cast<std::int64_t>(document.cells.size()), "cell") +
+                              " but no triangle; only triangle meshes can be smoothed");
+  }
+  if (mesh.triangles.empty()) {
+    mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
+  }
+  const auto plane = fit_plane(document.points);
+  if (!plane) {
+    throw ReadError(path, "the mesh is not planar: its points leave every plane by more than 1e-6 of its extent; "
+                          "only planar meshes can be smoothed");
+  }
+  mesh.plane = *plane;
+  mesh.points.resize(document.point_count());
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    mesh.points[v] = plane->project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v));
+  }
+  return mesh;
+}
+
+Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const std::optional<std::string>& name) {
+  if (name) {
+    const DataArray* const array = find_array(document.cell_arrays, *name);
+    if (array == nullptr) {
+      throw std::invalid_argument("the file has no cell array '" + *name + "' to take regions from; it has: " +
+                                  array_names(document.cell_arrays));
+    }
+    if (array->components != 1) {
+      throw std::invalid_argument("the cell array '" + *name + "' has " + std::to_string(array->components) +
+                                  " components; regions need one");
+    }
+    return number_regions(*array, mesh);
+  }
+  for (const std::string_view candidate : region_array_names) {
+    const DataArray* const array = find_array(document.cell_arrays, candidate);
+    if (array != nullptr && array->components == 1) {
+      Regions regions = number_regions(*array, mesh);
+      // A different value in every cell numbers the cells; it does not group them.
+      if (mesh.triangles.size() <= 1 || static_cast<std::size_t>(regions.count) < mesh.triangles.size()) {
+        return regions;
+      }
+    }
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> fixed_by_array(const MeshDocument& document, const std::string& name, bool required) {
+  const DataArray* const array = find_array(document.point_arrays, name);
+  if (array == nullptr) {
+    if (required) {
+      throw std::invalid_argument("the file has no point array '" + name + "' to take fixed vertices from; it has: " +
+                                  array_names(document.point_arrays));
+    }
+    return {};
+  }
+  std::vector<std::uint8_t> fixed(document.point_count(), 0);
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    for (std::size_t i = 0; i < array->components; ++i) {
+      fixed[v] |= array->value(v, i) != 0 ? std::uint8_t{1} : std::uint8_t{0};
+    }
+  }
+  return fixed;
+}
+
+}  // namespace trismooth

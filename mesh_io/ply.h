@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// Reads a PLY file (version 1.0; ASCII, little-endian, big-endian), whose bytes are `bytes`.
+///
+/// Element vertex gives the points (x, y, z: float or double), its other scalar properties point arrays of their names
+/// and types. Element face gives the triangles, quads and polygons (list vertex_indices or vertex_index), element edge
+/// the lines (vertex1, vertex2), in the order of the file; their other scalar properties give cell arrays, whose rows
+/// are 0 for the element that lacks the property. All else is kept in the original's bytes and named in the notes.
+///
+/// Throws ReadError where the file breaks the format's rules, and for coordinates of an integer type or of several
+/// types, faces of less than three vertices, and triangle strips. Linear in the file's size.
+MeshDocument read_ply(const std::filesystem::path& path, std::string bytes);
+
+/// Writes the document as little-endian PLY: double coordinates (float where point_type is float32), faces, then
+/// lines as element edge, and every point and cell array as scalar properties. Throws WriteError.
+void write_ply(const std::filesystem::path& path, const MeshDocument& document);
+
+/// What write_ply leaves out or changes, one sentence each.
+std::vector<std::string> what_ply_loses(const MeshDocument& document);
+
+}  // namespace trismooth

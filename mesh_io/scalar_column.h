@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+
+namespace trismooth {
+
+/// A one-component array under construction, of a type that is known only when a file's header has been read.
+/// Rows are 0 until they are stored.
+class ScalarColumn {
+ public:
+  /// An array of `rows` rows.
+  ScalarColumn(std::string name, ScalarType type, std::size_t rows)
+      : name_(std::move(name)), type_(type), bytes_(rows * size_of(type)) {}
+
+  const std::string& name() const { return name_; }
+  ScalarType type() const { return type_; }
+
+  /// Sets a row to `value`, which the column's type must be able to hold: no check.
+  void store(std::size_t row, double value);
+
+  /// Adds the rows of another column of the same type at the end.
+  void append(const ScalarColumn& column);
+
+  /// Adds `rows` rows of 0 at the end.
+  void append_zeros(std::size_t rows);
+
+  /// The finished array; the column is empty after that.
+  DataArray take_array();
+
+ private:
+  std::string name_;
+  ScalarType type_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// Reads an STL file (ASCII or binary), whose bytes are `bytes`. It is binary where its size is that of its number of
+/// facets, whatever its first word is.
+///
+/// Corners of equal coordinates become one point, numbered in the order of the file; a moved point is written back at
+/// all its corners. ASCII coordinates are float64, binary ones float32. Several ASCII solids give the int32 cell array
+/// "solid" (numbers from 0), binary attribute words other than 0 the uint16 cell array "attribute". Normals are kept
+/// in the original's bytes as they are.
+///
+/// Throws ReadError where the file breaks the format's rules. Linear in the file's size.
+MeshDocument read_stl(const std::filesystem::path& path, std::string bytes);
+
+/// Writes the document's triangles as one solid of ASCII STL (binary STL would round coordinates to float32), in the
+/// shortest texts that read back to the same float64, each with its unit normal, which is 0 0 0 for a degenerate
+/// triangle. Throws WriteError.
+void write_stl(const std::filesystem::path& path, const MeshDocument& document);
+
+/// What write_stl leaves out or changes, one sentence each.
+std::vector<std::string> what_stl_loses(const MeshDocument& document);
+
+}  // namespace trismooth

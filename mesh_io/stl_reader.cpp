@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/patched_original.h"
+#include "trismooth/mesh_io/point_welder.h"
+#include "trismooth/mesh_io/stl.h"
+#include "trismooth/mesh_io/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t title_bytes = 80;
+constexpr std::size_t binary_header_bytes = title_bytes + sizeof(std::uint32_t);
+constexpr std::size_t normal_bytes = 3 * sizeof(float);
+constexpr std::size_t binary_facet_bytes = 4 * normal_bytes + sizeof(std::uint16_t);
+
+/// The little-endian number at `offset`, which must be within `bytes`.
+template <class T>
+T number_at(std::string_view bytes, std::size_t offset) {
+  std::array<char, sizeof(T)> stored{};
+  std::memcpy(stored.data(), bytes.data() + offset, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) {
+    std::ranges::reverse(stored);
+  }
+  return std::bit_cast<T>(stored);
+}
+
+/// True where the token is `word`, which is in lower case, in any case.
+bool is_word(std::string_view token, std::string_view word) {
+  return std::ranges::equal(token, word, {}, [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+}
+
+/// Makes triangles of corners, three after three, and remembers where each corner stands in the file.
+class FacetCollector {
+ public:
+  FacetCollector(const std::filesystem::path& path, CoordinateEncoding encoding, ScalarType type) : path_(path) {
+    sites_.encoding = encoding;
+    document_.point_type = sites_.type = type;
+  }
+
+  void add_corner(const std::array<double, 3>& point, const std::array<std::uint64_t, 3>& offsets) {
+    if (sites_.vertices.size() == std::numeric_limits<std::int32_t>::max()) {
+      throw ReadError(path_, "has more facets than are supported (" +
+                                 std::to_string(std::numeric_limits<std::int32_t>::max() / 3) + ")");
+    }
+    sites_.vertices.push_back(welder_.weld(point));
+    sites_.offsets.insert(sites_.offsets.end(), offsets.begin(), offsets.end());
+    if (sites_.vertices.size() % 3 == 0) {
+      document_.cells.append(cell_type::triangle, std::span(sites_.vertices).last(3));
+    }
+  }
+
+  std::size_t facets() const { return document_.cells.size(); }
+
+  MeshDocument finish(std::string bytes) {
+    document_.points = welder_.take_points();
+    document_.original = make_patched_original(std::move(bytes), std::move(sites_));
+    return std::move(document_);
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  MeshDocument document_;
+  CoordinateSites sites_;
+  PointWelder welder_;
+};
+
+MeshDocument read_binary(const std::filesystem::path& path, std::string bytes) {
+  FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
+  const auto count = number_at<std::uint32_t>(bytes, title_bytes);
+  std::vector<std::uint16_t> attributes(count);
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    std::size_t offset = binary_header_bytes + facet * binary_facet_bytes + normal_bytes;
+    for (int corner = 0; corner < 3; ++corner) {
+      std::array<double, 3> point{};
+      std::array<std::uint64_t, 3> offsets{};
+      for (std::size_t axis = 0; axis < 3; ++axis, offset += sizeof(float)) {
+        point[axis] = static_cast<double>(number_at<float>(bytes, offset));
+        offsets[axis] = offset;
+        if (!std::isfinite(point[axis])) {
+          throw ReadError(path, "byte " + std::to_string(offset) + ": facet " + std::to_string(facet) +
+                                    " has a coordinate that is not a finite number");
+        }
+      }
+      collector.add_corner(point, offsets);
+    }
+    attributes[facet] = number_at<std::uint16_t>(bytes, offset);
+  }
+  MeshDocument document = collector.finish(std::move(bytes));
+  if (std::ranges::any_of(attributes, [](std::uint16_t attribute) { return attribute != 0; })) {
+    document.cell_arrays.push_back(make_data_array("attribute", 1, std::move(attributes)));
+  }
+  return document;
+}
+
+class TextReader {
+ public:
+  TextReader(const std::filesystem::path& path, std::string bytes)
+      : bytes_(std::move(bytes)),
+        scanner_(bytes_, path),
+        collector_(path, CoordinateEncoding::text, ScalarType::float64) {}
+
+  /// Reads the whole text, once.
+  MeshDocument read() {
+    std::int32_t solids = 0;
+    std::vector<std::int32_t> solid_of_facet;
+    std::string names;
+    do {
+      expect("solid");
+      names.append(names.empty() ? "" : ", ").append(quoted(trimmed(scanner_.next_line())));
+      while (next_is_facet()) {
+        read_facet();
+      }
+      scanner_.next_line();
+      solid_of_facet.resize(collector_.facets(), solids);
+      ++solids;
+    } while (!scanner_.at_end());
+    MeshDocument document = collector_.finish(std::move(bytes_));
+    if (solids > 1) {
+      document.cell_arrays.push_back(make_data_array("solid", 1, std::move(solid_of_facet)));
+      document.notes.push_back("holds " + std::to_string(solids) +
+                               " solids, numbered from 0 in the cell array 'solid': " + names);
+    }
+    return document;
+  }
+
+ private:
+  void read_facet() {
+    expect("normal");
+    for (int axis = 0; axis < 3; ++axis) {
+      // Not checked: degenerate facets have normals of NaN in many spellings, and normals are not used.
+      scanner_.next_token("a normal of three numbers");
+    }
+    expect("outer");
+    expect("loop");
+    for (int corner = 0; corner < 3; ++corner) {
+      expect("vertex");
+      std::array<double, 3> point{};
+      std::array<std::uint64_t, 3> offsets{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point[axis] = scanner_.next_double("a coordinate");
+        offsets[axis] = scanner_.token_offset();
+      }
+      collector_.add_corner(point, offsets);
+    }
+    expect("endloop");
+    expect("endfacet");
+  }
+
+  void expect(std::string_view word) {
+    const std::string_view token = scanner_.next_token(word);
+    if (!is_word(token, word)) {
+      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
+    }
+  }
+
+  /// Reads 'facet' or 'endsolid' and says whether it was 'facet'.
+  bool next_is_facet() {
+    constexpr std::string_view what = "facet or endsolid";
+    const std::string_view token = scanner_.next_token(what);
+    const bool is_facet = is_word(token, "facet");
+    if (!is_facet && !is_word(token, "endsolid")) {
+      scanner_.fail("expected " + std::string(what) + ", got " + quoted(token));
+    }
+    return is_facet;
+  }
+
+  static std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\v\f";
+    const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+    return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+  }
+
+  std::string bytes_;
+  TextScanner scanner_;
+  FacetCollector collector_;
+};
+
+bool begins_with_solid(std::string_view bytes) {
+  constexpr std::string_view word = "solid";
+  const std::size_t begin = std::min(bytes.find_first_not_of(" \t\v\f\r\n"), bytes.size());
+  return is_word(bytes.substr(begin, word.size()), word);
+}
+
+/// Binary files may begin with "solid" too, but text has no zero bytes.
+bool has_zero_byte(std::string_view bytes) {
+  return bytes.substr(0, binary_header_bytes).find('\0') != bytes.npos;
+}
+
+}  // namespace
+
+MeshDocument read_stl(const std::filesystem::path& path, std::string bytes) {
+  const bool may_be_binary = bytes.size() >= binary_header_bytes;
+  const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, title_bytes) : 0;
+  if (may_be_binary && bytes.size() == binary_header_bytes + count * binary_facet_bytes) {
+    return read_binary(path, std::move(bytes));
+  }
+  if (begins_with_solid(bytes) && !has_zero_byte(bytes)) {
+    return TextReader(path, std::move(bytes)).read();
+  }
+  if (!may_be_binary) {
+    throw ReadError(path, "is not an STL file: it does not begin with 'solid' and is too short to be binary");
+  }
+  throw ReadError(path, "byte 80: declares " + std::to_string(count) + " facets, but the file has room for " +
+                            std::to_string((bytes.size() - binary_header_bytes) / binary_facet_bytes) + " and is " +
+                            std::to_string(bytes.size()) + " bytes long where " +
+                            std::to_string(binary_header_bytes + count * binary_facet_bytes) + " are expected");
+}
+
+}  // namespace trismooth

@@ -1,0 +1,17 @@
+#include "trismooth/mesh_io/file_bytes.h"
+#include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/text_scanner.h"
+
+namespace trismooth {
+
+std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count) {
+  const std::string bytes = read_file_bytes(path);
+  TextScanner scanner(bytes, path, TextScanner::Comments::hash);
+  std::vector<std::int32_t> ids;
+  while (!scanner.at_end()) {
+    ids.push_back(static_cast<std::int32_t>(scanner.next_integer("a vertex number", 0, vertex_count - 1)));
+  }
+  return ids;
+}
+
+}  // namespace trismooth

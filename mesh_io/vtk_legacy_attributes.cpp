@@ -1,0 +1,221 @@
+#include "trismooth/mesh_io/vtk_legacy_attributes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "trismooth/mesh_io/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Where the arrays of a section go.
+struct ArrayTarget {
+  std::vector<DataArray>& arrays;
+  std::vector<std::string>& names;
+  std::string_view kind;  ///< "point", "cell" or "field"
+  std::uint64_t rows;     ///< of every array; of no meaning for fields of the whole mesh
+};
+
+class ArrayReader {
+ public:
+  ArrayReader(VtkLegacyInput& input, std::vector<std::string>& notes, ArrayTarget target)
+      : input_(input), notes_(notes), target_(target) {}
+
+  /// Reads what follows the keyword of an attribute of a section; false for another keyword.
+  bool read_attribute(const std::string& keyword) {
+    if (keyword == "scalars") {
+      read_scalars();
+    } else if (keyword == "color_scalars") {
+      read_color_scalars();
+    } else if (keyword == "lookup_table") {
+      skip_lookup_table();
+    } else if (keyword == "vectors" || keyword == "normals") {
+      read_named(3);
+    } else if (keyword == "tensors") {
+      read_named(9);
+    } else if (keyword == "tensors6") {
+      read_named(6);
+    } else if (keyword == "global_ids" || keyword == "pedigree_ids" || keyword == "edge_flags") {
+      read_named(1);
+    } else if (keyword == "texture_coordinates") {
+      std::string name = next_array_name();
+      const std::uint64_t components = next_component_count();
+      read_values(std::move(name), input_.next_type(), components, target_.rows);
+    } else if (keyword == "field") {
+      read_field();
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  /// Reads a field, whose arrays have the section's number of rows.
+  void read_field() {
+    read_field_arrays([&](const std::string& name, std::uint64_t rows) {
+      if (rows != target_.rows) {
+        input_.fail(std::string(target_.kind) + " array " + trismooth::quoted(name) + " has " + std::to_string(rows) +
+                    " rows; expected " + std::to_string(target_.rows));
+      }
+    });
+  }
+
+  /// Reads a field whose arrays have any number of rows; calls `check` with the name and number of rows of each.
+  template <class Check>
+  void read_field_arrays(Check&& check) {
+    input_.next_token("the name of a field");
+    const std::uint64_t array_count = input_.next_count("the number of arrays");
+    for (std::uint64_t i = 0; i < array_count; ++i) {
+      std::string encoded(input_.next_token("the name of an array"));
+      if (encoded == "NULL_ARRAY") {
+        continue;
+      }
+      std::string name = decode_vtk_name(encoded);
+      const std::uint64_t components = next_component_count();
+      const std::uint64_t rows = input_.next_count("the number of rows");
+      check(name, rows);
+      read_values(std::move(name), input_.next_type(), components, rows);
+    }
+  }
+
+ private:
+  std::string next_array_name() { return input_.next_name("the name of an array"); }
+
+  std::uint64_t next_component_count() {
+    const std::uint64_t components = input_.next_count("the number of components");
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    if (components == 0 || components > most) {
+      input_.fail("expected the number of components from 1 to " + std::to_string(most) + ", got " +
+                  std::to_string(components));
+    }
+    return components;
+  }
+
+  void read_named(std::uint64_t components) {
+    std::string name = next_array_name();
+    read_values(std::move(name), input_.next_type(), components, target_.rows);
+  }
+
+  void read_scalars() {
+    std::string name = next_array_name();
+    const VtkLegacyType type = input_.next_type();
+    const std::uint64_t components = input_.peek_keyword() == "lookup_table" ? 1 : next_component_count();
+    input_.expect_keyword("lookup_table");
+    input_.next_token("the name of a lookup table");
+    read_values(std::move(name), type, components, target_.rows);
+  }
+
+  /// Colours are bytes; ASCII files state them as fractions of 255.
+  void read_color_scalars() {
+    std::string name = next_array_name();
+    const std::uint64_t components = next_component_count();
+    const std::uint64_t count = input_.value_count(components, target_.rows, "colours");
+    std::vector<std::uint8_t> colors;
+    if (input_.is_binary()) {
+      colors = input_.read_values<std::uint8_t>(count, "colours");
+    } else {
+      input_.begin_values(count, 1, "colours");
+      colors.reserve(count);
+      for (std::uint64_t i = 0; i < count; ++i) {
+        const float value = input_.next_value<float>("a colour");
+        const double fraction = value > 0 ? std::min(1.0, static_cast<double>(value)) : 0;
+        colors.push_back(static_cast<std::uint8_t>(255.0 * fraction + 0.5));
+      }
+    }
+    add(make_data_array(std::move(name), components, std::move(colors)));
+    input_.skip_metadata(components);
+  }
+
+  void skip_lookup_table() {
+    constexpr std::uint64_t rgba = 4;
+    const std::string name = input_.next_name("the name of a lookup table");
+    const std::uint64_t size = input_.next_count("the number of colours");
+    const std::uint64_t count = input_.value_count(size, rgba, "colours");
+    input_.begin_values(count, 1, "colours");
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (input_.is_binary()) {
+        input_.next_value<std::uint8_t>("a colour");
+      } else {
+        input_.next_value<float>("a colour");
+      }
+    }
+    notes_.push_back("lookup table " + trismooth::quoted(name) + " is kept in this file only, not in other formats");
+  }
+
+  void read_values(std::string name, VtkLegacyType type, std::uint64_t components, std::uint64_t rows) {
+    const std::string what = "values of " + std::string(target_.kind) + " array " + trismooth::quoted(name);
+    const std::uint64_t count = input_.value_count(components, rows, what);
+    switch (type.kind) {
+      case VtkLegacyType::Kind::numbers:
+        add(visit_scalar_type(type.scalar, [&](auto zero) {
+          return make_data_array(std::move(name), components, input_.read_values<decltype(zero)>(count, what));
+        }));
+        break;
+      case VtkLegacyType::Kind::bits:
+        add(make_data_array(std::move(name), components, input_.read_bits(count, what)));
+        break;
+      case VtkLegacyType::Kind::strings:
+        input_.skip_strings(count, what);
+        note_skipped(std::move(name), "strings");
+        break;
+      case VtkLegacyType::Kind::variants:
+        input_.skip_variants(count, what);
+        note_skipped(std::move(name), "variants");
+        break;
+    }
+    input_.skip_metadata(components);
+  }
+
+  void add(DataArray array) {
+    target_.names.push_back(array.name);
+    target_.arrays.push_back(std::move(array));
+  }
+
+  void note_skipped(std::string name, std::string_view content) {
+    notes_.push_back(std::string(target_.kind) + " array " + trismooth::quoted(name) + " holds " +
+                     std::string(content) + ": it is kept in this file only, not in other formats");
+    target_.names.push_back(std::move(name));
+  }
+
+  VtkLegacyInput& input_;
+  std::vector<std::string>& notes_;
+  ArrayTarget target_;
+};
+
+}  // namespace
+
+void read_vtk_legacy_field(VtkLegacyInput& input, MeshDocument& document) {
+  std::vector<std::string> names;
+  ArrayReader reader(input, document.notes, {document.field_arrays, names, "field", 0});
+  reader.read_field_arrays([](const std::string&, std::uint64_t) {});
+}
+
+void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, VtkLegacyLayout& layout) {
+  using Section = VtkLegacyLayout::Section;
+  ArrayReader points(input, document.notes,
+                     {document.point_arrays, layout.point_names, "point", document.point_count()});
+  ArrayReader cells(input, document.notes, {document.cell_arrays, layout.cell_names, "cell", document.cells.size()});
+  while (!input.at_end()) {
+    const std::string token(input.next_token("a keyword"));
+    const std::string keyword = lower_case(token);
+    if (keyword == "point_data" || keyword == "cell_data") {
+      layout.last_section = keyword == "point_data" ? Section::point_data : Section::cell_data;
+      const std::uint64_t expected =
+          layout.last_section == Section::point_data ? document.point_count() : document.cells.size();
+      const std::uint64_t rows = input.next_count("the number of rows");
+      if (rows != expected) {
+        input.fail(token + " declares " + std::to_string(rows) + " rows; expected " + std::to_string(expected));
+      }
+    } else {
+      ArrayReader& section = layout.last_section == Section::point_data ? points : cells;
+      if (!section.read_attribute(keyword)) {
+        input.fail("unknown keyword " + trismooth::quoted(token) + " in the point and cell data");
+      }
+    }
+  }
+}
+
+}  // namespace trismooth

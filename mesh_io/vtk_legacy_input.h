@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/vtk_legacy_names.h"
+
+namespace trismooth {
+
+/// Reads a legacy VTK file from front to back: keywords, then the values that a keyword announces, by the same calls
+/// for ASCII files and for BINARY ones (keywords as text, values big-endian). Everything that fails throws ReadError
+/// with the line (ASCII) or byte offset (BINARY) of what was read last. The bytes must outlive the input.
+class VtkLegacyInput {
+ public:
+  /// Reads the header: version, title, encoding. Stands before the DATASET keyword then.
+  VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path);
+
+  bool is_binary() const { return binary_; }
+
+  /// True where nothing but white space is left.
+  bool at_end() { return scanner_.at_end(); }
+
+  /// The next token in lower case; empty at the end of the file. The input stays where it is, before any white space:
+  /// that may belong to binary data.
+  std::string peek_keyword();
+  /// The next token; fails at the end of the file: "expected <what>, got the end of the file".
+  std::string_view next_token(std::string_view what);
+  /// The next token, decoded.
+  std::string next_name(std::string_view what) { return decode_vtk_name(next_token(what)); }
+  /// The next token as the name of a type; fails on an unknown one.
+  VtkLegacyType next_type();
+  /// The next token as a whole number from 0 to 2^63 - 1; fails on anything else.
+  std::uint64_t next_count(std::string_view what);
+  /// Reads the keyword `keyword` (lower case); fails on anything else.
+  void expect_keyword(std::string_view keyword);
+
+  /// Stands before `count` values, of `bytes_each` in BINARY files: fails where the rest of the file cannot hold them,
+  /// and passes the end of the header line before BINARY data.
+  void begin_values(std::uint64_t count, std::size_t bytes_each, std::string_view what);
+  /// The next value. In ASCII files any white space may stand before it, integers are checked for their range, and
+  /// numbers of floating point may be infinite or NaN.
+  template <class T>
+  T next_value(std::string_view what);
+  /// The next value of a list of integers; of `type` in BINARY files, of up to 64 bits in ASCII ones.
+  std::int64_t next_integer(ScalarType type, std::string_view what);
+  /// Byte offset of the value that was read last.
+  std::size_t value_offset() const { return binary_ ? place_ : scanner_.token_offset(); }
+  /// begin_values(), then all of them.
+  template <class T>
+  std::vector<T> read_values(std::uint64_t count, std::string_view what);
+  /// The same for single bits, as 0 and 1: eight a byte in BINARY files, the first one in the highest bit.
+  std::vector<std::uint8_t> read_bits(std::uint64_t count, std::string_view what);
+
+  /// Passes `count` strings: one a line in ASCII files, behind their length in BINARY ones.
+  void skip_strings(std::uint64_t count, std::string_view what);
+  /// Passes `count` variants: the number of a type and a text each, as text in both encodings.
+  void skip_variants(std::uint64_t count, std::string_view what);
+  /// Passes the METADATA block of an array of `components`, if there is one: it ends at an empty line.
+  void skip_metadata(std::uint64_t components);
+
+  /// a * b values, declared by two numbers of the file; fails where the product has more than 64 bits.
+  std::uint64_t value_count(std::uint64_t a, std::uint64_t b, std::string_view what) const;
+
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void read_header();
+  std::uint64_t bytes_left() const { return scanner_.text().size() - scanner_.offset(); }
+  void require_values(std::uint64_t count, std::uint64_t room, std::string_view what) const;
+  void pass_header_line();
+  template <class T>
+  T next_text_value(std::string_view what);
+  template <class T>
+  T next_binary_value(std::string_view what);
+  std::uint64_t next_string_length(std::string_view what);
+
+  TextScanner scanner_;
+  bool binary_ = false;
+  std::size_t place_ = 0;  ///< byte offset of the token or BINARY value that was read last
+};
+
+}  // namespace trismooth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+
+namespace trismooth {
+
+/// What an array of a legacy VTK file holds.
+struct VtkLegacyType {
+  enum class Kind : std::uint8_t { numbers, bits, strings, variants };
+
+  Kind kind = Kind::numbers;
+  ScalarType scalar = ScalarType::float64;  ///< of numbers, as a BINARY file stores them
+};
+
+/// The type that `name` (any case) stands for in a legacy VTK file, or nothing. `long` has 8 bytes; `vtkIdType` has 4,
+/// the width in which VTK writes it to these files.
+std::optional<VtkLegacyType> vtk_legacy_type(std::string_view name);
+
+/// The name under which every version of VTK since 8 reads numbers of `type` with the same width on every system.
+std::string_view vtk_legacy_type_name(ScalarType type);
+
+/// `text` in lower case (ASCII letters only): keywords are compared in this form.
+std::string lower_case(std::string_view text);
+/// `text` in upper case (ASCII letters only): messages show keywords in this form.
+std::string upper_case(std::string_view text);
+
+/// The name behind its %-encoded form in the file ("heat%20flux" is "heat flux"); a '%' that starts no code stays.
+std::string decode_vtk_name(std::string_view encoded);
+
+/// The %-encoded form of a name: one token, none that VTK would take for a keyword.
+std::string encode_vtk_name(std::string_view name);
+
+/// `name`, or the first of name_1, name_2, ... that is not among `taken`; "unnamed" in place of an empty name.
+std::string free_array_name(std::string_view name, std::span<const std::string> taken);
+
+}  // namespace trismooth

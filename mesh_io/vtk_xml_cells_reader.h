@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vtkSmartPointer.h>
+
+#include "trismooth/mesh_io/vtk_xml_decoder.h"
+#include "trismooth/mesh_io/vtk_xml_pieces.h"
+
+class vtkCellArray;
+class vtkUnsignedCharArray;
+
+namespace trismooth {
+
+/// Reads the cells of all pieces of a file, joined.
+class VtkXmlCellsReader {
+ public:
+  /// All arguments must outlive the reader. What cannot be kept as it was gives a sentence in `notes`.
+  VtkXmlCellsReader(const std::filesystem::path& path, std::span<const VtkXmlPiece> pieces, VtkXmlDecoder& decoder,
+                    std::vector<std::string>& notes)
+      : path_(path), pieces_(pieces), decoder_(decoder), notes_(notes) {}
+
+  /// The cells in the elements of that name ("Cells", "Polys", ...), of which piece i has counts[i]. Offsets rise,
+  /// and every index is one of a point. 32-bit indices where the file has no others. Throws ReadError.
+  vtkSmartPointer<vtkCellArray> read_cells(const std::string& section, std::span<const std::uint64_t> counts);
+
+  /// The types of the cells in <Cells>; every cell has as many vertices as its type asks for. Throws ReadError.
+  vtkSmartPointer<vtkUnsignedCharArray> read_types(vtkCellArray& cells);
+
+ private:
+  struct Arrays;
+
+  const XmlElement* array_of(const XmlElement* section, std::string_view name) const;
+  Arrays arrays_of(const VtkXmlPiece& piece, const std::string& section) const;
+
+  template <class Index>
+  vtkSmartPointer<vtkCellArray> join_cells(const std::string& section, std::span<const std::uint64_t> counts);
+  template <class Index>
+  void append_integers(const XmlElement& array, std::uint64_t count, MemoryBlock& integers);
+
+  const std::filesystem::path& path_;
+  std::span<const VtkXmlPiece> pieces_;
+  VtkXmlDecoder& decoder_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace trismooth

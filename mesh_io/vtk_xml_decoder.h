@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <vtkSmartPointer.h>
+
+#include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/encoded_bytes.h"
+#include "trismooth/mesh_io/memory_block.h"
+#include "trismooth/mesh_io/vtk_messages.h"
+#include "trismooth/mesh_io/vtk_xml_header.h"
+#include "trismooth/mesh_io/xml_tree.h"
+
+class vtkDataCompressor;
+
+namespace trismooth {
+
+/// Decodes the arrays of a file of VTK's XML formats: text, base64 or raw bytes, inline or appended, compressed or
+/// not, in either byte order. Everything that the file declares is checked against the bytes at hand before memory is
+/// taken: what is allocated stays within a small multiple of what was decoded. VTK's own reader stops the program,
+/// reads past the end or returns garbage on many malformed files; this takes its place.
+class VtkXmlDecoder {
+ public:
+  /// `bytes`, the whole file, must outlive the decoder.
+  VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header);
+  ~VtkXmlDecoder();
+  VtkXmlDecoder(const VtkXmlDecoder&) = delete;
+  VtkXmlDecoder& operator=(const VtkXmlDecoder&) = delete;
+
+  /// Appends the numbers of the array element, of that type, to `numbers` in this machine's byte order. There must be
+  /// `count` of them; any number where `count` is empty. Throws ReadError.
+  void read_numbers(const XmlElement& array, ScalarType type, std::optional<std::uint64_t> count, MemoryBlock& numbers);
+
+  /// The same for an array of bits: appends one byte, 0 or 1, for each of the `count` bits.
+  void read_bits(const XmlElement& array, std::uint64_t count, MemoryBlock& bits);
+
+  /// The same for an array of strings.
+  void read_strings(const XmlElement& array, std::uint64_t count, std::vector<std::string>& strings);
+
+ private:
+  void read_bytes(const XmlElement& array, std::size_t word_size, std::optional<std::uint64_t> expected,
+                  MemoryBlock& bytes);
+  void read_plain(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
+                  std::optional<std::uint64_t> expected, MemoryBlock& bytes);
+  void read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
+                       std::optional<std::uint64_t> expected, MemoryBlock& bytes);
+  void uncompress_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size,
+                        std::uint64_t size, MemoryBlock& bytes);
+  std::vector<std::uint64_t> read_header_words(const XmlElement& array, EncodedBytes& source, std::size_t count) const;
+  void check_size(const XmlElement& array, std::uint64_t size, std::size_t word_size,
+                  std::optional<std::uint64_t> expected) const;
+  EncodedBytes source_of(const XmlElement& array) const;
+  std::string_view text_of(const XmlElement& array) const;
+
+  [[noreturn]] void fail(const XmlElement& array, const std::string& message) const;
+  [[noreturn]] void fail_at(const XmlElement& array, const char* place, const std::string& message) const;
+
+  template <class T>
+  void read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers) const;
+
+  std::filesystem::path path_;
+  std::string_view bytes_;
+  VtkXmlHeader header_;
+  VtkMessages messages_;
+  vtkSmartPointer<vtkDataCompressor> compressor_;
+  std::uint64_t appended_used_ = 0;
+  std::vector<unsigned char> compressed_block_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trismooth {
+
+/// The name as the value of an XML attribute: markup, quotes and line ends escaped, control characters that XML cannot
+/// hold replaced by '?'. Bytes that are not UTF-8 are taken for Latin-1.
+std::string escape_xml_attribute(std::string_view name);
+
+}  // namespace trismooth

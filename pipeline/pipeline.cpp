@@ -1,0 +1,229 @@
+#include "trismooth/pipeline/pipeline.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/plane_smoothing.h"
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/smooth.h"
+
+namespace trismooth {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// One run over one file. The stages are called in their order; each fills its part of the result.
+class Run {
+ public:
+  explicit Run(const PipelineOptions& options) : options_(options), workers_(options.smoothing.threads) {}
+
+  PipelineResult run() {
+    const auto start = Clock::now();
+    options_.smoothing.validate();
+    if (options_.output) {
+      output_format(*options_.output);  // an unknown extension is said before any work
+    }
+    timed(Stage::read, result_.timings_ms.read, [&] { read(); });
+    timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
+    timed(Stage::check_before, result_.timings_ms.check_before, [&] { result_.before = check(); });
+    if (options_.output) {
+      begin(Stage::smooth);
+      smooth();
+      timed(Stage::check_after, result_.timings_ms.check_after, [&] { result_.after = check(); });
+      timed(Stage::write, result_.timings_ms.write, [&] { write(); });
+    }
+    result_.timings_ms.total = milliseconds_since(start);
+    result_.peak_memory_bytes = peak_memory_bytes();
+    return std::move(result_);
+  }
+
+ private:
+  void begin(Stage stage) const {
+    if (options_.stage_started && options_.stage_started(stage) == Progress::stop) {
+      throw Cancelled();
+    }
+  }
+
+  template <class Body>
+  void timed(Stage stage, double& milliseconds, const Body& body) {
+    begin(stage);
+    const auto start = Clock::now();
+    body();
+    milliseconds += milliseconds_since(start);
+  }
+
+  void read() {
+    document_ = read_mesh(options_.input);
+    result_.notes = document_.notes;
+    result_.input.path = options_.input;
+    result_.input.format = document_.format;
+    result_.input.vertices = static_cast<std::int64_t>(document_.point_count());
+  }
+
+  /// From cells to one-rings: orientation, constraints, the halfedge mesh.
+  void connect() {
+    mesh_ = planar_mesh(document_, options_.input);
+    std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
+    enter_frame();
+    const Regions regions = find_regions(document_, mesh_, options_.region_array);
+    const TriangleTopology topology = connected_triangles();
+    Orientation orientation = orient(topology, mesh_.triangles, local_);
+    reversed_ = std::move(orientation.reversed);
+    fixed_ = fixed(topology, regions);
+    {
+      const HalfedgeMesh halfedges =
+          build_halfedge_mesh(document_.points, mesh_.triangles, topology, reversed_);
+      rings_ = one_rings(halfedges.mesh, fixed_, {}, workers_);
+    }
+    InputSummary& input = result_.input;
+    input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
+    input.other_cells = mesh_.other_cells;
+    input.regions = regions.count;
+    input.region_array = regions.array;
+    input.components = topology.components;
+    input.free_vertices = std::ranges::count(fixed_, 0);
+    input.fixed_vertices = input.vertices - input.free_vertices;
+    input.reoriented_triangles = orientation.reoriented_triangles;
+  }
+
+  TriangleTopology connected_triangles() {
+    try {
+      return connect_triangles(static_cast<std::int32_t>(document_.point_count()), mesh_.triangles, workers_);
+    } catch (const MeshError& error) {
+      throw ReadError(options_.input, error.what());
+    }
+  }
+
+  std::vector<std::uint8_t> fixed(const TriangleTopology& topology, const Regions& regions) const {
+    const std::vector<std::uint8_t> named =
+        fixed_by_array(document_, options_.fixed_array.value_or("fixed"), options_.fixed_array.has_value());
+    const std::vector<std::int32_t> ids = options_.fixed_ids
+                                              ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices)
+                                              : std::vector<std::int32_t>{};
+    return fixed_vertices(topology, mesh_.triangles,
+                          {.fixed = named,
+                           .fixed_ids = ids,
+                           .other_cells = mesh_.in_other_cell,
+                           .regions = regions.of_triangle});
+  }
+
+  void enter_frame() {
+    frame_ = local_frame(mesh_.points);
+    local_.resize(mesh_.points.size());
+    std::ranges::transform(mesh_.points, local_.begin(), [&](Point2<double> p) { return frame_.enter(p); });
+  }
+
+  QualityReport check() {
+    QualityReport report = quality_report({local_, mesh_.triangles, reversed_, frame_.exponent},
+                                          {.threads = options_.smoothing.threads});
+    for (WorstElement& element : report.worst) {
+      element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
+      element.centroid = frame_.leave(element.centroid);
+    }
+    return report;
+  }
+
+  void smooth() {
+    if (options_.annotate) {
+      input_points_ = document_.points;
+    }
+    const std::vector<Point2<double>> input_points = mesh_.points;
+    const bool wants_shape = options_.smoothing.target_quality || options_.smoothing.record_min_shape;
+    const double fixed_quotient = wants_shape ? smallest_fixed_quotient(local_, mesh_.triangles, reversed_, fixed_)
+                                              : std::numeric_limits<double>::infinity();
+    const Storage storage = document_.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
+    SmoothingResult smoothing = smooth_in_plane(rings_, mesh_.plane, document_.points, mesh_.points, local_,
+                                                fixed_quotient, storage, options_.smoothing);
+    if (smoothing.stop_reason == StopReason::cancelled) {
+      throw Cancelled();
+    }
+    enter_frame();
+    hash_coordinates(input_points, smoothing);
+    result_.timings_ms.topology += smoothing.timings.prepare;
+    result_.timings_ms.transfer_in = smoothing.timings.transfer_in;
+    result_.timings_ms.smooth = smoothing.timings.smooth;
+    result_.timings_ms.transfer_out = smoothing.timings.transfer_out;
+    result_.timings_ms.commit = smoothing.timings.commit;
+    result_.smoothing = std::move(smoothing);
+  }
+
+  void hash_coordinates(const std::vector<Point2<double>>& input_points, const SmoothingResult& smoothing) {
+    result_.coordinates_hash = result_.uncommitted_hash = coordinates_hash(document_.points);
+    if (smoothing.reverted.empty()) {
+      return;
+    }
+    std::vector<double> uncommitted = document_.points;
+    for (const auto& [vertex, position] : smoothing.reverted) {
+      Eigen::Map<Eigen::Vector3d> point(uncommitted.data() + 3 * static_cast<std::size_t>(vertex));
+      const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
+      point = document_.point_type == ScalarType::float32 ? moved.cast<float>().cast<double>().eval() : moved;
+    }
+    result_.uncommitted_hash = coordinates_hash(uncommitted);
+  }
+
+  void write() {
+    const FileFormat target = output_format(*options_.output);
+    std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.notes));
+    if (options_.annotate && !has_arrays(target)) {
+      result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
+    }
+    write_mesh(*options_.output, document_, options_.annotate ? annotations() : AddedArrays{});
+  }
+
+  AddedArrays annotations() const {
+    std::vector<double> shapes(document_.cells.size(), 0.0);  // cells that are no triangles have none
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = canonical_corners(mesh_.triangles[t], reversed_[t] != 0);
+      shapes[static_cast<std::size_t>(mesh_.cells[t])] = trismooth::shape(local_[a], local_[b], local_[c]);
+    }
+    std::vector<std::uint8_t> flags(fixed_.size());
+    std::ranges::transform(fixed_, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
+    std::vector<double> displacements(document_.points.size());
+    std::ranges::transform(document_.points, input_points_, displacements.begin(), std::minus<>());
+    AddedArrays added;
+    added.cell_arrays.push_back(make_data_array("shape", 1, std::move(shapes)));
+    added.point_arrays.push_back(make_data_array("fixed", 1, std::move(flags)));
+    added.point_arrays.push_back(make_data_array("displacement", 3, std::move(displacements)));
+    return added;
+  }
+
+  const PipelineOptions& options_;
+  Workers workers_;
+  PipelineResult result_;
+  MeshDocument document_;
+  PlanarMesh mesh_;
+  LocalFrame frame_;
+  std::vector<Point2<double>> local_;  ///< mesh_.points in the local frame
+  std::vector<std::uint8_t> reversed_;
+  std::vector<std::uint8_t> fixed_;
+  OneRings rings_;
+  std::vector<double> input_points_;  ///< for --annotate
+};
+
+}  // namespace
+
+PipelineResult run_pipeline(const PipelineOptions& options) { return Run(options).run(); }
+
+}  // namespace trismooth

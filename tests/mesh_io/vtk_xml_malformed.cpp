@@ -1,0 +1,274 @@
+// Malformed VTU and VTP files: each is refused with a message or read consistently; none crashes, and nothing of VTK
+// reaches standard error.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+
+#include "catch.h"
+#include "vtk_xml_samples.h"
+
+using trismooth::MeshDocument;
+using trismooth::ReadError;
+using trismooth::VtkXmlCompressor;
+using trismooth::VtkXmlEncoding;
+using trismooth::VtkXmlKind;
+using trismooth::VtkXmlMode;
+using namespace vtk_xml_samples;
+
+namespace {
+
+/// Keeps the first thing that VTK would print.
+class KeepingWindow : public vtkOutputWindow {
+ public:
+  static KeepingWindow* New() {
+    auto* const window = new KeepingWindow;
+    window->InitializeObjectBase();
+    return window;
+  }
+  void DisplayText(const char* text) override { first = first.empty() ? text : first; }
+  std::string first;
+};
+
+class Silence {
+ public:
+  Silence() { vtkOutputWindow::SetInstance(window_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+  ~Silence() { vtkOutputWindow::SetInstance(nullptr); }
+  std::string broken_by() const { return window_->first; }
+
+ private:
+  vtkSmartPointer<KeepingWindow> window_ = vtkSmartPointer<KeepingWindow>::New();
+};
+
+MeshDocument read(VtkXmlKind kind, const std::string& bytes) {
+  return kind == VtkXmlKind::unstructured_grid ? trismooth::vtu_codec.read("a.vtu", bytes)
+                                               : trismooth::vtp_codec.read("a.vtp", bytes);
+}
+
+/// What a reader promises of every document.
+bool is_consistent(const MeshDocument& document) {
+  const auto points = static_cast<std::int64_t>(document.point_count());
+  const auto rows_are = [](std::size_t rows) {
+    return [rows](const trismooth::DataArray& array) { return array.rows() == rows; };
+  };
+  return std::ranges::all_of(document.points, [](double x) { return std::isfinite(x); }) &&
+         std::ranges::all_of(document.cells.connectivity, [points](auto v) { return v >= 0 && v < points; }) &&
+         std::ranges::is_sorted(document.cells.offsets) && document.cells.offsets.size() == document.cells.size() + 1 &&
+         document.cells.offsets.back() == static_cast<std::int64_t>(document.cells.connectivity.size()) &&
+         std::ranges::all_of(document.point_arrays, rows_are(document.point_count())) &&
+         std::ranges::all_of(document.cell_arrays, rows_are(document.cells.size()));
+}
+
+std::vector<VtkXmlEncoding> some_encodings() {
+  return {{VtkXmlMode::ascii, true, VtkXmlCompressor::none, false, true},
+          {VtkXmlMode::binary, true, VtkXmlCompressor::none, false, false},
+          {VtkXmlMode::binary, true, VtkXmlCompressor::zlib, true, true},
+          {VtkXmlMode::appended, true, VtkXmlCompressor::none, false, true},
+          {VtkXmlMode::appended, true, VtkXmlCompressor::lz4, false, false},
+          {VtkXmlMode::appended, false, VtkXmlCompressor::none, true, false},
+          {VtkXmlMode::appended, false, VtkXmlCompressor::zlib, false, true},
+          {VtkXmlMode::appended, false, VtkXmlCompressor::lz4, false, true},
+          {VtkXmlMode::appended, false, VtkXmlCompressor::lzma, false, true}};
+}
+
+std::string file_of(VtkXmlKind kind, const VtkXmlEncoding& encoding) {
+  const TemporaryPath file(extension_of(kind));
+  write_with_vtk(*make_grid(kind, 3), file.path(), encoding);
+  return read_bytes(file.path());
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+const std::string good_vtu = R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid>
+<Piece NumberOfPoints="3" NumberOfCells="1">
+<PointData><DataArray type="Int16" Name="a" format="ascii">
+1 2
+3</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">3</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>
+)";
+
+const std::string good_raw = std::string(R"(<VTKFile type="UnstructuredGrid" version="1.0" header_type="UInt32">
+<UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="0">
+<PointData><DataArray type="UInt8" Name="a" format="appended" offset="0"/></PointData>
+<Points><DataArray type="Float32" NumberOfComponents="3" format="appended" offset="5"/></Points>
+</Piece></UnstructuredGrid>
+<AppendedData encoding="raw">_)") +
+                             std::string("\x01\0\0\0\x07\x0C\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 21) +
+                             "</AppendedData></VTKFile>";
+
+std::string message_of(VtkXmlKind kind, const std::string& bytes) {
+  try {
+    read(kind, bytes);
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  return "read without an error";
+}
+
+}  // namespace
+
+TEST_CASE("a file cut off anywhere is refused, or nothing that counts was cut off") {
+  const Silence silence;
+  const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
+  for (const VtkXmlEncoding& encoding : some_encodings()) {
+    CAPTURE(to_string(encoding), kind);
+    const std::string bytes = file_of(kind, encoding);
+    std::size_t accepted = 0;
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      try {
+        const MeshDocument document = read(kind, bytes.substr(0, size));
+        ++accepted;
+        if (document.point_count() != 9 || document.cells.size() != 8 || !is_consistent(document)) {
+          FAIL("read wrongly when cut off at " << size);
+        }
+      } catch (const ReadError&) {
+      }
+    }
+    CHECK(accepted < 40);
+  }
+  CHECK(silence.broken_by() == "");
+}
+
+TEST_CASE("damaged bytes never crash the reader or break its promises") {
+  const Silence silence;
+  const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
+  std::mt19937 random(7);
+  for (const VtkXmlEncoding& encoding : some_encodings()) {
+    CAPTURE(to_string(encoding), kind);
+    const std::string bytes = file_of(kind, encoding);
+    const TemporaryPath output(extension_of(kind));
+    for (int i = 0; i < 3000; ++i) {
+      std::string damaged = bytes;
+      for (auto flips = 1 + random() % 3; flips > 0; --flips) {
+        // Half of the damage keeps to digits, so that counts and sizes are hit and the XML stays well-formed.
+        char& byte = damaged[random() % damaged.size()];
+        byte = random() % 2 == 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
+      }
+      try {
+        const MeshDocument document = read(kind, damaged);
+        if (!is_consistent(document)) {
+          FAIL("inconsistent after damage " << i);
+        }
+        if (i % 8 == 0) {
+          document.original->write(output.path(), document, {}, {});
+        }
+      } catch (const ReadError&) {
+      }
+    }
+  }
+  CHECK(silence.broken_by() == "");
+}
+
+TEST_CASE("malformed elements are refused with the place and the reason") {
+  const Silence silence;
+  REQUIRE(is_consistent(read(VtkXmlKind::unstructured_grid, good_vtu)));
+  struct Case {
+    std::string from, to, message;
+  };
+  const Case cases[] = {
+      {"\"UnstructuredGrid\"", "\"ImageData\"", "a.vtu:2: expected a VTKFile of type UnstructuredGrid"},
+      {"version=\"0.1\"", "version=\"3.0\"", "a.vtu:2: file version '3.0'"},
+      {"LittleEndian", "MiddleEndian", "a.vtu:2: <VTKFile> has byte_order 'MiddleEndian'"},
+      {"byte_order", "compressor=\"vtkFooDataCompressor\" byte_order", "has compressor 'vtkFooDataCompressor'"},
+      {"byte_order", "header_type=\"UInt16\" byte_order", "has header_type 'UInt16'"},
+      {"<?xml version=\"1.0\"?>", "<!DOCTYPE a>", "document type declarations"},
+      {"</Piece>", "", "a.vtu:12: is not well-formed XML"},
+      {"NumberOfPoints=\"3\" ", "", "a.vtu:4: <Piece> has no NumberOfPoints"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"-3\"", "expected a whole number as NumberOfPoints, got '-3'"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"4294967299\"", "a.vtu:4: NumberOfPoints is 4294967299"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"18446744073709551619\"", "expected a whole number"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"2000000000\"", "has room for"},
+      {"NumberOfCells=\"1\"", "NumberOfCells=\"2000000000\"", "array 'offsets' should hold 2000000000 numbers"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"2\"", "holds more than the 6 numbers"},
+      {"NumberOfCells=\"1\"", "NumberOfCells=\"2\"", "array 'offsets' should hold 2 numbers, but has room for 1"},
+      {"Int16", "Int17", "a.vtu:5: array 'a' has type 'Int17'"},
+      {"Int16", "Int8\" NumberOfComponents=\"0", "array 'a' has 0 components"},
+      {"Int16", "Int8\" NumberOfComponents=\"99999999999", "array 'a' has 99999999999 components"},
+      {"Int16", "Int8\" TimeStep=\"0", "holds time steps"},
+      {" Name=\"a\"", "", "an array of <PointData> has no Name"},
+      {"format=\"ascii\">\n1", "format=\"hex\">\n1", "has format 'hex'"},
+      {"1 2\n3", "1 2\n3.5", "a.vtu:7: array 'a' expected a number of its type, got '3.5'"},
+      {"1 2\n3", "1 2\n40000", "a.vtu:7: array 'a' expected a number of its type, got '40000'"},
+      {"1 2\n3", "1 2\n3 4", "a.vtu:7: array 'a' holds more than the 3 numbers"},
+      {"1 2\n3", "1 2", "a.vtu:5: array 'a' holds 2 numbers, expected 3"},
+      {"\"Float64\"", "\"Int32\"", "expected points as 3 components of Float32 or Float64"},
+      {"NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", "expected points as 3 components"},
+      {"<Points>", "<Points><DataArray type=\"Int8\"/>", "expected one array in <Points>, got 2"},
+      {"0 0 0 1", "0 nan 0 1", "point 0 is not finite"},
+      {"0 0 0 1", "0 1e999 0 1", "got '1e999'"},
+      {">0 1 2<", ">0 1 3<", "a.vtu:9: a cell of <Cells> has the point index 3; there are 3 points"},
+      {">0 1 2<", ">0 1 -1<", "point index -1"},
+      {">0 1 2<", ">0 1 4294967296<", "got '4294967296'"},
+      {">0 1 2<", ">0 1<", "array 'connectivity' should hold 3 numbers, but has room for 2"},
+      {">0 1 2<", ">0 1 2 0<", "array 'connectivity' holds more than the 3 numbers"},
+      {">3<", ">2000000000<", "array 'connectivity' should hold 2000000000 numbers"},
+      {">3<", ">-3<", "fall from 0 to -3"},
+      {"\"Int32\" Name=\"offsets\"", "\"Float32\" Name=\"offsets\"", "'offsets' does not hold one whole number a row"},
+      {"Name=\"offsets\"", "Name=\"offset\"", "<Cells> has no array 'offsets'"},
+      {"Name=\"types\"", "Name=\"type\"", "<Cells> has no array 'types'"},
+      {">5<", ">9<", "cell 0 of type 9 has 3 vertices"},
+      {">5<", ">42<", "cell 0 has type 42"},
+      {">5<", ">256<", "got '256'"},
+  };
+  for (const Case& each : cases) {
+    CAPTURE(each.from, each.to);
+    const std::string message = message_of(VtkXmlKind::unstructured_grid, replaced(good_vtu, each.from, each.to));
+    CAPTURE(message);
+    CHECK(message.find(each.message) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  }
+  CHECK(message_of(VtkXmlKind::poly_data, good_vtu).find("expected a VTKFile of type PolyData") != std::string::npos);
+  CHECK(silence.broken_by() == "");
+}
+
+TEST_CASE("block headers that lie are refused before memory is taken") {
+  const Silence silence;
+  REQUIRE(is_consistent(read(VtkXmlKind::unstructured_grid, good_raw)));
+  using namespace std::string_literals;
+  const std::pair<std::string, std::pair<std::string, std::string>> cases[] = {
+      {"\x01\0\0\0\x07"s, {"\xFF\xFF\xFF\xFF\x07"s, "declares 4294967295 bytes of data, expected 1"}},
+      {"\x0C\0\0\0"s, {"\x0D\0\0\0"s, "declares 13 bytes of data, expected 12"}},
+      {"offset=\"5\"", {"offset=\"999\"", "has offset '999'; the appended data have 21 bytes"}},
+      {"offset=\"5\"", {"offset=\"-5\"", "has offset '-5'"}},
+      {"offset=\"5\"", {"offset=\"18\"", "ends within its block header"}},
+      {"offset=\"5\"", {"", "has offset (none)"}},
+      {"offset=\"0\"", {"offset=\"21\"", "ends within its block header"}},
+      {">_", {">", "does not start with '_'"}},
+      {"</AppendedData>", {"", "the file is cut off"}},
+      {"NumberOfPoints=\"1\"", {"NumberOfPoints=\"2147483647\"", "declares 12 bytes of data, expected 25769803764"}},
+  };
+  for (const auto& [from, change] : cases) {
+    const std::string message = message_of(VtkXmlKind::unstructured_grid, replaced(good_raw, from, change.first));
+    CAPTURE(from, change.first, message);
+    CHECK(message.find(change.second) != std::string::npos);
+  }
+  CHECK(silence.broken_by() == "");
+}
+
+TEST_CASE("arrays that share their appended data are refused") {
+  // Else a small file could make the reader fill the memory.
+  const std::string again = R"(<DataArray type="UInt8" Name="b" format="appended" offset="0"/></PointData>)";
+  CHECK(message_of(VtkXmlKind::unstructured_grid, replaced(good_raw, "</PointData>", again)).find("overlaps") !=
+        std::string::npos);
+}
