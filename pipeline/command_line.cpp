@@ -4,6 +4,7 @@
 #include <array>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -13,7 +14,6 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
-#include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 
@@ -64,7 +64,7 @@ class HelpFormatter : public CLI::Formatter {
 
 /// The parser's message, or a better one where it would not help.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string message = error.what();
+  std::string message = error.what();
   if (app.get_subcommands().empty()) {
     const auto rest = app.remaining();
     return rest.empty() ? "no command given" : "unknown command '" + rest.front() + "'";
@@ -75,14 +75,12 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   return message;
 }
 
-ExitCode wrong_usage(const CLI::App& app, const CLI::ParseError& error, std::ostream& err) {
-  print_error(err, usage_message(app, error));
+std::string help_hint(const CLI::App& app) {
   std::string command = app.get_name();
   for (const CLI::App* const subcommand : app.get_subcommands()) {
     command += " " + subcommand->get_name();
   }
-  print_note(err, "'" + command + " --help' shows what is possible");
-  return ExitCode::wrong_usage;
+  return "'" + command + " --help' shows what is possible";
 }
 
 ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const CommandEnvironment& environment) {
@@ -98,7 +96,7 @@ ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const Comm
   } catch (const CLI::Success& help_or_version) {
     return static_cast<ExitCode>(app.exit(help_or_version, environment.out, environment.err));
   } catch (const CLI::ParseError& error) {
-    return wrong_usage(app, error, environment.err);
+    throw std::invalid_argument(usage_message(app, error) + "; " + help_hint(app));
   }
   const auto chosen =
       std::ranges::find_if(subcommands, [](const Subcommand& subcommand) { return subcommand.app->parsed(); });

@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <new>
@@ -17,7 +18,7 @@ struct StateDeleter {
 };
 
 /// The numbers are turned around one by one: the way of a big-endian machine.
-std::uint64_t hash_of_reversed_bytes(std::span<const double> xyz) {
+[[maybe_unused]] std::uint64_t hash_of_reversed_bytes(std::span<const double> xyz) {
   const std::unique_ptr<XXH64_state_t, StateDeleter> state(XXH64_createState());
   if (state == nullptr) {
     throw std::bad_alloc();

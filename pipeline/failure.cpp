@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/backend_choice.h"
 #include "trismooth/pipeline/messages.h"
@@ -17,9 +15,6 @@ namespace trismooth {
 ExitCode report_failure(std::ostream& err) {
   try {
     throw;
-  } catch (const CLI::ParseError& error) {
-    print_error(err, error.what());
-    return ExitCode::wrong_usage;
   } catch (const std::invalid_argument& error) {
     print_error(err, error.what());
     return ExitCode::wrong_usage;

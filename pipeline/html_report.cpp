@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/html_report.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "trismooth/pipeline/html_text.h"
 #include "trismooth/pipeline/svg_charts.h"
 #include "trismooth/pipeline/text_report.h"
+#include "trismooth/pipeline/timings.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/quality/report_text.h"
 
@@ -59,9 +61,9 @@ std::string lead(const PipelineResult& result) {
   } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
     text = "No vertex could be improved: the mesh is as it was.";
   } else if (result.smoothing) {
-    text = fmt::format("{} of {} free vertices moved in {} sweeps; {}.", count_text(result.smoothing->moved_vertices),
+    text = fmt::format("{} of {} free vertices moved in {} sweep{}; {}.", count_text(result.smoothing->moved_vertices),
                        count_text(result.input.free_vertices), count_text(result.smoothing->sweeps),
-                       describe(result.smoothing->stop_reason));
+                       result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
   }
   if (last.inverted > 0) {
     text += fmt::format(" {} of {} triangles {} inverted.", count_text(last.inverted), count_text(last.triangles),
@@ -85,11 +87,12 @@ std::string change(const PipelineResult& result, const std::string& before, cons
 
 std::string metric_card(const PipelineResult& result, std::string_view label, Metric metric,
                         double MetricSummary::*value, std::string_view unit, const std::string& detail) {
-  const auto text_of = [&](const QualityReport& report) {
-    const double number = report[metric].*value;
-    return number_text(number, decimals(metric)) + (number == number ? std::string(unit) : "");
-  };
-  return card(label, change(result, text_of(result.before), text_of(final_report(result))), detail);
+  const double before = result.before[metric].*value;
+  const double after = final_report(result)[metric].*value;
+  TextPair texts = distinct_texts(before, after, decimals(metric));
+  texts.before += unit;
+  texts.after += unit;
+  return card(label, change(result, texts.before, texts.after), detail);
 }
 
 std::string cards(const PipelineResult& result) {
@@ -162,12 +165,16 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
   for (const MetricInfo& metric : all_metrics()) {
     const MetricSummary& from = before[metric.metric];
     const MetricSummary& to = after[metric.metric];
-    const auto pair = [digits = decimals(metric.metric)](double first, double second, bool strong) {
-      return cell(number_text(first, digits), "start") + cell(number_text(second, digits), strong ? "strong" : "");
+    const int digits = decimals(metric.metric);
+    // The bad end of the range is what decides: it stands out, in enough digits to see a change.
+    const auto end_of_range = [&](double MetricSummary::*value, bool is_bad_end) {
+      const TextPair texts = is_bad_end ? distinct_texts(from.*value, to.*value, digits)
+                                        : TextPair{number_text(from.*value, digits), number_text(to.*value, digits)};
+      return cell(texts.before, "start") + cell(texts.after, is_bad_end ? "strong" : "");
     };
     const std::string_view judged = verdict(metric.metric, from, to);
-    html += "<tr>" + metric_name_cell(metric) + pair(from.min, to.min, metric.larger_is_better) +
-            pair(from.mean, to.mean, false) + pair(from.max, to.max, !metric.larger_is_better) +
+    html += "<tr>" + metric_name_cell(metric) + end_of_range(&MetricSummary::min, metric.larger_is_better) +
+            end_of_range(&MetricSummary::mean, false) + end_of_range(&MetricSummary::max, !metric.larger_is_better) +
             cell(percent_text(from.acceptable_fraction), "start") + cell(percent_text(to.acceptable_fraction)) +
             cell(std::string(judged), verdict_class(judged)) + "</tr>\n";
   }
@@ -198,11 +205,9 @@ std::string worst_table(std::string_view title, const QualityReport& report) {
 }
 
 std::string worst_tables(const PipelineResult& result) {
-  if (!result.after) {
-    return worst_table("", result.before);
-  }
-  return "<div class=\"two\">\n" + worst_table("before", result.before) + worst_table("after", *result.after) +
-         "</div>\n";
+  const std::string tables = result.after ? worst_table("before", result.before) + worst_table("after", *result.after)
+                                          : worst_table("", result.before);
+  return "<div class=\"two\">\n" + tables + "</div>\n";
 }
 
 std::string row_table(const Rows& rows) {
@@ -249,15 +254,7 @@ std::string outcome_table(const SmoothingResult& smoothing) {
 }
 
 std::string timings_table(const PipelineTimings& timings) {
-  const std::pair<std::string_view, double> parts[] = {{"read", timings.read},
-                                                       {"find neighbours", timings.topology},
-                                                       {"check before", timings.check_before},
-                                                       {"transfer in", timings.transfer_in},
-                                                       {"smooth", timings.smooth},
-                                                       {"transfer out", timings.transfer_out},
-                                                       {"commit", timings.commit},
-                                                       {"check after", timings.check_after},
-                                                       {"write", timings.write}};
+  const auto parts = timing_parts(timings);
   double longest = 0;
   for (const auto& [name, milliseconds] : parts) {
     longest = std::max(longest, milliseconds);
@@ -265,8 +262,10 @@ std::string timings_table(const PipelineTimings& timings) {
   std::string html = "<table>\n<tbody>\n";
   for (const auto& [name, milliseconds] : parts) {
     if (milliseconds > 0) {
+      std::string label(name);
+      std::ranges::replace(label, '_', ' ');
       html += fmt::format(
-          "<tr><td>{}</td><td>{}</td><td class=\"meter\"><span style=\"width: {:.1f}%\"></span></td></tr>\n", name,
+          "<tr><td>{}</td><td>{}</td><td class=\"meter\"><span style=\"width: {:.1f}%\"></span></td></tr>\n", label,
           duration_text(milliseconds), 100 * milliseconds / longest);
     }
   }

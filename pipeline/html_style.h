@@ -19,19 +19,20 @@ h2 { margin: 40px 0 12px; font-size: 18px; }
 h3 { margin: 0 0 8px; font-size: 14px; color: var(--soft); font-weight: 600; }
 p { margin: 0 0 8px; }
 .soft, small { color: var(--soft); }
-small { display: block; font-size: 12px; line-height: 1.35; font-weight: 400; }
+small { display: block; white-space: normal; font-size: 12px; line-height: 1.35; font-weight: 400; }
 .lead { margin: 20px 0 0; font-size: 17px; }
 .lead.bad { color: var(--bad); }
 .cards { display: grid; grid-template-columns: repeat(3, 1fr); gap: 14px; margin-top: 22px; }
 .card { border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px 12px; break-inside: avoid; }
 .card .label { color: var(--soft); font-size: 13px; }
-.card .value { font-size: 25px; line-height: 1.35; font-weight: 650; font-variant-numeric: tabular-nums; }
+.card .value { font-size: 22px; line-height: 1.45; white-space: nowrap; font-weight: 650; font-variant-numeric: tabular-nums; }
 .card .from { color: var(--soft); font-weight: 400; }
 .good { color: var(--good); }
 .bad { color: var(--bad); }
 .mixed { color: var(--mixed); }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
-th, td { padding: 6px 10px; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top; }
+th, td { padding: 6px 10px; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top;
+         white-space: nowrap; }
 th { color: var(--soft); font-size: 13px; font-weight: 600; }
 th:first-child, td:first-child, td.word { text-align: left; }
 td:first-child { padding-left: 0; }

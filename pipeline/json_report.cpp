@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/timings.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/quality/metrics.h"
 
@@ -111,16 +113,12 @@ Json smoothing_json(const SmoothingResult& smoothing) {
 }
 
 Json timings_json(const PipelineTimings& timings) {
-  return {{"read", number(timings.read)},
-          {"topology", number(timings.topology)},
-          {"check_before", number(timings.check_before)},
-          {"transfer_in", number(timings.transfer_in)},
-          {"smooth", number(timings.smooth)},
-          {"transfer_out", number(timings.transfer_out)},
-          {"commit", number(timings.commit)},
-          {"check_after", number(timings.check_after)},
-          {"write", number(timings.write)},
-          {"total", number(timings.total)}};
+  Json json = Json::object();
+  for (const auto& [name, milliseconds] : timing_parts(timings)) {
+    json[std::string(name)] = number(milliseconds);
+  }
+  json["total"] = number(timings.total);
+  return json;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +12,7 @@
 #include "trismooth/pipeline/progress_bar.h"
 #include "trismooth/pipeline/report_file.h"
 #include "trismooth/pipeline/text_report.h"
+#include "trismooth/pipeline/timings.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
@@ -31,24 +31,13 @@ std::string sweep_line(const SweepRecord& record) {
 }
 
 std::string timings_line(const PipelineTimings& timings) {
-  const std::pair<std::string_view, double> parts[] = {{"read", timings.read},
-                                                       {"topology", timings.topology},
-                                                       {"check before", timings.check_before},
-                                                       {"transfer in", timings.transfer_in},
-                                                       {"smooth", timings.smooth},
-                                                       {"transfer out", timings.transfer_out},
-                                                       {"commit", timings.commit},
-                                                       {"check after", timings.check_after},
-                                                       {"write", timings.write},
-                                                       {"total", timings.total}};
   std::string line = "times:";
-  for (const auto& [name, milliseconds] : parts) {
+  for (const auto& [name, milliseconds] : timing_parts(timings)) {
     if (milliseconds > 0) {
       line += fmt::format(" {} {},", name, duration_text(milliseconds));
     }
   }
-  line.pop_back();
-  return line;
+  return line + fmt::format(" total {}", duration_text(timings.total));
 }
 
 void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream& err) {
@@ -69,7 +58,6 @@ Progress proceed_unless_interrupted() {
 
 /// Runs the pipeline while it shows the progress and looks out for Ctrl-C.
 PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
-  const InterruptGuard guard(OnInterrupt::ask);
   std::optional<ProgressBar> bar;
   if (environment.err_is_terminal && verbosity == Verbosity::normal) {
     bar.emplace(environment.err);
@@ -105,14 +93,14 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
                     "regions are fixed [the first of region, mat_id,\n"
                     "material, ... that the file has]",
                     [&options](const std::string& text) { options.region_array = text; })
-      ->group("Regions and fixed vertices");
+      ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-array", "NAME",
                     "Point array; where it is not 0, the vertex is fixed\n[fixed, if the file has it]",
                     [&options](const std::string& text) { options.fixed_array = text; })
-      ->group("Regions and fixed vertices");
+      ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
                     [&options](const std::string& text) { options.fixed_ids = text; })
-      ->group("Regions and fixed vertices");
+      ->group(option_group::constraints);
 }
 
 void add_result_options(CLI::App& command, MeshRunSettings& settings) {
@@ -120,7 +108,7 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
                     [&settings](const std::string& text) {
                       settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads);
                     })
-      ->group("Running");
+      ->group(option_group::running);
   constexpr bool repeatable = true;
   add_parsed_option(
       command, "--report", "FILE", "Write a report: FILE.json or FILE.html. Repeatable",
@@ -129,7 +117,7 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
         settings.reports.emplace_back(text);
       },
       repeatable)
-      ->group("Results");
+      ->group(option_group::results);
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by\n"
@@ -137,7 +125,7 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       "triangles, and min_, mean_, max_, stddev_ or\n"
       "acceptable_ before a metric: min_shape. Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
-      ->group("Results");
+      ->group(option_group::results);
   const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
     const auto choose = [&settings, verbosity] {
       if (settings.verbosity != Verbosity::normal) {
@@ -145,7 +133,7 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       }
       settings.verbosity = verbosity;
     };
-    command.add_flag_callback(name, choose, help)->group("Results");
+    command.add_flag_callback(name, choose, help)->group(option_group::results);
   };
   add_verbosity_flag("--quiet", Verbosity::quiet, "Print errors and failed gates only");
   add_verbosity_flag("--verbose", Verbosity::verbose, "Print every sweep, note and time");
@@ -156,6 +144,7 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   const Verbosity verbosity = settings.verbosity;
   options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
 
+  const InterruptGuard guard(OnInterrupt::ask);  // of reports, too: a temporary file must not stay behind
   const PipelineResult result = run_watched(options, verbosity, environment);
 
   if (verbosity != Verbosity::quiet) {

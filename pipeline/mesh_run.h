@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +22,13 @@ struct MeshRunSettings {
   std::vector<Gate> gates;
   Verbosity verbosity = Verbosity::normal;
 };
+
+/// The groups that help lists these options in.
+namespace option_group {
+inline constexpr const char* constraints = "Regions and fixed vertices";
+inline constexpr const char* running = "Running";
+inline constexpr const char* results = "Results";
+}  // namespace option_group
 
 /// The options that these commands share, in their groups. `settings` must outlive the parsing.
 void add_mesh_options(CLI::App& command, MeshRunSettings& settings);

@@ -9,7 +9,7 @@ namespace trismooth {
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment) {
   const auto settings = std::make_shared<MeshRunSettings>();
   CLI::App& command = *app.add_subcommand("quality", "Check a mesh and change nothing");
-  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format (see 'trismooth info')",
+  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
                     [settings](const std::string& text) { settings->pipeline.input = text; })
       ->required();
   add_mesh_options(command, *settings);

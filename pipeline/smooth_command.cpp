@@ -78,7 +78,7 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
 void add_device_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
   add_enum_option(command, "--backend", settings.backend, "Who runs the sweeps; auto: cpu in this build")
-      ->group("Running");
+      ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except unordered)";
   add_enum_option(command, "--layout", options.layout, "Data layout on the device")->group(group);
   add_enum_option(command, "--execution", options.execution, "How sweeps are launched")->group(group);
@@ -101,7 +101,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   const auto settings = std::make_shared<SmoothSettings>();
   PipelineOptions& options = settings->run.pipeline;
   CLI::App& command = *app.add_subcommand("smooth", "Check a mesh, smooth it, check it again and write it");
-  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format (see 'trismooth info')",
+  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
                     [&options](const std::string& text) { options.input = text; })
       ->required();
   add_parsed_option(command, "OUTPUT", "", "Mesh to write; may be INPUT. An old file survives any failure",
@@ -115,7 +115,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   command
       .add_flag("--annotate", options.annotate,
                 "Add arrays to VTK output: shape (cells), fixed and\ndisplacement (points)")
-      ->group("Results");
+      ->group(option_group::results);
   return {&command, [settings, &environment] { return run_smooth(*settings, environment); }};
 }
 

@@ -1,7 +1,6 @@
 #include "trismooth/pipeline/svg_charts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace {
 constexpr double chart_width = 760;
 constexpr double chart_height = 270;
 constexpr double left = 64;
-constexpr double right = chart_width - 12;
+constexpr double right = chart_width - 22;
 constexpr double top = 14;
 constexpr double bottom = chart_height - 44;
 
@@ -52,48 +51,46 @@ std::int64_t round_step(std::int64_t range, std::int64_t parts) {
   }
 }
 
-struct Bar {
-  std::string label;  ///< of its place, for the tooltip
-  std::array<std::int64_t, 2> counts;
+/// The counts of one report, as one colour of bars.
+struct Series {
+  std::string_view style;    ///< the class of the bars
+  std::string_view tooltip;  ///< between the bar's label and its count
+  std::vector<std::int64_t> counts;
 };
 
-std::string bar_rectangles(const Bar& bar, double x, double width, double units_per_count, bool two_series) {
-  constexpr std::array<std::string_view, 2> names{"before", "after"};
-  std::string rectangles;
-  const int series_count = two_series ? 2 : 1;
-  for (int series = 0; series < series_count; ++series) {
-    const std::int64_t count = bar.counts[static_cast<std::size_t>(series)];
-    if (count == 0) {
-      continue;
-    }
-    constexpr double least_height = 1.5;  // one triangle among a million is seen, too
-    const double height = std::max(static_cast<double>(count) * units_per_count, least_height);
-    const std::string_view name = names[static_cast<std::size_t>(series)];
-    rectangles += fmt::format(
-        "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}, {}: "
-        "{}</title></rect>\n",
-        name, x + series * width / series_count, bottom - height, width / series_count, height, bar.label, name,
-        count_text(count));
+Series make_series(const QualityReport& report, bool with_inverted, std::string_view style, std::string_view tooltip) {
+  Series series{style, tooltip, {report.shape_histogram.begin(), report.shape_histogram.end()}};
+  if (with_inverted) {
+    series.counts.insert(series.counts.begin(), report.inverted);
   }
-  return rectangles;
+  return series;
+}
+
+std::string bin_label(std::size_t bin) {
+  const auto limit = [](std::size_t i) { return static_cast<double>(i) / static_cast<double>(shape_bins); };
+  return fmt::format("{:.2f} to {:.2f}", limit(bin), limit(bin + 1));
+}
+
+std::string rectangle(std::string_view series, std::string_view tooltip, double x, double width, double height) {
+  return fmt::format(
+      "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}</title></rect>\n",
+      series, x, bottom - height, width, height, tooltip);
 }
 
 }  // namespace
 
 std::string shape_histogram_svg(const QualityReport& before, const QualityReport* after) {
-  std::vector<Bar> bars;
   const bool any_inverted = before.inverted > 0 || (after != nullptr && after->inverted > 0);
-  if (any_inverted) {
-    bars.push_back({"inverted", {before.inverted, after == nullptr ? 0 : after->inverted}});
-  }
-  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
-    const auto limit = [](std::size_t i) { return static_cast<double>(i) / static_cast<double>(shape_bins); };
-    bars.push_back({fmt::format("{:.2f} to {:.2f}", limit(bin), limit(bin + 1)),
-                    {before.shape_histogram[bin], after == nullptr ? 0 : after->shape_histogram[bin]}});
+  std::vector<Series> all_series;
+  if (after == nullptr) {
+    all_series = {make_series(before, any_inverted, "after", "")};
+  } else {
+    all_series = {make_series(before, any_inverted, "before", ", before"),
+                  make_series(*after, any_inverted, "after", ", after")};
   }
   std::int64_t largest = 1;
-  for (const Bar& bar : bars) {
-    largest = std::max({largest, bar.counts[0], bar.counts[1]});
+  for (const Series& series : all_series) {
+    largest = std::max(largest, *std::ranges::max_element(series.counts));
   }
   const std::int64_t step = round_step(largest, 4);
   const std::int64_t highest = (largest + step - 1) / step * step;
@@ -103,11 +100,22 @@ std::string shape_histogram_svg(const QualityReport& before, const QualityReport
   for (std::int64_t count = 0; count <= highest; count += step) {
     content += grid_line(bottom - static_cast<double>(count) * units_per_count, count_text(count));
   }
-  const double place = (right - left) / static_cast<double>(bars.size());
+  const std::size_t places = all_series.front().counts.size();
+  const double place = (right - left) / static_cast<double>(places);
   const double gap = 0.14 * place;
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    content += bar_rectangles(bars[i], left + static_cast<double>(i) * place + gap / 2, place - gap, units_per_count,
-                              after != nullptr);
+  const double bar_width = (place - gap) / static_cast<double>(all_series.size());
+  for (std::size_t i = 0; i < places; ++i) {
+    const std::string label = !any_inverted ? bin_label(i) : i == 0 ? "inverted" : bin_label(i - 1);
+    double x = left + static_cast<double>(i) * place + gap / 2;
+    for (const Series& series : all_series) {
+      if (series.counts[i] > 0) {
+        constexpr double least_height = 1.5;  // one triangle among a million is seen, too
+        content +=
+            rectangle(series.style, fmt::format("{}{}: {}", label, series.tooltip, count_text(series.counts[i])), x,
+                      bar_width, std::max(static_cast<double>(series.counts[i]) * units_per_count, least_height));
+      }
+      x += bar_width;
+    }
   }
   const double zero = any_inverted ? left + place : left;
   if (any_inverted) {

@@ -106,7 +106,7 @@ std::string_view describe(StopReason reason) {
     case StopReason::tolerance:
       return "every move was within the tolerance";
     case StopReason::sweep_limit:
-      return "that many sweeps were allowed";
+      return "the sweep limit was reached";
     case StopReason::time_limit:
       return "the time was up";
     case StopReason::quality_target:

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/quality/report_text.h"
 #include "trismooth/quality/text_columns.h"
 
 namespace trismooth {
@@ -16,96 +17,6 @@ namespace trismooth {
 namespace {
 
 using Align = TextColumns::Align;
-
-/// Decimals that tables show of a metric's values.
-int decimals(Metric metric) {
-  switch (metric) {
-    case Metric::min_angle:
-    case Metric::max_angle:
-      return 3;
-    case Metric::shape:
-    case Metric::scaled_jacobian:
-    case Metric::equiangle_skew:
-      return 5;
-    default:
-      return 4;
-  }
-}
-
-/// With `decimals`, at most six digits in all; scientific where fewer than three digits would show or the number is
-/// large. `more` adds digits.
-std::string number_text(double value, int decimals, int more = 0) {
-  if (std::isnan(value)) {
-    return "-";
-  }
-  if (value == 0 || std::isinf(value)) {
-    return value == 0 ? "0" : fmt::format("{}", value);
-  }
-  const double magnitude = std::abs(value);
-  if (magnitude < std::pow(10.0, 2 - decimals) || magnitude >= 1e4) {
-    return fmt::format("{:.{}e}", value, 2 + more);
-  }
-  const int places_before_point = magnitude < 10 ? 1 : magnitude < 100 ? 2 : magnitude < 1000 ? 3 : 4;
-  return fmt::format("{:.{}f}", value, std::min(decimals, 6 - places_before_point) + more);
-}
-
-struct TextPair {
-  std::string before;
-  std::string after;
-};
-
-/// Two values in as many digits as it takes to tell them apart where they differ.
-TextPair distinct_texts(double before, double after, int decimals) {
-  constexpr int most_more = 15;  // tells any two values apart
-  TextPair texts{number_text(before, decimals), number_text(after, decimals)};
-  for (int more = 1; more <= most_more && before != after && texts.before == texts.after; ++more) {
-    texts = {number_text(before, decimals, more), number_text(after, decimals, more)};
-  }
-  return texts;
-}
-
-/// 1234567 as 1,234,567.
-std::string count_text(std::int64_t count) {
-  std::string text = std::to_string(count);
-  for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3) {
-    text.insert(static_cast<std::size_t>(place), ",");
-  }
-  return text;
-}
-
-/// A fraction in per cent without the sign, cut rather than rounded: 100 and 0 are said of all and of none only.
-std::string percent_text(double fraction) {
-  if (std::isnan(fraction)) {
-    return "-";
-  }
-  if (fraction == 0 || fraction == 1) {
-    return fraction == 0 ? "0" : "100";
-  }
-  return fmt::format("{:.2f}", std::clamp(std::floor(fraction * 1e4) / 100, 0.01, 99.99));
-}
-
-double worst_of(Metric metric, const MetricSummary& summary) {
-  return info(metric).larger_is_better ? summary.min : summary.max;
-}
-
-/// "better" where of the worst value and the mean one improved and none got worse.
-std::string_view verdict(Metric metric, const MetricSummary& before, const MetricSummary& after) {
-  const bool larger_is_better = info(metric).larger_is_better;
-  // The size of an element is not its quality, and condition jumps from infinity to its negative at inversion.
-  const bool has_sign_jump = !larger_is_better && (before.min < 0 || after.min < 0);
-  if (metric == Metric::area || has_sign_jump || std::isnan(before.mean) || std::isnan(after.mean)) {
-    return "";
-  }
-  const auto improves = [larger_is_better](double from, double to) { return larger_is_better ? to > from : to < from; };
-  const double worst_before = worst_of(metric, before);
-  const double worst_after = worst_of(metric, after);
-  const bool better = improves(worst_before, worst_after) || improves(before.mean, after.mean);
-  const bool worse = improves(worst_after, worst_before) || improves(after.mean, before.mean);
-  if (better && worse) {
-    return "mixed";
-  }
-  return better ? "better" : worse ? "worse" : "same";
-}
 
 /// ">= 30 degrees": what counts as acceptable.
 std::string acceptable_text(const MetricInfo& metric) {

@@ -1,0 +1,450 @@
+#include "trismooth/pipeline/command_line.h"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/pipeline/backend_choice.h"
+#include "trismooth/pipeline/version.h"
+#include "trismooth/smoothing/errors.h"
+
+#include "catch.h"
+#include "sample_run.h"
+
+using trismooth::PipelineOptions;
+using trismooth::PipelineResult;
+using trismooth::Progress;
+using trismooth::Stage;
+
+namespace {
+
+using Words = std::vector<std::string>;
+using Run = std::function<PipelineResult(const PipelineOptions&)>;
+
+/// What a command line did.
+struct Outcome {
+  int code = 0;
+  std::string out;
+  std::string err;
+  std::optional<PipelineOptions> options;  ///< what the pipeline was run with, if it was
+
+  bool says(const std::string& words) const { return err.find(words) != std::string::npos; }
+  bool shows(const std::string& words) const { return out.find(words) != std::string::npos; }
+};
+
+/// Calls the command line with a pipeline that answers `run`.
+Outcome call(Words words, const Run& run, bool terminal = false) {
+  words.insert(words.begin(), "trismooth");
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) {
+    arguments.push_back(word.c_str());
+  }
+  Outcome outcome;
+  std::ostringstream out;
+  std::ostringstream err;
+  const auto recorded = [&](const PipelineOptions& options) {
+    outcome.options = options;
+    return run(options);
+  };
+  outcome.code =
+      trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(), {out, err, terminal, recorded});
+  outcome.out = out.str();
+  outcome.err = err.str();
+  return outcome;
+}
+
+Outcome call(const Words& words) {
+  return call(words, [](const PipelineOptions& options) {
+    return options.output ? sample::result() : sample::quality_result();
+  });
+}
+
+Outcome smooth(Words more) {
+  more.insert(more.begin(), {"smooth", "plate.vtk", "out.vtk"});
+  return call(more);
+}
+
+template <class Error>
+Outcome call_failing_with(const Error& error) {
+  return call({"smooth", "plate.vtk", "out.vtk"}, [&](const PipelineOptions&) -> PipelineResult { throw error; });
+}
+
+/// A folder that lasts as long as the test.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "trismooth_cli_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("without options, smooth uses the documented defaults") {
+  const Outcome outcome = smooth({});
+  REQUIRE(outcome.code == 0);
+  const PipelineOptions& options = *outcome.options;
+  CHECK(options.input == "plate.vtk");
+  CHECK(options.output == std::filesystem::path("out.vtk"));
+  CHECK(options.smoothing.method == trismooth::Method::smart);
+  CHECK(options.smoothing.form == trismooth::Form::in_place);
+  CHECK(options.smoothing.precision == trismooth::Precision::double_precision);
+  CHECK(options.smoothing.guard);
+  CHECK(options.smoothing.max_sweeps == 1000);
+  CHECK(options.smoothing.tolerance == 1e-6);
+  CHECK_FALSE(options.smoothing.target_quality);
+  CHECK_FALSE(options.smoothing.record_min_shape);
+  CHECK_FALSE(options.annotate);
+  CHECK_FALSE(options.region_array);
+}
+
+TEST_CASE("every option of smooth reaches the pipeline") {
+  const Outcome outcome = smooth({"--method",         "weighted",     "--form",        "a",
+                                  "--layout",         "soa",          "--backend",     "cpu",
+                                  "--execution",      "single-block", "--order",       "colour",
+                                  "--topology",       "device",       "--guard",       "off",
+                                  "--precision",      "single",       "--max-sweeps",  "0",
+                                  "--tolerance",      "2.5e-3",       "--time-limit",  "7.5",
+                                  "--target-quality", "0.25",         "--threads",     "3",
+                                  "--region-array",   "material",     "--fixed-array", "anchors",
+                                  "--fixed-ids",      "ids.txt",      "--annotate"});
+  REQUIRE(outcome.code == 0);
+  const PipelineOptions& options = *outcome.options;
+  CHECK(options.smoothing.method == trismooth::Method::weighted);
+  CHECK(options.smoothing.form == trismooth::Form::swap);
+  CHECK(options.smoothing.layout == trismooth::Layout::soa);
+  CHECK(options.smoothing.execution == trismooth::Execution::single_block);
+  CHECK(options.smoothing.order == trismooth::Order::colour);
+  CHECK(options.smoothing.precision == trismooth::Precision::single_precision);
+  CHECK_FALSE(options.smoothing.guard);
+  CHECK(options.smoothing.max_sweeps == 0);
+  CHECK(options.smoothing.tolerance == 2.5e-3);
+  CHECK(options.smoothing.time_limit_seconds == 7.5);
+  CHECK(options.smoothing.target_quality == 0.25);
+  CHECK(options.smoothing.record_min_shape);
+  CHECK(options.smoothing.threads == 3);
+  CHECK(options.region_array == "material");
+  CHECK(options.fixed_array == "anchors");
+  CHECK(options.fixed_ids == std::filesystem::path("ids.txt"));
+  CHECK(options.annotate);
+}
+
+TEST_CASE("options may stand before, between and after the files") {
+  const Outcome outcome =
+      call({"smooth", "--require", "inverted==0", "plate.vtk", "--form=a", "out.vtk", "--annotate"});
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.options->input == "plate.vtk");
+  CHECK(outcome.options->output == std::filesystem::path("out.vtk"));
+  CHECK(outcome.options->smoothing.form == trismooth::Form::swap);
+}
+
+TEST_CASE("quality runs the pipeline without an output") {
+  const Outcome outcome = call({"quality", "plate.vtk", "--region-array", "material", "--threads", "2"});
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.options->input == "plate.vtk");
+  CHECK_FALSE(outcome.options->output.has_value());
+  CHECK(outcome.options->region_array == "material");
+  CHECK(outcome.shows("120 vertices"));
+  CHECK(outcome.shows("equiangle_skew"));
+}
+
+TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
+  struct Case {
+    Words words;
+    std::string reason;
+  };
+  const std::vector<Case> cases{
+      {{}, "no command given"},
+      {{"smoothe"}, "unknown command 'smoothe'"},
+      {{"bench"}, "unknown command 'bench'"},
+      {{"smooth"}, "INPUT is required"},
+      {{"smooth", "a.off"}, "OUTPUT is required"},
+      {{"smooth", "a.off", "b.off", "c.off"}, "c.off"},
+      {{"smooth", "a.off", "b.off", "--frm", "a"}, "--frm"},
+      {{"smooth", "a.off", "b.off", "--form"}, "--form"},
+      {{"smooth", "a.off", "b.off", "--form", "a", "--form", "b"}, "--form: expected one value, and to be given once"},
+      {{"smooth", "a.off", "b.off", "--form", "c"}, "unknown form 'c'; valid are a, b"},
+      {{"smooth", "a.off", "b.off", "--method", "x"}, "valid are smart, laplacian, weighted"},
+      {{"smooth", "a.off", "b.off", "--layout", "x"}, "valid are aos, soa"},
+      {{"smooth", "a.off", "b.off", "--backend", "x"}, "valid are auto, cpu, cuda"},
+      {{"smooth", "a.off", "b.off", "--execution", "x"}, "valid are resident, single-block, cdp"},
+      {{"smooth", "a.off", "b.off", "--order", "x"}, "valid are colour, unordered"},
+      {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are halfedge, device"},
+      {{"smooth", "a.off", "b.off", "--guard", "x"}, "valid are on, off"},
+      {{"smooth", "a.off", "b.off", "--precision", "x"}, "valid are double, single"},
+      {{"smooth", "a.off", "b.off", "--max-sweeps", "-1"}, "--max-sweeps"},
+      {{"smooth", "a.off", "b.off", "--max-sweeps", "10x"}, "'10x'"},
+      {{"smooth", "a.off", "b.off", "--max-sweeps", "9223372036854775808"}, "--max-sweeps"},
+      {{"smooth", "a.off", "b.off", "--tolerance", "1,5"}, "expected a number, got '1,5'"},
+      {{"smooth", "a.off", "b.off", "--tolerance", "nan"}, "--tolerance"},
+      {{"smooth", "a.off", "b.off", "--tolerance", "-1"}, "tolerance"},
+      {{"smooth", "a.off", "b.off", "--time-limit", "-1"}, "time limit"},
+      {{"smooth", "a.off", "b.off", "--target-quality", "2"}, "quality target"},
+      {{"smooth", "a.off", "b.off", "--threads", "-1"}, "--threads"},
+      {{"smooth", "a.off", "b.off", "--threads", "4294967297"}, "--threads"},
+      {{"smooth", "a.off", "b.off", "--report", "r.txt"}, "must end in .json or .html"},
+      {{"smooth", "a.off", "b.off", "--require", "shape>=1"}, "unknown metric 'shape'"},
+      {{"smooth", "a.off", "b.off", "--quiet", "--verbose"}, "--quiet excludes --verbose"},
+      {{"smooth", "a.off", "b.off", "--verbose", "--quiet"}, "--quiet excludes --verbose"},
+      {{"smooth", "a.off", "b.off", "--order", "unordered"}, "unordered"},
+      {{"smooth", "a.off", "b.off", "--order", "unordered", "--execution", "cdp"}, "CUDA"},
+      {{"quality"}, "INPUT is required"},
+      {{"quality", "a.off", "--form", "a"}, "--form"},
+      {{"generate", "a.off"}, "--vertices is required"},
+      {{"generate", "a.off", "--vertices", "3"}, "from 4 to"},
+      {{"generate", "a.off", "--vertices", "1e3"}, "'1e3'"},
+      {{"generate", "a.off", "--vertices", "10", "--seed", "-1"}, "--seed"},
+      {{"info", "x"}, "x"},
+  };
+  for (const Case& wrong : cases) {
+    const Outcome outcome = call(wrong.words);
+    CAPTURE(wrong.words, outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.says("trismooth: error: "));
+    CHECK(outcome.says(wrong.reason));
+    CHECK(outcome.out.empty());
+    CHECK_FALSE(outcome.options.has_value());
+  }
+}
+
+TEST_CASE("CUDA is answered with 5 and what to do, before anything is read") {
+  const Outcome outcome = smooth({"--backend", "cuda"});
+  CHECK(outcome.code == 5);
+  CHECK(outcome.says("this build has no CUDA backend"));
+  CHECK(outcome.says("leave out '--backend cuda'"));
+  CHECK_FALSE(outcome.options.has_value());
+}
+
+TEST_CASE("an output of no known format is told before the work") {
+  const Outcome outcome = call({"smooth", "plate.vtk", "out.xyz"});
+  CHECK(outcome.code == 4);
+  CHECK(outcome.says("out.xyz: the extension '.xyz' names no format; known are .off"));
+  CHECK_FALSE(outcome.options.has_value());
+}
+
+TEST_CASE("each kind of failure has its exit code and one line of message") {
+  const auto check = [](const Outcome& outcome, int code, const std::string& message) {
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == code);
+    CHECK(outcome.err == "trismooth: error: " + message + "\n");
+    CHECK(outcome.out.empty());
+  };
+  check(call_failing_with(std::invalid_argument("no array 'x'")), 2, "no array 'x'");
+  check(call_failing_with(trismooth::ReadError("plate.vtk", 17, "expected 3 coordinates")), 3,
+        "plate.vtk:17: expected 3 coordinates");
+  check(call_failing_with(trismooth::MeshError("triangle 3 repeats a vertex")), 3,
+        "plate.vtk: triangle 3 repeats a vertex");
+  check(call_failing_with(std::bad_alloc()), 3, "not enough memory; use a machine with more, or a smaller mesh");
+  check(call_failing_with(trismooth::WriteError("out.vtk", "the disk is full")), 4, "out.vtk: the disk is full");
+  check(call_failing_with(trismooth::DeviceError("the device was lost")), 5, "the device was lost");
+  check(call_failing_with(trismooth::Cancelled()), 130, "cancelled; nothing was written");
+  check(call_failing_with(std::runtime_error("what nobody foresaw")), 3, "unexpected failure: what nobody foresaw");
+}
+
+TEST_CASE("failed gates are told one by one and answered with 1, after everything is written") {
+  const ScratchFolder folder;
+  const Outcome outcome = smooth({"--require", "min_shape>=0.5", "--require", "inverted==0", "--require",
+                                  "triangles>1000", "--report", folder.file("r.json")});
+  CHECK(outcome.code == 1);
+  CHECK(outcome.says("gate failed: min_shape >= 0.5, is 0.35\n"));
+  CHECK(outcome.says("gate failed: triangles > 1000, is 210\n"));
+  CHECK_FALSE(outcome.says("inverted"));
+  CHECK(outcome.shows("written:    out.vtk"));
+  CHECK_FALSE(contents(folder.file("r.json")).empty());
+}
+
+TEST_CASE("gates of smooth look at the result, those of quality at the mesh") {
+  CHECK(smooth({"--require", "min_shape>=0.3"}).code == 0);
+  CHECK(call({"quality", "plate.vtk", "--require", "min_shape>=0.3"}).code == 1);
+}
+
+TEST_CASE("reports of both kinds are written, as often as asked for") {
+  const ScratchFolder folder;
+  const Outcome outcome =
+      smooth({"--report", folder.file("a.json"), "--report", folder.file("b.HTML"), "--report", folder.file("c.json")});
+  REQUIRE(outcome.code == 0);
+  CHECK(nlohmann::json::parse(contents(folder.file("a.json")))["input"]["vertices"] == 120);
+  CHECK(contents(folder.file("b.HTML")).starts_with("<!DOCTYPE html>"));
+  CHECK(contents(folder.file("c.json")) == contents(folder.file("a.json")));
+  CHECK(outcome.shows(folder.file("a.json")));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);
+}
+
+TEST_CASE("a report that cannot be written is answered with 4") {
+  const ScratchFolder folder;
+  const Outcome outcome = smooth({"--report", folder.file("missing/a.json")});
+  CHECK(outcome.code == 4);
+  CHECK(outcome.says(folder.file("missing/a.json") + ": "));
+}
+
+TEST_CASE("--quiet leaves errors and failed gates only") {
+  const Outcome fine = smooth({"--quiet"});
+  CHECK(fine.code == 0);
+  CHECK(fine.out.empty());
+  CHECK(fine.err.empty());
+  const Outcome failed = smooth({"--quiet", "--require", "min_shape>=0.5"});
+  CHECK(failed.code == 1);
+  CHECK(failed.out.empty());
+  CHECK(failed.err == "gate failed: min_shape >= 0.5, is 0.35\n");
+}
+
+TEST_CASE("notes go to standard error, a long list is cut unless --verbose asks for it") {
+  const auto with_notes = [](std::size_t count) {
+    return [count](const PipelineOptions&) {
+      PipelineResult result = sample::result();
+      result.notes.assign(count, "something to know");
+      return result;
+    };
+  };
+  const auto notes_in = [](const Outcome& outcome) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = outcome.err.find("trismooth: note: something to know\n", at)) != std::string::npos;
+         ++at) {
+      ++count;
+    }
+    return count;
+  };
+  CHECK(notes_in(call({"smooth", "a.vtk", "b.vtk"}, with_notes(3))) == 3);
+  const Outcome cut = call({"smooth", "a.vtk", "b.vtk"}, with_notes(40));
+  CHECK(notes_in(cut) == 5);
+  CHECK(cut.says("35 more notes; --verbose shows them"));
+  CHECK(notes_in(call({"smooth", "a.vtk", "b.vtk", "--verbose"}, with_notes(40))) == 40);
+}
+
+TEST_CASE("--verbose records the smallest shape and prints every sweep and the times") {
+  const Outcome outcome = call({"smooth", "a.vtk", "b.vtk", "--verbose"}, [](const PipelineOptions& options) {
+    CHECK(options.smoothing.record_min_shape);
+    CHECK(options.smoothing.progress({7, 100, 50, 0.125, 0.25}) == Progress::proceed);
+    return sample::result();
+  });
+  CHECK(outcome.says("sweep 7: 100 evaluated, 50 moved, largest move 0.125 of the edge length, smallest shape 0.25\n"));
+  CHECK(outcome.says("times: read 1.50 ms"));
+  CHECK(outcome.says("total 50 ms"));
+}
+
+TEST_CASE("progress is drawn on a terminal only, and not where quiet or verbose") {
+  const Run run = [](const PipelineOptions& options) {
+    options.stage_started(Stage::smooth);
+    return sample::result();
+  };
+  const auto draws = [&](const Words& words, bool terminal) {
+    return call(words, run, terminal).says("smoothing ...");
+  };
+  CHECK(draws({"smooth", "a.vtk", "b.vtk"}, true));
+  CHECK_FALSE(draws({"smooth", "a.vtk", "b.vtk"}, false));
+  CHECK_FALSE(draws({"smooth", "a.vtk", "b.vtk", "--quiet"}, true));
+  CHECK_FALSE(draws({"smooth", "a.vtk", "b.vtk", "--verbose"}, true));
+}
+
+TEST_CASE("the progress line is gone before an error is printed") {
+  const Outcome outcome = call(
+      {"smooth", "a.vtk", "b.vtk"},
+      [](const PipelineOptions& options) -> PipelineResult {
+        options.stage_started(Stage::read);
+        throw trismooth::ReadError("a.vtk", "is empty");
+      },
+      true);
+  CHECK(outcome.says("\r\x1b[Ktrismooth: error: a.vtk: is empty\n"));
+}
+
+TEST_CASE("Ctrl-C stops at the next stage or sweep, and is answered with 130") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    CAPTURE(signal);
+    const Outcome outcome = call({"smooth", "a.vtk", "b.vtk"}, [&](const PipelineOptions& options) -> PipelineResult {
+      CHECK(options.stage_started(Stage::read) == Progress::proceed);
+      CHECK(options.smoothing.progress({}) == Progress::proceed);
+      std::raise(signal);
+      CHECK(options.smoothing.progress({}) == Progress::stop);
+      CHECK(options.stage_started(Stage::write) == Progress::stop);
+      throw trismooth::Cancelled();
+    });
+    CHECK(outcome.code == 130);
+    CHECK(outcome.says("cancelled; nothing was written"));
+    CHECK(outcome.out.empty());
+  }
+}
+
+TEST_CASE("help and version go to standard output and run nothing") {
+  const Outcome help = call({"--help"});
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  for (const char* words : {"smooth ", "quality ", "generate ", "info ", "Examples:", "Exit codes:"}) {
+    CAPTURE(words);
+    CHECK(help.shows(words));
+  }
+  CHECK_FALSE(help.shows("bench"));
+
+  const Outcome version = call({"--version"});
+  CHECK(version.code == 0);
+  CHECK(version.out == "trismooth " + std::string(trismooth::version()) + "\n");
+}
+
+TEST_CASE("help of a command describes each of its options, within 100 columns") {
+  const Outcome help = call({"smooth", "--help"});
+  CHECK(help.code == 0);
+  for (const char* option :
+       {"--method",         "--form",    "--layout",       "--backend",     "--execution", "--order",
+        "--topology",       "--guard",   "--precision",    "--max-sweeps",  "--tolerance", "--time-limit",
+        "--target-quality", "--threads", "--region-array", "--fixed-array", "--fixed-ids", "--report",
+        "--annotate",       "--require", "--quiet",        "--verbose"}) {
+    CAPTURE(option);
+    CHECK(help.shows("  " + std::string(option)));
+  }
+  CHECK(help.out.find("\n\n\n") == std::string::npos);
+  for (const char* command : {"smooth", "quality", "generate", "info"}) {
+    std::istringstream lines(call({command, "--help"}).out);
+    for (std::string line; std::getline(lines, line);) {
+      CAPTURE(line);
+      CHECK(line.size() <= 100);
+    }
+  }
+}
+
+TEST_CASE("info names version, formats, instructions and devices") {
+  const Outcome outcome = call({"info"});
+  CHECK(outcome.code == 0);
+  for (const char* words : {"trismooth ", ".off, .obj, .ply, .stl, .vtk, .vtu, .vtp", "SIMD:", "threads:", "CUDA:"}) {
+    CAPTURE(words);
+    CHECK(outcome.shows(words));
+  }
+}
+
+TEST_CASE("generate cannot write where there is no folder or no format") {
+  const ScratchFolder folder;
+  CHECK(call({"generate", folder.file("mesh.xyz"), "--vertices", "10"}).code == 4);
+  CHECK(call({"generate", folder.file("missing/mesh.off"), "--vertices", "10"}).code == 4);
+  CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("a standard output that takes nothing is answered with 4") {
+  std::ostringstream err;
+  std::ostream broken(nullptr);
+  const char* const arguments[] = {"trismooth", "info"};
+  CHECK(trismooth::run_command_line(2, arguments, {broken, err}) == 4);
+  CHECK(err.str() == "trismooth: error: standard output: cannot be written\n");
+}

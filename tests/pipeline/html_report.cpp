@@ -1,0 +1,186 @@
+#include "trismooth/pipeline/html_report.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <expat.h>
+
+#include "trismooth/pipeline/html_text.h"
+#include "trismooth/pipeline/svg_charts.h"
+
+#include "catch.h"
+#include "sample_run.h"
+
+using trismooth::escape_html;
+using trismooth::html_report;
+
+namespace {
+
+/// What an XML parser finds in a text.
+struct Parsed {
+  std::string error;  ///< empty where the text is well-formed
+  std::vector<std::string> elements;
+  std::vector<std::string> links;  ///< values of attributes that fetch something
+  std::string text;
+
+  auto count(const std::string& element) const { return std::count(elements.begin(), elements.end(), element); }
+  bool says(const std::string& words) const { return text.find(words) != std::string::npos; }
+};
+
+Parsed parse(const std::string& xml) {
+  Parsed parsed;
+  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate("UTF-8"),
+                                                                                             &XML_ParserFree);
+  XML_SetUserData(parser.get(), &parsed);
+  XML_SetElementHandler(
+      parser.get(),
+      [](void* data, const XML_Char* name, const XML_Char** attributes) {
+        auto& found = *static_cast<Parsed*>(data);
+        found.elements.emplace_back(name);
+        for (; *attributes != nullptr; attributes += 2) {
+          const std::string attribute = attributes[0];
+          if (attribute == "src" || attribute == "href") {
+            found.links.emplace_back(attributes[1]);
+          }
+        }
+      },
+      [](void*, const XML_Char*) {});
+  XML_SetCharacterDataHandler(parser.get(), [](void* data, const XML_Char* text, int length) {
+    static_cast<Parsed*>(data)->text.append(text, static_cast<std::size_t>(length));
+  });
+  if (XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE) == XML_STATUS_ERROR) {
+    parsed.error = std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
+                   std::to_string(XML_GetCurrentLineNumber(parser.get()));
+  }
+  return parsed;
+}
+
+}  // namespace
+
+TEST_CASE("text is escaped for content and for attributes") {
+  CHECK(escape_html("a < b && \"c\" > 'd'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; &#39;d&#39;");
+  CHECK(escape_html("gr\xc3\xb6\xc3\x9f"
+                    "e") ==
+        "gr\xc3\xb6\xc3\x9f"
+        "e");
+  CHECK(escape_html(std::string("a\0b\x1b", 4)) ==
+        "a\xef\xbf\xbd"
+        "b\xef\xbf\xbd");
+}
+
+TEST_CASE("the report of a smoothing is well-formed and has all its parts") {
+  const Parsed page = parse(html_report(sample::options(), sample::result()));
+  REQUIRE(page.error.empty());
+  CHECK(page.count("svg") == 2);
+  CHECK(page.count("title") >= 1);
+  for (const char* words :
+       {"plate.vtk", "out.vtk", "Smallest shape", "Worst elements", "Convergence", "Options", "Time", "equiangle_skew",
+        "0123456789abcdef", "fixed_point", "61 of 80 free vertices moved"}) {
+    CAPTURE(words);
+    CHECK(page.says(words));
+  }
+}
+
+TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
+  auto options = sample::options();
+  options.output.reset();
+  const Parsed page = parse(html_report(options, sample::quality_result()));
+  REQUIRE(page.error.empty());
+  CHECK(page.count("svg") == 1);
+  CHECK_FALSE(page.says("Convergence"));
+  CHECK_FALSE(page.says(", before"));
+}
+
+TEST_CASE("the page fetches nothing and runs nothing") {
+  const std::string html = html_report(sample::options(), sample::result());
+  const Parsed page = parse(html);
+  CHECK(page.links.empty());
+  CHECK(page.count("script") == 0);
+  CHECK(page.count("link") == 0);
+  for (const char* fetch : {"url(", "@import", "http:", "https:"}) {
+    CAPTURE(fetch);
+    CHECK(html.find(fetch) == std::string::npos);
+  }
+}
+
+TEST_CASE("names from the run cannot break out of the page") {
+  auto options = sample::options();
+  options.output = "</code><script>alert(1)</script>.vtk";
+  options.fixed_array = "<i>array</i>";
+  options.fixed_ids = "ids & \"more\".txt";
+  auto result = sample::result();
+  result.input.path = "\"><script>alert('x')</script>.vtk";
+  result.input.region_array = "<b>region</b>";
+  const Parsed page = parse(html_report(options, result));
+  REQUIRE(page.error.empty());
+  CHECK(page.count("script") == 0);
+  CHECK(page.count("b") == 0);
+  CHECK(page.says("\"><script>alert('x')"));
+  CHECK(page.says("<i>array</i>"));
+  CHECK(page.says("a note with <b>markup</b> & an ampersand"));
+  CHECK(page.says("A <fast> processor"));
+}
+
+TEST_CASE("a mesh without triangles has a report, too") {
+  auto result = sample::result();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  trismooth::QualityReport empty;
+  empty.metrics.fill({nan, nan, nan, nan, nan});
+  result.before = empty;
+  result.after = empty;
+  result.smoothing->history.clear();
+  const Parsed page = parse(html_report(sample::options(), result));
+  REQUIRE(page.error.empty());
+  CHECK(page.says("The mesh has no triangles."));
+}
+
+TEST_CASE("values that are not finite leave the page well-formed") {
+  auto result = sample::result();
+  const double infinity = std::numeric_limits<double>::infinity();
+  result.before.metrics.fill({-infinity, std::numeric_limits<double>::quiet_NaN(), infinity, infinity, 0});
+  CHECK(parse(html_report(sample::options(), result)).error.empty());
+}
+
+TEST_CASE("inverted triangles are said and drawn") {
+  auto result = sample::result();
+  result.before.inverted = 9;
+  result.after->inverted = 4;
+  const Parsed page = parse(html_report(sample::options(), result));
+  REQUIRE(page.error.empty());
+  CHECK(page.says("4 of 210 triangles are still inverted."));
+  CHECK(page.says("inverted, before: 9"));
+  CHECK(page.says("inverted, after: 4"));
+}
+
+TEST_CASE("the histogram has a bar for every bin that is not empty") {
+  trismooth::QualityReport report;
+  report.triangles = 1000001;
+  report.shape_histogram[3] = 1;
+  report.shape_histogram[19] = 1000000;
+  const Parsed chart = parse(trismooth::shape_histogram_svg(report, nullptr));
+  REQUIRE(chart.error.empty());
+  CHECK(chart.count("rect") == 2);
+  CHECK(chart.says("0.15 to 0.20: 1"));
+  CHECK(chart.says("0.95 to 1.00: 1,000,000"));
+}
+
+TEST_CASE("the convergence of any history can be drawn") {
+  using History = std::vector<trismooth::SweepRecord>;
+  History long_history;
+  for (std::int64_t sweep = 1; sweep <= 100000; ++sweep) {
+    long_history.push_back({sweep, 1000000, 2000000 / sweep, 0.1});
+  }
+  for (const History& history : {History{{1, 5, 0, 0}}, History{{1, 5, 1, 0.1}, {2, 1, 0, 0}}, long_history}) {
+    CAPTURE(history.size());
+    const std::string svg = trismooth::convergence_svg(history);
+    const Parsed chart = parse(svg);
+    CHECK(chart.error.empty());
+    CHECK(chart.count("polyline") == 1);
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("inf") == std::string::npos);
+    CHECK(svg.size() < 100000);
+  }
+}

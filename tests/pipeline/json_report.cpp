@@ -1,0 +1,141 @@
+#include "trismooth/pipeline/json_report.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "trismooth/pipeline/version.h"
+
+#include "catch.h"
+#include "sample_run.h"
+
+using trismooth::json_report;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) {
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+using Keys = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
+  const Json report = Json::parse(json_report(sample::options(), sample::result()));
+  CHECK(keys_of(report) == Keys{"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash",
+                                "uncommitted_hash", "timings_ms", "peak_memory_bytes"});
+  CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
+                                         "region_array", "components", "fixed_vertices", "free_vertices",
+                                         "reoriented_triangles"});
+  const Keys options = keys_of(report["options"]);
+  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "precision", "threads",
+                          "max_sweeps", "tolerance", "time_limit", "target_quality", "guard"}) {
+    CAPTURE(key);
+    CHECK(std::find(options.begin(), options.end(), key) != options.end());
+  }
+  for (const char* side : {"before", "after"}) {
+    CHECK(keys_of(report[side]) == Keys{"triangles", "inverted", "metrics", "histogram", "worst"});
+    CHECK(keys_of(report[side]["metrics"]) == Keys{"shape", "area", "min_angle", "max_angle", "aspect_ratio",
+                                                   "radius_ratio", "edge_ratio", "condition", "scaled_jacobian",
+                                                   "equiangle_skew"});
+    CHECK(keys_of(report[side]["metrics"]["shape"]) == Keys{"min", "mean", "max", "stddev", "acceptable_fraction"});
+    CHECK(report[side]["histogram"]["shape"].size() == 20);
+    CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid"});
+  }
+  CHECK(keys_of(report["smoothing"]) == Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices",
+                                             "reverted_vertices", "device", "guard_rounds", "history"});
+  CHECK(keys_of(report["smoothing"]["history"][0]) ==
+        Keys{"sweep", "evaluated", "moved", "max_relative_move", "min_shape"});
+  CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "smooth",
+                                              "transfer_out", "commit", "check_after", "write", "total"});
+}
+
+TEST_CASE("the JSON report holds the run's values") {
+  const Json report = Json::parse(json_report(sample::options(), sample::result()));
+  CHECK(report["trismooth"] == std::string(trismooth::version()));
+  CHECK(report["input"]["path"] == "plate.vtk");
+  CHECK(report["input"]["format"] == "vtk");
+  CHECK(report["input"]["vertices"] == 120);
+  CHECK(report["input"]["triangles"] == 210);
+  CHECK(report["input"]["other_cells"] == 5);
+  CHECK(report["input"]["regions"] == 3);
+  CHECK(report["input"]["region_array"] == "mat_id");
+  CHECK(report["input"]["components"] == 2);
+  CHECK(report["input"]["fixed_vertices"] == 40);
+  CHECK(report["input"]["free_vertices"] == 80);
+  CHECK(report["input"]["reoriented_triangles"] == 7);
+  CHECK(report["options"]["method"] == "smart");
+  CHECK(report["options"]["form"] == "b");
+  CHECK(report["options"]["backend"] == "cpu");
+  CHECK(report["options"]["threads"] == 2);
+  CHECK(report["options"]["tolerance"] == 1e-6);
+  CHECK(report["before"]["metrics"]["area"]["mean"] == 1.2);
+  CHECK(report["after"]["metrics"]["area"]["mean"] == 0.25 + 1 + 0.2);
+  CHECK(report["after"]["histogram"]["shape"][19] == 20);
+  CHECK(report["after"]["worst"][0]["cell"] == 17);
+  CHECK(report["after"]["worst"][0]["centroid"] == Json::array({1.5, -2.5}));
+  CHECK(report["smoothing"]["stop_reason"] == "fixed_point");
+  CHECK(report["smoothing"]["history"][1]["evaluated"] == 70);
+  CHECK(report["smoothing"]["history"][1]["min_shape"] == 0.375);
+  CHECK(report["coordinates_hash"] == "0123456789abcdef");
+  CHECK(report["uncommitted_hash"] == "fedcba9876543210");
+  CHECK(report["timings_ms"]["read"] == 1.5);
+  CHECK(report["timings_ms"]["write"] == 9.5);
+  CHECK(report["timings_ms"]["total"] == 50);
+  CHECK(report["peak_memory_bytes"] == 987654321);
+}
+
+TEST_CASE("a run that only checked has no after and no smoothing") {
+  const Json report = Json::parse(json_report(sample::options(), sample::quality_result()));
+  CHECK(report["after"].is_null());
+  CHECK(report["smoothing"].is_null());
+  CHECK(report["before"]["triangles"] == 210);
+}
+
+TEST_CASE("what was not recorded, not set or is not finite is null") {
+  auto result = sample::result();
+  result.before[trismooth::Metric::aspect_ratio].max = std::numeric_limits<double>::infinity();
+  result.before[trismooth::Metric::aspect_ratio].stddev = std::numeric_limits<double>::quiet_NaN();
+  result.input.region_array.clear();
+  const Json report = Json::parse(json_report(sample::options(), result));
+  CHECK(report["before"]["metrics"]["aspect_ratio"]["max"].is_null());
+  CHECK(report["before"]["metrics"]["aspect_ratio"]["stddev"].is_null());
+  CHECK(report["smoothing"]["history"][2]["min_shape"].is_null());
+  CHECK(report["options"]["time_limit"].is_null());
+  CHECK(report["options"]["target_quality"].is_null());
+  CHECK(report["input"]["region_array"].is_null());
+}
+
+TEST_CASE("numbers in the JSON report read back to the same bits") {
+  auto result = sample::result();
+  const std::vector<double> values{0.1,  1.0 / 3, 1e-308, 5e-324, std::nextafter(1.0, 2.0), 123456789.123456789,
+                                   -0.0, 1e300};
+  for (const double value : values) {
+    result.before[trismooth::Metric::area].mean = value;
+    const Json report = Json::parse(json_report(sample::options(), result));
+    const double back = report["before"]["metrics"]["area"]["mean"].get<double>();
+    CAPTURE(value);
+    CHECK(back == value);
+    CHECK(std::signbit(back) == std::signbit(value));
+  }
+}
+
+TEST_CASE("any file name makes valid JSON") {
+  for (const char* name : {"a \"quoted\" \\ name.off", "tab\tand\nline.off", "\xff\xfe not utf-8.off",
+                           "gr\xc3\xb6\xc3\x9f"
+                           "e.off"}) {
+    auto result = sample::result();
+    result.input.path = name;
+    CAPTURE(name);
+    CHECK_NOTHROW(Json::parse(json_report(sample::options(), result)));
+  }
+}

@@ -1,0 +1,84 @@
+#include "trismooth/pipeline/progress_bar.h"
+
+#include <chrono>
+#include <sstream>
+#include <string>
+
+#include "catch.h"
+
+using trismooth::ProgressBar;
+using trismooth::Stage;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A bar on a string, with a clock that the test moves.
+struct Scene {
+  std::ostringstream terminal;
+  ProgressBar::Clock::time_point now{};
+  ProgressBar bar{terminal, [this] { return now; }};
+
+  /// What was drawn since the last call.
+  std::string drawn() {
+    std::string text = terminal.str();
+    terminal.str("");
+    return text;
+  }
+};
+
+const std::string clear_line = "\r\x1b[K";
+
+}  // namespace
+
+TEST_CASE("a stage is drawn in place as soon as it starts") {
+  Scene scene;
+  scene.now += 1500ms;
+  scene.bar.stage_started(Stage::read);
+  CHECK(scene.drawn() == clear_line + "reading ..., 1.5 s");
+  scene.bar.stage_started(Stage::write);
+  CHECK(scene.drawn() == clear_line + "writing ..., 1.5 s");
+}
+
+TEST_CASE("a sweep is drawn with its number, its moves and the time") {
+  Scene scene;
+  scene.now += 200ms;
+  scene.bar.sweep_done({12, 9000, 3456, 0.1});
+  CHECK(scene.drawn() == clear_line + "smoothing: sweep 12, 3456 vertices moved, 0.2 s");
+  scene.now += 200ms;
+  scene.bar.sweep_done({13, 9, 1, 0.1});
+  CHECK(scene.drawn() == clear_line + "smoothing: sweep 13, 1 vertex moved, 0.4 s");
+}
+
+TEST_CASE("sweeps are drawn ten times a second at most") {
+  Scene scene;
+  int draws = 0;
+  for (int millisecond = 0; millisecond < 3000; ++millisecond) {
+    scene.bar.sweep_done({millisecond + 1, 10, 10, 0.1});
+    draws += scene.drawn().empty() ? 0 : 1;
+    scene.now += 1ms;
+  }
+  CHECK(draws == 30);
+}
+
+TEST_CASE("the line is erased at the end, and only if one was drawn") {
+  std::ostringstream terminal;
+  { const ProgressBar bar(terminal); }
+  CHECK(terminal.str().empty());
+  {
+    ProgressBar bar(terminal);
+    bar.stage_started(Stage::topology);
+    terminal.str("");
+  }
+  CHECK(terminal.str() == clear_line);
+}
+
+TEST_CASE("no line is longer than a narrow terminal") {
+  Scene scene;
+  for (const auto& [stage, text] : trismooth::EnumText<Stage>::texts) {
+    scene.bar.stage_started(stage);
+    CHECK(scene.drawn().size() < 80);
+  }
+  scene.now += 99999s;
+  scene.bar.sweep_done({1000000, 300000000, 300000000, 0.1});
+  CHECK(scene.drawn().size() < 80);
+}

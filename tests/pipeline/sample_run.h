@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/pipeline/pipeline.h"
+
+/// A run with a different value in every field, for tests of reports.
+namespace sample {
+
+inline trismooth::QualityReport quality(double offset) {
+  trismooth::QualityReport report;
+  report.triangles = 210;
+  for (std::size_t i = 0; i < report.metrics.size(); ++i) {
+    const double base = offset + static_cast<double>(i);
+    report.metrics[i] = {base + 0.1, base + 0.2, base + 0.3, base + 0.4, base / 100};
+  }
+  for (std::size_t bin = 0; bin < report.shape_histogram.size(); ++bin) {
+    report.shape_histogram[bin] = static_cast<std::int64_t>(bin) + 1;
+  }
+  report.worst = {{17, offset + 0.1, {1.5, -2.5}}, {4, offset + 0.2, {3.25, 4.0}}};
+  return report;
+}
+
+inline trismooth::PipelineOptions options() {
+  trismooth::PipelineOptions options;
+  options.input = "plate.vtk";
+  options.output = "out.vtk";
+  return options;
+}
+
+inline trismooth::PipelineResult result() {
+  trismooth::PipelineResult result;
+  result.input = {"plate.vtk", trismooth::FileFormat::vtk, 120, 210, 5, 3, "mat_id", 2, 40, 80, 7};
+  result.before = quality(0);
+  result.after = quality(0.25);
+  trismooth::SmoothingResult smoothing;
+  smoothing.sweeps = 3;
+  smoothing.stop_reason = trismooth::StopReason::fixed_point;
+  smoothing.vertex_updates = 190;
+  smoothing.moved_vertices = 61;
+  smoothing.reverted_vertices = 2;
+  smoothing.guard_rounds = 1;
+  smoothing.free_vertices = 80;
+  smoothing.history = {{1, 80, 60, 0.5, 0.125}, {2, 70, 12, 0.25, 0.375}, {3, 40, 0, 0}};
+  smoothing.backend = "cpu";
+  smoothing.device = "A <fast> processor";
+  smoothing.threads = 2;
+  result.smoothing = smoothing;
+  result.coordinates_hash = 0x0123456789abcdefU;
+  result.uncommitted_hash = 0xfedcba9876543210U;
+  result.notes = {"a note with <b>markup</b> & an ampersand"};
+  result.timings_ms = {1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 50};
+  result.peak_memory_bytes = 987654321;
+  return result;
+}
+
+/// The same of a run that only checked.
+inline trismooth::PipelineResult quality_result() {
+  trismooth::PipelineResult checked = result();
+  checked.after.reset();
+  checked.smoothing.reset();
+  return checked;
+}
+
+}  // namespace sample
