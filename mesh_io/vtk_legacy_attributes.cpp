@@ -1,6 +1,7 @@
 #include "trismooth/mesh_io/vtk_legacy_attributes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -120,9 +121,9 @@ class ArrayReader {
       input_.begin_values(count, 1, "colours");
       colors.reserve(count);
       for (std::uint64_t i = 0; i < count; ++i) {
-        const float value = input_.next_value<float>("a colour");
+        const auto value = input_.next_value<float>("a colour");
         const double fraction = value > 0 ? std::min(1.0, static_cast<double>(value)) : 0;
-        colors.push_back(static_cast<std::uint8_t>(255.0 * fraction + 0.5));
+        colors.push_back(static_cast<std::uint8_t>(std::lround(255.0 * fraction)));
       }
     }
     add(make_data_array(std::move(name), components, std::move(colors)));

@@ -69,8 +69,10 @@ void VtkLegacyInput::read_header() {
 }
 
 std::string VtkLegacyInput::peek_keyword() {
+  // What looks like a token may be megabytes of binary data.
+  constexpr std::size_t longer_than_any_keyword = 32;
   const std::size_t offset = scanner_.offset();
-  std::string keyword = lower_case(scanner_.peek_token());
+  std::string keyword = lower_case(scanner_.peek_token().substr(0, longer_than_any_keyword));
   scanner_.seek(offset);
   return keyword;
 }

@@ -25,8 +25,8 @@ class VtkLegacyInput {
   /// True where nothing but white space is left.
   bool at_end() { return scanner_.at_end(); }
 
-  /// The next token in lower case; empty at the end of the file. The input stays where it is, before any white space:
-  /// that may belong to binary data.
+  /// The next token in lower case (its first characters, where it is longer than any keyword); empty at the end of the
+  /// file. The input stays where it is, before any white space: that may belong to binary data.
   std::string peek_keyword();
   /// The next token; fails at the end of the file: "expected <what>, got the end of the file".
   std::string_view next_token(std::string_view what);

@@ -76,7 +76,8 @@ class GeometryReader {
     const std::string type = lower_case(dataset);
     poly_data_ = type == "polydata";
     if (!poly_data_ && type != "unstructured_grid") {
-      input_.fail("dataset type " + std::string(dataset) + " is not supported; UNSTRUCTURED_GRID and POLYDATA are");
+      input_.fail("dataset type " + trismooth::quoted(dataset) +
+                  " is not supported; UNSTRUCTURED_GRID and POLYDATA are");
     }
   }
 

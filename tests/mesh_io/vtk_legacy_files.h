@@ -1,17 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <unistd.h>
@@ -158,6 +158,78 @@ inline Builder grid_file(bool binary, bool with_offsets, bool with_float = false
   return builder;
 }
 
+template <class T>
+std::vector<T> count_up(std::size_t count, double from, double step) {
+  std::vector<T> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    values.push_back(static_cast<T>(from + step * static_cast<double>(i)));
+  }
+  return values;
+}
+
+/// Every kind of attribute that the format has, `n` rows each.
+inline void add_attributes(Builder& file, std::size_t n, bool binary, const std::string& prefix) {
+  const std::string rows = std::to_string(n);
+  file.text("SCALARS " + prefix + "scalars%20of%20float float\nLOOKUP_TABLE default\n")
+      .numbers(count_up<float>(n, 0.1, 0.3));
+  file.text("SCALARS " + prefix + "pairs short 2\nLOOKUP_TABLE table\n").numbers(count_up<std::int16_t>(2 * n, -3, 1));
+  file.text("LOOKUP_TABLE table 2\n");
+  if (binary) {
+    file.numbers(std::vector<std::uint8_t>{255, 0, 0, 255, 0, 0, 10, 13});
+  } else {
+    file.text("1 0 0 1\n0 0 0.5 1\n");
+  }
+  file.text("COLOR_SCALARS " + prefix + "colours 3\n");
+  if (binary) {
+    file.numbers(count_up<std::uint8_t>(3 * n, 5, 4));
+  } else {
+    file.numbers(count_up<float>(3 * n, 0, 0.02));
+  }
+  file.text("vectors " + prefix + "velocity double\n").numbers(count_up<double>(3 * n, -1, 1.0 / 7));
+  file.text("Normals " + prefix + "normal float\n").numbers(count_up<float>(3 * n, -1, 0.25));
+  file.text("TEXTURE_COORDINATES " + prefix + "uv 2 float\n").numbers(count_up<float>(2 * n, 0, 0.125));
+  file.text("TENSORS " + prefix + "stress double\n").numbers(count_up<double>(9 * n, 1e-300, 1e-301));
+  file.text("TENSORS6 " + prefix + "strain float\n").numbers(count_up<float>(6 * n, 3, 0.1));
+  file.text("GLOBAL_IDS " + prefix + "gid vtkIdType\n").numbers(count_up<std::int32_t>(n, 100, 3));
+  file.text("PEDIGREE_IDS " + prefix + "pid int\n").numbers(count_up<std::int32_t>(n, -5, 2));
+  file.text("FIELD FieldData 12\n");
+  file.text(prefix + "bits 1 " + rows + " bit\n");
+  if (binary) {
+    file.numbers(std::vector<std::uint8_t>((n + 7) / 8, 0xb5));
+  } else {
+    file.numbers(std::vector<int>(n, 1));
+  }
+  file.text("NULL_ARRAY\n");
+  file.text(prefix + "c 1 " + rows + " char\n").numbers(count_up<std::int8_t>(n, -4, 1));
+  file.text(prefix + "uc 1 " + rows + " unsigned_char\n").numbers(count_up<std::uint8_t>(n, 250 - 9.0, 1));
+  file.text(prefix + "us 2 " + rows + " unsigned_short\n").numbers(count_up<std::uint16_t>(2 * n, 65000, 1));
+  file.text(prefix + "ui 1 " + rows + " unsigned_int\n").numbers(count_up<std::uint32_t>(n, 4294967000.0, 1));
+  file.text(prefix + "l 1 " + rows + " long\n").numbers(count_up<std::int64_t>(n, -9e18, 1e6));
+  file.text(prefix + "ul 1 " + rows + " unsigned_long\n").numbers(count_up<std::uint64_t>(n, 1.8e19, 1e6));
+  file.text(prefix + "i64 1 " + rows + " vtktypeint64\n").numbers(count_up<std::int64_t>(n, -9e18, 1e6));
+  file.text(
+      "METADATA\nCOMPONENT_NAMES\nSCALARS%20of\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\n"
+      "DATA 2 0 1 \n\n");
+  file.text(prefix + "u64 1 " + rows + " vtktypeuint64\n").numbers(count_up<std::uint64_t>(n, 1.8e19, 1e6));
+  file.text(prefix + "words 1 " + rows + " string\n");
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string word(i, 'x');
+    file.text(binary ? std::string(1, static_cast<char>(0xc0 | i)) + word : word + "\n");
+  }
+  file.text("\n" + prefix + "last 3 " + rows + " double\n").numbers(count_up<double>(3 * n, 0.7, 1e-9));
+}
+
+/// A POLYDATA whose sections stand in another order than VTK's.
+inline Builder poly_data_file(bool binary, bool with_offsets) {
+  Builder file(binary, with_offsets ? "5.1" : "2.0", "POLYDATA");
+  file.text("POINTS 9 float\n").numbers(grid_points_as<float>());
+  file.cells("TRIANGLE_STRIPS", {{3, 4, 6, 7}}, with_offsets);
+  file.cells("POLYGONS", {{0, 1, 4}, {1, 2, 5, 4}, {4, 5, 8, 7, 3}}, with_offsets);
+  file.cells("LINES", {{0, 1}, {0, 3, 6}}, with_offsets);
+  file.cells("VERTICES", {{8}, {2, 5}}, with_offsets);
+  return file;
+}
+
 /// What VTK's own reader makes of the file, every array of every kind.
 inline vtkSmartPointer<vtkPointSet> read_with_vtk(const std::filesystem::path& path) {
   const auto read = [&](auto* reader) -> vtkSmartPointer<vtkPointSet> {
@@ -189,7 +261,8 @@ inline void check_same(const trismooth::DataArray& ours, vtkAbstractArray* abstr
   REQUIRE(ours.components == static_cast<std::size_t>(theirs->GetNumberOfComponents()));
   REQUIRE(ours.rows() == static_cast<std::size_t>(theirs->GetNumberOfTuples()));
   if (static_cast<std::size_t>(theirs->GetDataTypeSize()) == trismooth::size_of(ours.type)) {
-    CHECK(std::memcmp(ours.bytes.data(), theirs->GetVoidPointer(0), ours.bytes.size()) == 0);
+    const auto* const bytes = static_cast<const std::byte*>(theirs->GetVoidPointer(0));
+    CHECK(std::equal(ours.bytes.begin(), ours.bytes.end(), bytes));
   } else {
     for (std::size_t row = 0; row < ours.rows(); ++row) {
       for (std::size_t c = 0; c < ours.components; ++c) {
@@ -214,9 +287,11 @@ inline void check_same(const std::vector<trismooth::DataArray>& ours, vtkFieldDa
 inline void check_same(const trismooth::MeshDocument& ours, vtkPointSet* theirs) {
   REQUIRE(ours.point_count() == static_cast<std::size_t>(theirs->GetNumberOfPoints()));
   for (std::size_t point = 0; point < ours.point_count(); ++point) {
-    double xyz[3];
-    theirs->GetPoint(static_cast<vtkIdType>(point), xyz);
-    CHECK(std::memcmp(&ours.points[3 * point], xyz, sizeof(xyz)) == 0);
+    std::array<double, 3> xyz{};
+    theirs->GetPoint(static_cast<vtkIdType>(point), xyz.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      CHECK(std::bit_cast<std::uint64_t>(ours.points[3 * point + axis]) == std::bit_cast<std::uint64_t>(xyz[axis]));
+    }
   }
   REQUIRE(ours.cells.size() == static_cast<std::size_t>(theirs->GetNumberOfCells()));
   REQUIRE(ours.cells.offsets.size() == ours.cells.size() + 1);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "trismooth/mesh_io/vtk_legacy_names.h"
 
@@ -158,9 +159,9 @@ TEST_CASE("legacy VTK: in ASCII only the tokens of changed coordinates change") 
   const auto rounded = [&](double value) {
     return with_float ? static_cast<double>(static_cast<float>(value)) : value;
   };
-  document.points[3 * 4] = rounded(2.0 / 3);
-  document.points[3 * 4 + 1] = rounded(-1e-30);
-  document.points[3 * 8 + 2] = rounded(123456.789);
+  document.points[12] = rounded(2.0 / 3);
+  document.points[13] = rounded(-1e-30);
+  document.points[26] = rounded(123456.789);
   const TemporaryFile target;
   write_mesh(target.path(), document);
 
@@ -187,8 +188,8 @@ TEST_CASE("legacy VTK: in BINARY only the bytes of changed coordinates change") 
   const bool with_float = GENERATE(false, true);
   const TemporaryFile source(grid_file(true, true, with_float).bytes(), ".vtk");
   MeshDocument document = read_mesh(source.path());
-  document.points[3 * 4] = static_cast<double>(2.0F / 3);
-  document.points[3 * 8 + 2] = -5;
+  document.points[12] = static_cast<double>(2.0F / 3);
+  document.points[26] = -5;
   const TemporaryFile target;
   write_mesh(target.path(), document);
 
@@ -229,7 +230,7 @@ TEST_CASE("legacy VTK: VTK finds the arrays that were added, and all others, wha
   const bool cell_name_taken = find_array(document.cell_arrays, "shape") != nullptr || ending == "strings";
   CHECK(extended.point_arrays.size() == document.point_arrays.size() + 2);
   CHECK(extended.cell_arrays.size() == document.cell_arrays.size() + 1);
-  const std::pair<const DataArray*, const DataArray*> pairs[] = {
+  const std::vector<std::pair<const DataArray*, const DataArray*>> pairs{
       {&added.point_arrays[0], find_array(extended.point_arrays, "displacement")},
       {&added.point_arrays[1], find_array(extended.point_arrays, point_name_taken ? "shape_1" : "shape")},
       {&added.cell_arrays[0], find_array(extended.cell_arrays, cell_name_taken ? "shape_1" : "shape")}};
@@ -273,7 +274,7 @@ TEST_CASE("legacy VTK: VTK reads back every bit of a document from another forma
 
   const MeshDocument back = read_mesh(target.path());
   CHECK(back.point_type == point_type);
-  CHECK(std::memcmp(back.points.data(), document.points.data(), 8 * document.points.size()) == 0);
+  CHECK(std::ranges::equal(std::as_bytes(std::span(back.points)), std::as_bytes(std::span(document.points))));
   CHECK(back.cells.offsets == document.cells.offsets);
   CHECK(back.cells.connectivity == document.cells.connectivity);
   CHECK(back.cells.types == document.cells.types);
