@@ -1,5 +1,7 @@
 #include "trismooth/mesh_io/vtk_arrays.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -107,6 +109,14 @@ std::optional<DataArray> view_as_data_array(vtkAbstractArray* array) {
   return DataArray{array->GetName() == nullptr ? "" : array->GetName(), *type,
                    static_cast<std::size_t>(array->GetNumberOfComponents()), std::span(numbers, count * size_of(*type)),
                    std::shared_ptr<const void>(numbers, [owner](const void*) {})};
+}
+
+bool holds_non_finite(const DataArray& array) {
+  const auto any = [](auto values) {
+    return std::ranges::any_of(values, [](auto value) { return !std::isfinite(value); });
+  };
+  return (array.type == ScalarType::float32 && any(array.as<float>())) ||
+         (array.type == ScalarType::float64 && any(array.as<double>()));
 }
 
 void add_vtk_array(vtkFieldData& fields, vtkAbstractArray& array, const std::string& name) {

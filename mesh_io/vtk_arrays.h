@@ -32,6 +32,9 @@ vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array);
 /// by row in one piece of memory.
 std::optional<DataArray> view_as_data_array(vtkAbstractArray* array);
 
+/// True where the array holds a NaN or an infinity.
+bool holds_non_finite(const DataArray& array);
+
 /// Gives the array that name and adds it; one that is there under the same name already stays, too (VTK's own
 /// AddArray() would replace it). The array must belong to nobody else yet.
 void add_vtk_array(vtkFieldData& fields, vtkAbstractArray& array, const std::string& name);

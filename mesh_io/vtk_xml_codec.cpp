@@ -121,11 +121,16 @@ void copy_cells(vtkPointSet& data, CellList& cells) {
   append_cells(*poly_data.GetStrips(), PolyDataGroup::strips, cells);
 }
 
-std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, std::vector<std::string>& notes) {
+std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, VtkXmlMode mode,
+                                std::vector<std::string>& notes) {
   std::vector<DataArray> views;
   for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
     vtkAbstractArray* const array = fields.GetAbstractArray(i);
     if (std::optional<DataArray> view = view_as_data_array(array)) {
+      if (mode == VtkXmlMode::ascii && holds_non_finite(*view)) {
+        notes.push_back("the " + std::string(where) + " array " + view->name +
+                        " holds values that are not finite; VTU and VTP get it as base64, which VTK can read");
+      }
       views.push_back(std::move(*view));
     } else {
       notes.push_back("the " + std::string(where) + " array " + array->GetName() +
@@ -145,9 +150,9 @@ MeshDocument read(const std::filesystem::path& path, std::string bytes) {
     document.notes = std::move(file.notes);
     copy_points(path, *file.data, document);
     copy_cells(*file.data, document.cells);
-    document.point_arrays = views_of(*file.data->GetPointData(), "point", document.notes);
-    document.cell_arrays = views_of(*file.data->GetCellData(), "cell", document.notes);
-    document.field_arrays = views_of(*file.data->GetFieldData(), "field", document.notes);
+    document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);
+    document.cell_arrays = views_of(*file.data->GetCellData(), "cell", file.encoding.mode, document.notes);
+    document.field_arrays = views_of(*file.data->GetFieldData(), "field", file.encoding.mode, document.notes);
     document.original = std::make_shared<VtkXmlOriginal>(std::move(file));
     return document;
   } catch (const std::bad_alloc&) {

@@ -11,32 +11,16 @@
 #include <utility>
 
 #include <vtkDataCompressor.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkLZMADataCompressor.h>
 #include <vtkObject.h>
-#include <vtkZLibDataCompressor.h>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/vtk_compressor.h"
 
 namespace trismooth {
 
 namespace {
-
-vtkSmartPointer<vtkDataCompressor> make_compressor(VtkXmlCompressor compressor) {
-  switch (compressor) {
-    case VtkXmlCompressor::none:
-      break;
-    case VtkXmlCompressor::zlib:
-      return vtkSmartPointer<vtkZLibDataCompressor>::New();
-    case VtkXmlCompressor::lz4:
-      return vtkSmartPointer<vtkLZ4DataCompressor>::New();
-    case VtkXmlCompressor::lzma:
-      return vtkSmartPointer<vtkLZMADataCompressor>::New();
-  }
-  return nullptr;
-}
 
 /// No block gets larger than that many times its compressed size (and a little): a larger one is not even tried.
 std::uint64_t most_expansion(VtkXmlCompressor compressor) {
@@ -123,7 +107,10 @@ std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
 }  // namespace
 
 VtkXmlDecoder::VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header)
-    : path_(std::move(path)), bytes_(bytes), header_(header), compressor_(make_compressor(header.encoding.compressor)) {
+    : path_(std::move(path)),
+      bytes_(bytes),
+      header_(header),
+      compressor_(make_vtk_compressor(header.encoding.compressor)) {
   if (compressor_ != nullptr) {
     messages_.watch(compressor_);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -19,8 +18,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationInformationVectorKey.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkLZMADataCompressor.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -29,27 +26,18 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-#include <vtkZLibDataCompressor.h>
 
 #include "trismooth/mesh_io/buffered_writer.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
+#include "trismooth/mesh_io/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_messages.h"
 #include "trismooth/mesh_io/xml_names.h"
 
 namespace trismooth {
 
 namespace {
-
-bool holds_non_finite(vtkAbstractArray* array) {
-  const auto view = view_as_data_array(array);
-  const auto any = [](auto values) {
-    return std::ranges::any_of(values, [](auto value) { return !std::isfinite(value); });
-  };
-  return view && ((view->type == ScalarType::float32 && any(view->as<float>())) ||
-                  (view->type == ScalarType::float64 && any(view->as<double>())));
-}
 
 template <class T>
 void write_text(std::ostream& stream, vtkIndent indent, std::span<const T> values) {
@@ -102,7 +90,8 @@ class ExactWriter : public Writer {
  protected:
   void WriteArrayInline(vtkAbstractArray* array, vtkIndent indent, const char* name, int write_rows) override {
     const int mode = this->DataMode;
-    if (mode == vtkXMLWriter::Ascii && holds_non_finite(array)) {
+    const auto view = view_as_data_array(array);
+    if (mode == vtkXMLWriter::Ascii && view && holds_non_finite(*view)) {
       this->DataMode = vtkXMLWriter::Binary;
     }
     Writer::WriteArrayInline(array, indent, name, write_rows);
@@ -121,20 +110,6 @@ class ExactWriter : public Writer {
     forget_ranges(*array);
   }
 };
-
-vtkSmartPointer<vtkDataCompressor> make_compressor(VtkXmlCompressor compressor) {
-  switch (compressor) {
-    case VtkXmlCompressor::none:
-      break;
-    case VtkXmlCompressor::zlib:
-      return vtkSmartPointer<vtkZLibDataCompressor>::New();
-    case VtkXmlCompressor::lz4:
-      return vtkSmartPointer<vtkLZ4DataCompressor>::New();
-    case VtkXmlCompressor::lzma:
-      return vtkSmartPointer<vtkLZMADataCompressor>::New();
-  }
-  return nullptr;
-}
 
 /// The name and the component names as VTK's writer has to get them: it puts them into attributes as they are.
 bool needs_escape(vtkAbstractArray& array) {
@@ -208,7 +183,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetEncodeAppendedData(encoding.appended_base64);
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
-  writer->SetCompressor(make_compressor(encoding.compressor));
+  writer->SetCompressor(make_vtk_compressor(encoding.compressor));
   errno = 0;
   const bool written = writer->Write() != 0;
   const unsigned long code = writer->GetErrorCode();

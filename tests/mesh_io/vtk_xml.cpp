@@ -192,6 +192,7 @@ TEST_CASE("text that VTK's own writer or reader would spoil comes back bit for b
                                   "</DataArray><DataArray type=\"Float32\" Name=\"b\" format=\"ascii\">-0 0.1 1e-45"
                                   "</DataArray></PointData>",
                                   "-0 0.1 0.30000000000000004"));
+  CHECK(document.notes.size() == 1);
   const TemporaryPath output(".vtu");
   trismooth::write_mesh(output.path(), document);
   const MeshDocument again = trismooth::read_mesh(output.path());
