@@ -283,11 +283,11 @@ std::string notes_list(const std::vector<std::string>& notes) {
 
 std::string footer(const PipelineResult& result) {
   constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
-  return fmt::format(
-      "<footer>trismooth {}; input <code>{}</code>; coordinates <code>{}</code> (XXH64); peak memory {:.0f} "
-      "MiB</footer>\n",
-      version(), escape_html(result.input.path.string()), hash_text(result.coordinates_hash),
-      static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
+  const std::string hash =
+      result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
+  return fmt::format("<footer>trismooth {}; input <code>{}</code>{}; peak memory {:.0f} MiB</footer>\n", version(),
+                     escape_html(result.input.path.string()), hash,
+                     static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
 }
 
 std::string body(const PipelineOptions& options, const PipelineResult& result) {
