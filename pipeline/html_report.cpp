@@ -115,7 +115,9 @@ std::string cards(const PipelineResult& result) {
                fmt::format("{} fixed{}", count_text(input.fixed_vertices),
                            input.region_array.empty()
                                ? std::string{}
-                               : fmt::format("; {} regions by {}", input.regions, escape_html(input.region_array))));
+                               : fmt::format("; {} by array {}",
+                                             input.regions == 1 ? "1 region" : count_text(input.regions) + " regions",
+                                             escape_html(input.region_array))));
   html += card("Time", duration_text(result.timings_ms.total),
                result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
   return "<div class=\"cards\">\n" + html + "</div>\n";
