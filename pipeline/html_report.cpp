@@ -115,7 +115,9 @@ std::string cards(const PipelineResult& result) {
                fmt::format("{} fixed{}", count_text(input.fixed_vertices),
                            input.region_array.empty()
                                ? std::string{}
-                               : fmt::format("; {} regions by {}", input.regions, escape_html(input.region_array))));
+                               : fmt::format("; {} by array {}",
+                                             input.regions == 1 ? "1 region" : count_text(input.regions) + " regions",
+                                             escape_html(input.region_array))));
   html += card("Time", duration_text(result.timings_ms.total),
                result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
   return "<div class=\"cards\">\n" + html + "</div>\n";
@@ -283,11 +285,11 @@ std::string notes_list(const std::vector<std::string>& notes) {
 
 std::string footer(const PipelineResult& result) {
   constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
-  return fmt::format(
-      "<footer>trismooth {}; input <code>{}</code>; coordinates <code>{}</code> (XXH64); peak memory {:.0f} "
-      "MiB</footer>\n",
-      version(), escape_html(result.input.path.string()), hash_text(result.coordinates_hash),
-      static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
+  const std::string hash =
+      result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
+  return fmt::format("<footer>trismooth {}; input <code>{}</code>{}; peak memory {:.0f} MiB</footer>\n", version(),
+                     escape_html(result.input.path.string()), hash,
+                     static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
 }
 
 std::string body(const PipelineOptions& options, const PipelineResult& result) {

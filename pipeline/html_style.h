@@ -37,6 +37,7 @@ th { color: var(--soft); font-size: 13px; font-weight: 600; }
 th:first-child, td:first-child, td.word { text-align: left; }
 td:first-child { padding-left: 0; }
 th:first-child { padding-left: 0; }
+thead tr:not(:last-child) th { border-bottom: 0; }
 thead tr:last-child th { border-bottom: 1px solid var(--soft); }
 th.group { text-align: center; border-bottom: 0; padding-bottom: 0; }
 td.start, th.start { border-left: 1px solid var(--line); }

@@ -130,8 +130,8 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
                     {"before", quality_json(result.before)},
                     {"after", result.after ? quality_json(*result.after) : Json(nullptr)},
                     {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
-                    {"coordinates_hash", hash_text(result.coordinates_hash)},
-                    {"uncommitted_hash", hash_text(result.uncommitted_hash)},
+                    {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
+                    {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},
                     {"timings_ms", timings_json(result.timings_ms)},
                     {"peak_memory_bytes", result.peak_memory_bytes}};
   constexpr int indent = 2;

@@ -147,18 +147,20 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   const InterruptGuard guard(OnInterrupt::ask);  // of reports, too: a temporary file must not stay behind
   const PipelineResult result = run_watched(options, verbosity, environment);
 
+  // Files first: a reader of the standard output that goes away (head) ends the program.
+  for (const std::filesystem::path& report : settings.reports) {
+    write_report(report, options, result);
+  }
   if (verbosity != Verbosity::quiet) {
-    environment.out << text_report(options, result) << std::flush;
+    environment.out << text_report(options, result);
+    for (const std::filesystem::path& report : settings.reports) {
+      environment.out << "report:     " << report.string() << '\n';
+    }
+    environment.out << std::flush;
     print_notes(result, verbosity, environment.err);
   }
   if (verbosity == Verbosity::verbose) {
     environment.err << timings_line(result.timings_ms) << '\n';
-  }
-  for (const std::filesystem::path& report : settings.reports) {
-    write_report(report, options, result);
-    if (verbosity != Verbosity::quiet) {
-      environment.out << "report:     " << report.string() << '\n';
-    }
   }
   ExitCode code = ExitCode::done;
   for (const Gate& gate : settings.gates) {

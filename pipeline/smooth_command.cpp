@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/backend_choice.h"
 #include "trismooth/pipeline/mesh_run.h"
 #include "trismooth/pipeline/option_parsing.h"
@@ -91,7 +90,6 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
   choose_backend(settings.backend, options.smoothing);
-  output_format(*options.output);  // an unknown extension is told before the work, not after it
   return run_on_mesh(std::move(settings.run), environment);
 }
 

@@ -33,8 +33,11 @@ std::string input_lines(const PipelineOptions& options, const InputSummary& inpu
                                  counted(input.reoriented_triangles, "triangle is", "triangles are")));
   }
   if (!input.region_array.empty()) {
-    text += line("regions:", fmt::format("{} by the cell array '{}'; vertices between two regions are fixed",
-                                         input.regions, input.region_array));
+    std::string regions = fmt::format("{} by the cell array '{}'", input.regions, input.region_array);
+    if (input.regions > 1) {
+      regions += "; vertices between two regions are fixed";
+    }
+    text += line("regions:", regions);
   }
   std::string vertices = fmt::format("{} fixed, {} free", input.fixed_vertices, input.free_vertices);
   if (options.fixed_array) {

@@ -94,10 +94,12 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["peak_memory_bytes"] == 987654321);
 }
 
-TEST_CASE("a run that only checked has no after and no smoothing") {
+TEST_CASE("a run that only checked has no after, no smoothing and no output to hash") {
   const Json report = Json::parse(json_report(sample::options(), sample::quality_result()));
   CHECK(report["after"].is_null());
   CHECK(report["smoothing"].is_null());
+  CHECK(report["coordinates_hash"].is_null());
+  CHECK(report["uncommitted_hash"].is_null());
   CHECK(report["before"]["triangles"] == 210);
 }
 
