@@ -150,14 +150,14 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
   };
   const auto rotated = [&](HalfedgeHandle h) { return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h)); };
 
+  // A free vertex is an interior one: it has as many neighbours as outgoing halfedges.
   std::vector<std::int32_t> sizes(fixed.size(), 0);
-  for_free_vertices([&](int v, HalfedgeHandle first) {
-    HalfedgeHandle h = first;
-    do {
+  for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); ++h) {
+    const auto v = static_cast<std::size_t>(mesh.from_vertex_handle(HalfedgeHandle(h)).idx());
+    if (v < fixed.size() && fixed[v] == 0) {
       ++sizes[v];
-      h = rotated(h);
-    } while (h != first);
-  });
+    }
+  }
   OneRings rings =
       OneRings::with_sizes(static_cast<std::int32_t>(fixed.size()), [&](std::int32_t v) { return sizes[v]; });
   for_free_vertices([&](int v, HalfedgeHandle first) {

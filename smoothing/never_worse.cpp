@@ -81,8 +81,12 @@ class Guard {
         if (suspect_[v] != 0) {
           suspect_[v] = 0;
           for_elements(v, [&](const Triangle& element) {
-            offending_[v] = offends(quotient(before_, element), quotient(after_, element), threshold_) ? 1 : 0;
-            return offending_[v] == 0;
+            const double after = quotient(after_, element);
+            // Most elements are beyond reproach, whatever they were before.
+            const bool offending =
+                !(after > 0 && after >= threshold_) && offends(quotient(before_, element), after, threshold_);
+            offending_[v] = offending ? 1 : 0;
+            return !offending;
           });
           found_here = found_here || offending_[v] != 0;
         }

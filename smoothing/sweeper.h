@@ -143,15 +143,14 @@ class Sweeper {
     RingGatherer<T> gatherer;
     const bool all = options_.evaluation == Evaluation::all;
     const T tolerance = static_cast<T>(options_.tolerance);
-    for (std::int32_t v = begin; v < end; ++v) {
-      if (!all) {
-        v = next_marked(marked, v, end);
-        if (v == end) {
-          return;
-        }
+    const auto next = [&](std::int32_t v) { return all || v == end ? v : next_marked(marked, v, end); };
+    for (std::int32_t v = next(begin); v < end;) {
+      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next one is known.
+      const std::int32_t following = next(v + 1);
+      if (following < end) {
+        prefetch_ring(from, following);
       }
-      // No other thread touches this mark now: only the vertex itself and its neighbours, which are in other batches
-      // (Form B) or write the next sweep's marks (Form A), ever do.
+      // No other thread touches this mark now.
       marked[v] = 0;
       const Point2<T> position = from[v];
       const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
@@ -166,6 +165,15 @@ class Sweeper {
       if (moved) {
         mark_neighbourhood(v, marked_next);
       }
+      v = following;
+    }
+  }
+
+  /// Asks for the positions of a ring before they are needed: on large meshes waiting for them is a third of the time.
+  /// Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and stores nothing.
+  [[gnu::always_inline]] void prefetch_ring(std::span<const Point2<T>> points, std::int32_t v) const {
+    for (const std::int32_t neighbour : view_[v]) {
+      __builtin_prefetch(&points[neighbour]);
     }
   }
 

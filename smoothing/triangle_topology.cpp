@@ -33,48 +33,67 @@ void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triang
 }
 
 struct HalfedgeEnd {
-  std::int32_t larger;  ///< the edge's larger vertex; the smaller one names the bucket
+  std::int32_t larger;  ///< the edge's larger label; the smaller one names the bucket
   std::int32_t halfedge;
 };
 
-/// All halfedges, bucketed by the smaller of their two vertices.
+/// All halfedges, bucketed by the smaller label of their two vertices.
 struct EdgeBuckets {
-  std::vector<std::int32_t> offsets;
+  std::vector<std::int32_t> offsets;  ///< bucket b holds ends[offsets[b] .. offsets[b + 1])
   std::vector<HalfedgeEnd> ends;
 };
 
+/// A label for each corner's vertex: the vertices numbered as the triangles first name them. Files number vertices at
+/// random more often than triangles, so what is near in this numbering is near in memory too.
+std::vector<std::int32_t> label_corners(std::int32_t vertex_count, std::span<const Triangle> triangles) {
+  std::vector<std::int32_t> label(static_cast<std::size_t>(vertex_count), -1);
+  std::vector<std::int32_t> labels(3 * triangles.size());
+  std::int32_t next = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::int32_t& own = label[triangles[t][i]];
+      own = own < 0 ? next++ : own;
+      labels[3 * t + i] = own;
+    }
+  }
+  return labels;
+}
+
 EdgeBuckets bucket_edges(std::int32_t vertex_count, std::span<const Triangle> triangles) {
+  const std::vector<std::int32_t> labels = label_corners(vertex_count, triangles);
+  const auto halfedge_count = static_cast<std::int32_t>(labels.size());
+  const auto ends_of = [&](std::int32_t h) { return std::minmax(labels[h], labels[h % 3 == 2 ? h - 2 : h + 1]); };
   EdgeBuckets buckets;
   buckets.offsets.assign(static_cast<std::size_t>(vertex_count) + 2, 0);
-  for (const Triangle& t : triangles) {
-    for (int i = 0; i < 3; ++i) {
-      ++buckets.offsets[std::min(t[i], t[(i + 1) % 3]) + 2];
-    }
+  for (std::int32_t h = 0; h < halfedge_count; ++h) {
+    ++buckets.offsets[ends_of(h).first + 2];
   }
   for (std::int32_t v = 0; v < vertex_count; ++v) {
     buckets.offsets[v + 2] += buckets.offsets[v + 1];
   }
-  buckets.ends.resize(3 * triangles.size());
-  std::int32_t halfedge = 0;
-  for (const Triangle& t : triangles) {
-    for (int i = 0; i < 3; ++i, ++halfedge) {
-      const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-      buckets.ends[buckets.offsets[low + 1]++] = {high, halfedge};
-    }
+  // While they are filled, offsets[b + 1] is where bucket b goes on; in the end, where it ends.
+  buckets.ends.resize(labels.size());
+  for (std::int32_t h = 0; h < halfedge_count; ++h) {
+    const auto [smaller, larger] = ends_of(h);
+    buckets.ends[buckets.offsets[smaller + 1]++] = {larger, h};
   }
   return buckets;
 }
 
 /// Pairs the halfedges of each edge, and marks the vertices of boundary and non-manifold edges.
-void pair_edges(EdgeBuckets& buckets, TriangleTopology& topology, Workers& workers) {
-  const auto mark = [&](std::int32_t vertex, std::uint8_t bit) {
-    std::atomic_ref(topology.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
+void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, TriangleTopology& topology,
+                Workers& workers) {
+  const auto mark_ends = [&](std::int32_t h, std::uint8_t bit) {
+    for (const std::int32_t vertex : {triangles[h / 3][h % 3], triangles[h / 3][(h % 3 + 1) % 3]}) {
+      std::atomic_ref(topology.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
+    }
   };
   workers.for_blocks(topology.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto low = static_cast<std::int32_t>(begin); low < end; ++low) {
-      const auto bucket = std::span(buckets.ends).subspan(buckets.offsets[low], buckets.offsets[low + 1] - buckets.offsets[low]);
-      std::ranges::sort(bucket, [](HalfedgeEnd a, HalfedgeEnd b) {
-        return a.larger != b.larger ? a.larger < b.larger : a.halfedge < b.halfedge;
+    for (std::int64_t b = begin; b < end; ++b) {
+      const auto bucket =
+          std::span(buckets.ends).subspan(buckets.offsets[b], buckets.offsets[b + 1] - buckets.offsets[b]);
+      std::ranges::sort(bucket, [](HalfedgeEnd x, HalfedgeEnd y) {
+        return x.larger != y.larger ? x.larger < y.larger : x.halfedge < y.halfedge;
       });
       for (std::size_t i = 0; i < bucket.size();) {
         std::size_t j = i + 1;
@@ -89,8 +108,7 @@ void pair_edges(EdgeBuckets& buckets, TriangleTopology& topology, Workers& worke
           for (std::size_t k = i; k < j; ++k) {
             topology.twins[bucket[k].halfedge] = single ? TriangleTopology::no_twin : TriangleTopology::many_twins;
           }
-          mark(low, single ? hold::boundary : hold::non_manifold);
-          mark(bucket[i].larger, single ? hold::boundary : hold::non_manifold);
+          mark_ends(bucket[i].halfedge, single ? hold::boundary : hold::non_manifold);
         }
         i = j;
       }
@@ -224,7 +242,7 @@ TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Tr
   topology.hold.assign(static_cast<std::size_t>(vertex_count), 0);
   {
     EdgeBuckets buckets = bucket_edges(vertex_count, triangles);
-    pair_edges(buckets, topology, workers);
+    pair_edges(buckets, triangles, topology, workers);
   }
   find_components(triangles, topology);
   find_corners(triangles, topology);

@@ -1,0 +1,169 @@
+// Measures the CPU path on random Delaunay meshes (the paper's test data), stage by stage and by number of threads, and
+// checks on the way that every run gives the same bits.
+//
+//     cpu_smoothing --vertices 100000 1000000 --threads 1 2 --form b --precision double --runs 7
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/smoothing/smooth.h"
+
+namespace {
+
+using namespace trismooth;
+
+struct Settings {
+  std::vector<std::int64_t> vertices{100'000, 1'000'000};
+  std::vector<int> threads{1, 2};
+  std::string method = "smart";
+  std::string form = "b";
+  std::string precision = "double";
+  std::string evaluation = "changed";
+  int runs = 7;
+};
+
+double milliseconds(const std::function<void()>& body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Spread {
+  double median, low, high;
+};
+
+Spread spread(std::vector<double> values) {
+  std::ranges::sort(values);
+  return {values[values.size() / 2], values.front(), values.back()};
+}
+
+/// Times of one kind of work over several runs.
+class Series {
+ public:
+  explicit Series(std::string name) : name_(std::move(name)) {}
+  void add(double value) { values_.push_back(value); }
+  void print() const {
+    const Spread s = spread(values_);
+    fmt::print("  {:<34}{:>10.1f} ms   ({:.1f} to {:.1f})\n", name_, s.median, s.low, s.high);
+  }
+  double median() const { return spread(values_).median; }
+
+ private:
+  std::string name_;
+  std::vector<double> values_;
+};
+
+void bench_topology(const RandomMesh& mesh, int runs) {
+  const auto n = static_cast<std::int32_t>(mesh.points.size());
+  std::vector<double> xyz;
+  for (const Point2<double> p : mesh.points) {
+    xyz.insert(xyz.end(), {p.x, p.y, 0.0});
+  }
+  Workers workers(1);
+  Series connect("connect triangles");
+  Series fill("fill halfedge mesh");
+  Series rings("one-rings from halfedges");
+  for (int run = 0; run < runs; ++run) {
+    TriangleTopology topology;
+    connect.add(milliseconds([&] { topology = connect_triangles(n, mesh.triangles, workers); }));
+    const Orientation orientation = orient(topology, mesh.triangles, mesh.points);
+    HalfedgeMesh halfedges;
+    fill.add(milliseconds(
+        [&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, topology, orientation.reversed); }));
+    rings.add(milliseconds([&] { one_rings(halfedges.mesh, topology.hold, {}, workers); }));
+  }
+  fmt::print(" topology, one thread\n");
+  connect.print();
+  fill.print();
+  rings.print();
+}
+
+/// Median time of sweeps and commit together; the hash of the result goes to `hashes`.
+double bench_smoothing(const RandomMesh& mesh, const Settings& settings, int threads,
+                       std::vector<std::uint64_t>& hashes) {
+  SmoothingOptions options;
+  options.method = parse_enum<Method>(settings.method);
+  options.form = parse_enum<Form>(settings.form);
+  options.precision = parse_enum<Precision>(settings.precision);
+  options.evaluation = settings.evaluation == "all" ? Evaluation::all : Evaluation::changed;
+  options.threads = threads;
+  std::vector<std::int32_t> triangles;
+  for (const auto& t : mesh.triangles) {
+    triangles.insert(triangles.end(), t.begin(), t.end());
+  }
+  Series prepare("renumber, colour, pack");
+  Series sweeps("sweeps");
+  Series commit("never-worse commit");
+  Series both("sweeps and commit");
+  SmoothingResult result;
+  for (int run = 0; run < settings.runs; ++run) {
+    std::vector<double> xy;
+    for (const Point2<double> p : mesh.points) {
+      xy.insert(xy.end(), {p.x, p.y});
+    }
+    result = smooth(xy, triangles, {}, options);
+    hashes.push_back(coordinates_hash(xy));
+    prepare.add(result.timings.prepare);
+    sweeps.add(result.timings.smooth);
+    commit.add(result.timings.commit);
+    both.add(result.timings.smooth + result.timings.commit);
+  }
+  fmt::print(" smoothing, {} thread{} of {}: {} sweeps ({}), {:.2f} updates a vertex, {:.1f} % moved, {} reverted\n",
+             threads, threads == 1 ? "" : "s", result.device, result.sweeps, to_string(result.stop_reason),
+             static_cast<double>(result.vertex_updates) / static_cast<double>(result.free_vertices),
+             100.0 * static_cast<double>(result.moved_vertices) / static_cast<double>(result.free_vertices),
+             result.reverted_vertices);
+  prepare.print();
+  sweeps.print();
+  commit.print();
+  both.print();
+  return both.median();
+}
+
+void bench_mesh(std::int64_t vertices, const Settings& settings) {
+  RandomMesh mesh;
+  const double generating = milliseconds([&] { mesh = random_delaunay_mesh(vertices, 1); });
+  fmt::print("{} vertices, {} triangles, generated in {:.0f} ms\n", mesh.points.size(), mesh.triangles.size(),
+             generating);
+  bench_topology(mesh, settings.runs);
+  std::vector<std::uint64_t> hashes;
+  double first = 0;
+  for (const int threads : settings.threads) {
+    const double median = bench_smoothing(mesh, settings, threads, hashes);
+    first = first == 0 ? median : first;
+    fmt::print("  {:<34}{:>10.2f} times the speed of {} thread(s)\n", "", first / median, settings.threads.front());
+  }
+  const bool same = std::ranges::adjacent_find(hashes, std::not_equal_to<>()) == hashes.end();
+  fmt::print(" bits: {} runs, {}\n\n", hashes.size(), same ? "all the same" : "DIFFERENT");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Measures the CPU path on random Delaunay meshes");
+  Settings settings;
+  app.add_option("--vertices", settings.vertices, "mesh sizes")->capture_default_str();
+  app.add_option("--threads", settings.threads, "numbers of threads")->capture_default_str();
+  app.add_option("--method", settings.method)->capture_default_str();
+  app.add_option("--form", settings.form)->capture_default_str();
+  app.add_option("--precision", settings.precision)->capture_default_str();
+  app.add_option("--evaluation", settings.evaluation, "changed, or all: every vertex in every sweep")
+      ->check(CLI::IsMember({"changed", "all"}))
+      ->capture_default_str();
+  app.add_option("--runs", settings.runs)->capture_default_str()->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  for (const std::int64_t vertices : settings.vertices) {
+    bench_mesh(vertices, settings);
+  }
+  return 0;
+}
