@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
+#
+#   scripts/install-deps.sh            compiler, CMake, libraries
+#   scripts/install-deps.sh --tools    clang-format and clang-tidy as well
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config python3
+  libvtk9-dev libopenmesh-dev libeigen3-dev libtbb-dev
+  libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libxxhash-dev
+  catch2
+)
+
+case "${1:-}" in
+  '') ;;
+  --tools) packages+=(clang-format-14 clang-tidy-14) ;;
+  *)
+    echo "usage: install-deps.sh [--tools]" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "note: this is no Debian or Ubuntu; please make sure that you have what these packages hold:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 0
+fi
+
+is_installed() {
+  [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=()
+for package in "${packages[@]}"; do
+  if ! is_installed "$package"; then
+    missing+=("$package")
+  fi
+done
+if ((${#missing[@]} == 0)); then
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "error: these packages are missing and only root can install them (there is no sudo):" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+# env behind sudo: sudo itself drops the variable.
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 --quiet)
+echo "Installing: ${missing[*]}"
+"${apt[@]}" update
+"${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
