@@ -52,7 +52,8 @@ if ((EUID != 0)); then
 fi
 
 # env behind sudo: sudo itself drops the variable.
-apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 --quiet)
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+  apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 --quiet)
 echo "Installing: ${missing[*]}"
 "${apt[@]}" update
 "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
