@@ -13,8 +13,8 @@ using OpenMesh::VertexHandle;
 
 class Builder {
  public:
-  Builder(std::span<const Triangle> triangles, const TriangleTopology& topology,
-          std::span<const std::uint8_t> reversed, HalfedgeMesh& result)
+  Builder(std::span<const Triangle> triangles, const TriangleTopology& topology, std::span<const std::uint8_t> reversed,
+          HalfedgeMesh& result)
       : triangles_(triangles), topology_(topology), reversed_(reversed), result_(result), mesh_(result.mesh) {}
 
   void build(std::span<const double> xyz) {
@@ -23,9 +23,8 @@ class Builder {
     const auto vertices = static_cast<std::size_t>(topology_.vertex_count) + result_.copies_of.size();
     mesh_.resize(vertices, edge_count_, triangles_.size());
     for (std::size_t v = 0; v < vertices; ++v) {
-      const auto input = v < topology_.hold.size()
-                             ? v
-                             : static_cast<std::size_t>(result_.copies_of[v - topology_.hold.size()]);
+      const auto input =
+          v < topology_.hold.size() ? v : static_cast<std::size_t>(result_.copies_of[v - topology_.hold.size()]);
       mesh_.set_point(VertexHandle(static_cast<int>(v)), {xyz[3 * input], xyz[3 * input + 1], xyz[3 * input + 2]});
     }
     fill_faces();
@@ -124,17 +123,8 @@ class Builder {
   std::size_t edge_count_ = 0;
 };
 
-}  // namespace
-
-HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
-                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed) {
-  HalfedgeMesh result;
-  Builder(triangles, topology, reversed, result).build(xyz);
-  return result;
-}
-
 OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
-                   std::span<const std::uint8_t> reversed, Workers& workers) {
+                   std::span<const std::uint8_t> reversed, Workers& workers, std::span<const std::int32_t> copies_of) {
   constexpr std::int64_t grain = 16384;
   // In the order of the halfedges, which lie as the file lists its triangles: with more locality than its vertices.
   const auto for_free_vertices = [&](const auto& visit) {
@@ -142,7 +132,8 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
       for (auto h = static_cast<int>(begin); h < end; ++h) {
         const HalfedgeHandle first(h);
         const int v = mesh.from_vertex_handle(first).idx();
-        if (static_cast<std::size_t>(v) < fixed.size() && fixed[v] == 0 && mesh.halfedge_handle(VertexHandle(v)) == first) {
+        if (static_cast<std::size_t>(v) < fixed.size() && fixed[v] == 0 &&
+            mesh.halfedge_handle(VertexHandle(v)) == first) {
           visit(v, first);
         }
       }
@@ -163,12 +154,30 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
   for_free_vertices([&](int v, HalfedgeHandle first) {
     const bool clockwise = !reversed.empty() && reversed[mesh.face_handle(first).idx()] != 0;
     rings.fill(v, [&, h = first]() mutable {
-      const int neighbour = mesh.to_vertex_handle(h).idx();
+      const auto neighbour = static_cast<std::size_t>(mesh.to_vertex_handle(h).idx());
       h = clockwise ? mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h)) : rotated(h);
-      return neighbour;
+      return neighbour < fixed.size() ? static_cast<std::int32_t>(neighbour) : copies_of[neighbour - fixed.size()];
     });
   });
   return rings;
+}
+
+}  // namespace
+
+HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
+                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed) {
+  HalfedgeMesh result;
+  Builder(triangles, topology, reversed, result).build(xyz);
+  return result;
+}
+
+OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::uint8_t> fixed, Workers& workers) {
+  return rings_of(halfedges.mesh, halfedges.copies_of, fixed, {}, workers);
+}
+
+OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
+                   std::span<const std::uint8_t> reversed, Workers& workers) {
+  return rings_of(mesh, {}, fixed, reversed, workers);
 }
 
 std::vector<Triangle> face_list(const TriangleMesh& mesh) {

@@ -19,13 +19,17 @@ struct HalfedgeMesh {
   std::vector<std::int32_t> copies_of;  ///< the input vertex of mesh vertex vertex_count + i
 };
 
-/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Complexity: linear.
+/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Complexity:
+/// linear.
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
                                  const TriangleTopology& topology, std::span<const std::uint8_t> reversed);
 
-/// The one-rings of the vertices whose `fixed` byte is 0; those must be interior vertices of `mesh`. There is a byte
-/// for each vertex of the input; further vertices of the mesh are copies and fixed. `reversed`, one byte a face, tells
-/// faces of components that `mesh` orients clockwise; empty: there are none. Complexity: linear.
+/// The one-rings, in the input's numbering, of the vertices whose `fixed` byte is 0; those must be interior vertices of
+/// the mesh. There is a byte for each vertex of the input; copies are fixed. Complexity: linear.
+OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::uint8_t> fixed, Workers& workers);
+
+/// The same of a mesh without copies. `reversed`, one byte a face, tells faces of components that `mesh` orients
+/// clockwise; empty: there are none.
 OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
                    std::span<const std::uint8_t> reversed, Workers& workers);
 

@@ -95,8 +95,9 @@ class Run {
     {
       const HalfedgeMesh halfedges =
           build_halfedge_mesh(document_.points, mesh_.triangles, topology, reversed_);
-      rings_ = one_rings(halfedges.mesh, fixed_, {}, workers_);
+      rings_ = one_rings(halfedges.mesh, fixed_, {}, workers_, halfedges.copies_of);
     }
+    note_irregular_vertices(topology);
     InputSummary& input = result_.input;
     input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
     input.other_cells = mesh_.other_cells;
@@ -106,6 +107,24 @@ class Run {
     input.free_vertices = std::ranges::count(fixed_, 0);
     input.fixed_vertices = input.vertices - input.free_vertices;
     input.reoriented_triangles = orientation.reoriented_triangles;
+  }
+
+  void note_irregular_vertices(const TriangleTopology& topology) {
+    std::int64_t non_manifold = 0;
+    std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
+    for (const std::uint8_t reasons : topology.hold) {
+      const bool on_edge = (reasons & hold::non_manifold) != 0;
+      non_manifold += on_edge ? 1 : 0;
+      bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? 1 : 0;
+    }
+    const auto note = [&](std::int64_t count, const std::string& where) {
+      if (count > 0) {
+        result_.notes.push_back(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + where +
+                                ": held fixed");
+      }
+    };
+    note(non_manifold, "on edges of three triangles or more");
+    note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
   }
 
   TriangleTopology connected_triangles() {
