@@ -123,6 +123,15 @@ class Builder {
   std::size_t edge_count_ = 0;
 };
 
+}  // namespace
+
+HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
+                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed) {
+  HalfedgeMesh result;
+  Builder(triangles, topology, reversed, result).build(xyz);
+  return result;
+}
+
 OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
                    std::span<const std::uint8_t> reversed, Workers& workers, std::span<const std::int32_t> copies_of) {
   constexpr std::int64_t grain = 16384;
@@ -160,24 +169,6 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
     });
   });
   return rings;
-}
-
-}  // namespace
-
-HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
-                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed) {
-  HalfedgeMesh result;
-  Builder(triangles, topology, reversed, result).build(xyz);
-  return result;
-}
-
-OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::uint8_t> fixed, Workers& workers) {
-  return rings_of(halfedges.mesh, halfedges.copies_of, fixed, {}, workers);
-}
-
-OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
-                   std::span<const std::uint8_t> reversed, Workers& workers) {
-  return rings_of(mesh, {}, fixed, reversed, workers);
 }
 
 std::vector<Triangle> face_list(const TriangleMesh& mesh) {

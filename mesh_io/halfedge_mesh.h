@@ -25,13 +25,12 @@ HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Tr
                                  const TriangleTopology& topology, std::span<const std::uint8_t> reversed);
 
 /// The one-rings, in the input's numbering, of the vertices whose `fixed` byte is 0; those must be interior vertices of
-/// the mesh. There is a byte for each vertex of the input; copies are fixed. Complexity: linear.
-OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::uint8_t> fixed, Workers& workers);
-
-/// The same of a mesh without copies. `reversed`, one byte a face, tells faces of components that `mesh` orients
-/// clockwise; empty: there are none.
+/// `mesh`. There is a byte for each vertex of the input; further vertices of the mesh are the copies that `copies_of`
+/// lists, and fixed. `reversed`, one byte a face, tells faces of components that `mesh` orients clockwise; empty: there
+/// are none. Complexity: linear.
 OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
-                   std::span<const std::uint8_t> reversed, Workers& workers);
+                   std::span<const std::uint8_t> reversed, Workers& workers,
+                   std::span<const std::int32_t> copies_of = {});
 
 /// The faces of `mesh` as a triangle list.
 std::vector<Triangle> face_list(const TriangleMesh& mesh);
