@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/never_worse.h"
 #include "trismooth/smoothing/smooth.h"
@@ -12,7 +13,7 @@ namespace trismooth {
 namespace {
 
 Eigen::Vector3d rounded_to(Storage storage, const Eigen::Vector3d& point) {
-  return storage == Storage::float64 ? point : point.cast<float>().cast<double>().eval();
+  return storage == Storage::float64 ? point : point.unaryExpr(&rounded_to_float32).eval();
 }
 
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.

@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
@@ -197,7 +198,7 @@ class Run {
     for (const auto& [vertex, position] : smoothing.reverted) {
       Eigen::Map<Eigen::Vector3d> point(uncommitted.data() + 3 * static_cast<std::size_t>(vertex));
       const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
-      point = document_.point_type == ScalarType::float32 ? moved.cast<float>().cast<double>().eval() : moved;
+      point = document_.point_type == ScalarType::float32 ? moved.unaryExpr(&rounded_to_float32).eval() : moved;
     }
     result_.uncommitted_hash = coordinates_hash(uncommitted);
   }
@@ -205,10 +206,11 @@ class Run {
   void write() {
     const FileFormat target = output_format(*options_.output);
     std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.notes));
-    if (options_.annotate && !has_arrays(target)) {
+    const bool annotates = options_.annotate && has_arrays(target);
+    if (options_.annotate && !annotates) {
       result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
     }
-    write_mesh(*options_.output, document_, options_.annotate ? annotations() : AddedArrays{});
+    write_mesh(*options_.output, document_, annotates ? annotations() : AddedArrays{});
   }
 
   AddedArrays annotations() const {

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/workers.h"
 #include "trismooth/smoothing/backend.h"
@@ -31,9 +32,8 @@ class Stopwatch {
 };
 
 Point2<double> rounded_to(Storage storage, Point2<double> point) {
-  return storage == Storage::float64
-             ? point
-             : Point2<double>{static_cast<double>(static_cast<float>(point.x)), static_cast<double>(static_cast<float>(point.y))};
+  return storage == Storage::float64 ? point
+                                     : Point2<double>{rounded_to_float32(point.x), rounded_to_float32(point.y)};
 }
 
 class CpuSmoother final : public PreparedSmoother {
