@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -68,21 +69,31 @@ std::string array_names(std::span<const DataArray> arrays) {
 constexpr std::array<std::string_view, 7> region_array_names{
     "region", "mat_id", "material", "MaterialIds", "CellEntityIds", "gmsh:physical", "medit:ref"};
 
-/// The values of the array at the mesh's triangles, numbered from 0 in ascending order.
+/// The values of the array at the mesh's triangles, numbered from 0 in ascending order, all not-a-numbers last as one.
+/// In the array's own type: whole numbers beyond 2^53 are not equal for being equal as doubles.
+template <class T>
+void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regions) {
+  const auto precedes = [](T a, T b) { return a < b || (a == a && b != b); };
+  std::vector<T> of_triangle(mesh.cells.size());
+  std::ranges::transform(mesh.cells, of_triangle.begin(), [&](std::int32_t cell) {
+    T value;
+    std::memcpy(&value, array.bytes.data() + static_cast<std::size_t>(cell) * sizeof(T), sizeof(T));
+    return value;
+  });
+  std::vector<T> values = of_triangle;
+  std::ranges::sort(values, precedes);
+  values.erase(std::ranges::unique(values, [&](T a, T b) { return !precedes(a, b); }).begin(), values.end());
+  regions.count = static_cast<std::int32_t>(values.size());
+  regions.of_triangle.resize(of_triangle.size());
+  std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](T value) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(values, value, precedes) - values.begin());
+  });
+}
+
 Regions number_regions(const DataArray& array, const PlanarMesh& mesh) {
   Regions regions;
   regions.array = array.name;
-  std::vector<double> of_triangle(mesh.cells.size());
-  std::ranges::transform(mesh.cells, of_triangle.begin(),
-                         [&](std::int32_t cell) { return array.value(static_cast<std::size_t>(cell)); });
-  std::vector<double> values = of_triangle;
-  std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
-  regions.count = static_cast<std::int32_t>(values.size());
-  regions.of_triangle.resize(of_triangle.size());
-  std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](double value) {
-    return static_cast<std::int32_t>(std::ranges::lower_bound(values, value) - values.begin());
-  });
+  visit_scalar_type(array.type, [&](auto zero) { number_values<decltype(zero)>(array, mesh, regions); });
   return regions;
 }
 
@@ -103,8 +114,9 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
   }
   const auto plane = fit_plane(document.points);
   if (!plane) {
-    throw ReadError(path, "the mesh is not planar: its points leave every plane by more than 1e-6 of its extent; "
-                          "only planar meshes can be smoothed");
+    throw ReadError(path,
+                    "the mesh is not planar: its points leave every plane by more than 1e-6 of its extent; "
+                    "only planar meshes can be smoothed");
   }
   mesh.plane = *plane;
   mesh.points.resize(document.point_count());
@@ -118,8 +130,8 @@ Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const
   if (name) {
     const DataArray* const array = find_array(document.cell_arrays, *name);
     if (array == nullptr) {
-      throw std::invalid_argument("the file has no cell array '" + *name + "' to take regions from; it has: " +
-                                  array_names(document.cell_arrays));
+      throw std::invalid_argument("the file has no cell array '" + *name +
+                                  "' to take regions from; it has: " + array_names(document.cell_arrays));
     }
     if (array->components != 1) {
       throw std::invalid_argument("the cell array '" + *name + "' has " + std::to_string(array->components) +
@@ -144,8 +156,8 @@ std::vector<std::uint8_t> fixed_by_array(const MeshDocument& document, const std
   const DataArray* const array = find_array(document.point_arrays, name);
   if (array == nullptr) {
     if (required) {
-      throw std::invalid_argument("the file has no point array '" + name + "' to take fixed vertices from; it has: " +
-                                  array_names(document.point_arrays));
+      throw std::invalid_argument("the file has no point array '" + name +
+                                  "' to take fixed vertices from; it has: " + array_names(document.point_arrays));
     }
     return {};
   }

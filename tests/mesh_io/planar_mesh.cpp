@@ -1,0 +1,265 @@
+#include "trismooth/mesh_io/planar_mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/errors.h"
+
+#include "catch.h"
+#include "mesh_io/scratch_folder.h"
+
+using trismooth::find_regions;
+using trismooth::fixed_by_array;
+using trismooth::make_data_array;
+using trismooth::MeshDocument;
+using trismooth::planar_mesh;
+using trismooth::PlanarMesh;
+using trismooth::ReadError;
+using trismooth::Regions;
+using trismooth::Triangle;
+
+namespace cell_type = trismooth::cell_type;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Numbers = std::vector<std::int32_t>;
+
+struct Cell {
+  std::uint8_t type;
+  Numbers vertices;
+};
+
+/// Points (0, 0), (1, 0), (2, 0) and above them (0, 1), (1, 1), (2, 1), with cells over them.
+MeshDocument document_of(const std::vector<Cell>& cells) {
+  MeshDocument document;
+  document.points = {0, 0, 5, 1, 0, 5, 2, 0, 5, 0, 1, 5, 1, 1, 5, 2, 1, 5};
+  for (const Cell& cell : cells) {
+    document.cells.append(cell.type, cell.vertices);
+  }
+  return document;
+}
+
+/// Both squares cut into triangles, with a line among them.
+MeshDocument two_squares() {
+  return document_of({{cell_type::triangle, {0, 1, 4}},
+                      {cell_type::triangle, {0, 4, 3}},
+                      {cell_type::line, {1, 4}},
+                      {cell_type::triangle, {1, 2, 5}},
+                      {cell_type::triangle, {1, 5, 4}}});
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != text.npos;
+}
+
+Regions regions_of(const MeshDocument& document, const std::optional<std::string>& name = std::nullopt) {
+  return find_regions(document, planar_mesh(document, "mesh.vtu"), name);
+}
+
+std::string failure_of(const MeshDocument& document) {
+  return message_of<ReadError>([&] { planar_mesh(document, "mesh.vtu"); });
+}
+
+}  // namespace
+
+TEST_CASE("triangles keep their order, their vertices' order and know their cell") {
+  const PlanarMesh mesh = planar_mesh(two_squares(), "mesh.vtu");
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+  CHECK(mesh.cells == Numbers{0, 1, 3, 4});
+  CHECK(mesh.plane.aligned);
+  REQUIRE(mesh.points.size() == 6);
+  CHECK(mesh.points[5] == trismooth::Point2<double>{2, 1});
+}
+
+TEST_CASE("polygons of three vertices are triangles") {
+  const PlanarMesh mesh =
+      planar_mesh(document_of({{cell_type::polygon, {0, 1, 4}}, {cell_type::polygon, {4, 3, 0}}}), "mesh.vtp");
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 4}, {4, 3, 0}});
+  CHECK(mesh.other_cells == 0);
+  CHECK(mesh.in_other_cell == Bytes(6, 0));
+  CHECK(mesh.notes.empty());
+}
+
+TEST_CASE("the vertices of every cell that is no triangle are held, and a note says so") {
+  struct Case {
+    Cell cell;
+    Bytes held;
+  };
+  const std::vector<Case> cases{{{cell_type::quad, {1, 2, 5, 4}}, {0, 1, 1, 0, 1, 1}},
+                                {{cell_type::polygon, {1, 2, 5, 4}}, {0, 1, 1, 0, 1, 1}},
+                                {{cell_type::line, {1, 4}}, {0, 1, 0, 0, 1, 0}},
+                                {{cell_type::poly_line, {0, 1, 2}}, {1, 1, 1, 0, 0, 0}},
+                                {{cell_type::vertex, {5}}, {0, 0, 0, 0, 0, 1}},
+                                {{cell_type::poly_vertex, {3, 4, 5}}, {0, 0, 0, 1, 1, 1}},
+                                {{cell_type::triangle_strip, {1, 2, 4}}, {0, 1, 1, 0, 1, 0}},
+                                {{22, {0, 1, 4, 2, 3, 5}}, {1, 1, 1, 1, 1, 1}},
+                                {{0, {}}, {0, 0, 0, 0, 0, 0}}};
+  for (const Case& c : cases) {
+    CAPTURE(static_cast<int>(c.cell.type));
+    const PlanarMesh mesh = planar_mesh(document_of({c.cell, {cell_type::triangle, {0, 1, 4}}}), "mesh.vtu");
+    CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 4}});
+    CHECK(mesh.cells == Numbers{1});
+    CHECK(mesh.other_cells == 1);
+    CHECK(mesh.in_other_cell == c.held);
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK(contains(mesh.notes[0], "1 cell of other types than triangle"));
+  }
+}
+
+TEST_CASE("a triangle that repeats a vertex is held as another cell, and a note names the first") {
+  for (const Numbers& vertices : {Numbers{1, 1, 2}, Numbers{1, 2, 2}, Numbers{2, 1, 2}, Numbers{1, 1, 1}}) {
+    CAPTURE(vertices);
+    const PlanarMesh mesh = planar_mesh(
+        document_of(
+            {{cell_type::triangle, {0, 1, 4}}, {cell_type::triangle, vertices}, {cell_type::triangle, vertices}}),
+        "mesh.off");
+    CHECK(mesh.triangles.size() == 1);
+    CHECK(mesh.other_cells == 2);
+    CHECK(mesh.in_other_cell[1] == 1);
+    CHECK(mesh.in_other_cell[0] == 0);
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK(contains(mesh.notes[0], "2 triangles repeating a vertex"));
+    CHECK(contains(mesh.notes[0], "cell 1"));
+  }
+}
+
+TEST_CASE("cells without any triangle are refused") {
+  const std::string message = failure_of(document_of({{cell_type::quad, {0, 1, 4, 3}}, {cell_type::line, {0, 1}}}));
+  CHECK(message.find("mesh.vtu: ") == 0);
+  CHECK(contains(message, "2 cells but no triangle"));
+  CHECK(contains(failure_of(document_of({{cell_type::triangle, {0, 1, 1}}})), "1 cell but no triangle"));
+}
+
+TEST_CASE("a document without cells is fine: there is nothing to smooth") {
+  for (const MeshDocument& document : {document_of({}), MeshDocument{}}) {
+    const PlanarMesh mesh = planar_mesh(document, "mesh.off");
+    CHECK(mesh.triangles.empty());
+    CHECK(mesh.points.size() == document.point_count());
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK(contains(mesh.notes[0], "nothing to smooth"));
+  }
+}
+
+TEST_CASE("a mesh that is not planar is refused") {
+  MeshDocument document = two_squares();
+  document.points[2] = 5 + 1e-6;
+  CHECK_NOTHROW(planar_mesh(document, "mesh.vtu"));
+  document.points[2] = 5.5;
+  const std::string message = failure_of(document);
+  CHECK(message.find("mesh.vtu: ") == 0);
+  CHECK(contains(message, "not planar"));
+}
+
+TEST_CASE("regions are numbered from 0 by ascending value, for the triangles alone") {
+  MeshDocument document = two_squares();
+  // The line's value is no region.
+  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{70, -4, 1, 70, 70}));
+  for (const auto& name : {std::optional<std::string>(), std::optional<std::string>("region")}) {
+    const Regions regions = regions_of(document, name);
+    CHECK(regions.array == "region");
+    CHECK(regions.of_triangle == Numbers{1, 0, 1, 1});
+    CHECK(regions.count == 2);
+  }
+}
+
+TEST_CASE("the first region array of the list wins, whatever the file's order") {
+  const std::array<std::string, 7> names{"region",        "mat_id",        "material", "MaterialIds",
+                                         "CellEntityIds", "gmsh:physical", "medit:ref"};
+  for (std::size_t first = 0; first < names.size(); ++first) {
+    MeshDocument document = two_squares();
+    document.cell_arrays.push_back(make_data_array("depth", 1, std::vector<float>{1, 1, 2, 2, 2}));
+    for (std::size_t i = names.size(); i-- > first;) {
+      document.cell_arrays.push_back(make_data_array(names[i], 1, Numbers{1, 1, 2, 2, 2}));
+    }
+    CHECK(regions_of(document).array == names[first]);
+  }
+}
+
+TEST_CASE("without any of the names there are no regions") {
+  MeshDocument document = two_squares();
+  document.cell_arrays.push_back(make_data_array("Region", 1, Numbers{1, 1, 2, 2, 2}));
+  document.point_arrays.push_back(make_data_array("region", 1, Numbers{1, 1, 2, 2, 2, 2}));
+  const Regions regions = regions_of(document);
+  CHECK(regions.array.empty());
+  CHECK(regions.of_triangle.empty());
+  CHECK(regions.count == 0);
+}
+
+TEST_CASE("an array that numbers the triangles, or has several components, is passed over for the next") {
+  MeshDocument document = two_squares();
+  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{4, 3, 3, 2, 1}));
+  CHECK(regions_of(document).array.empty());
+  document.cell_arrays.push_back(make_data_array("mat_id", 2, Numbers(10, 1)));
+  CHECK(regions_of(document).array.empty());
+  document.cell_arrays.push_back(make_data_array("medit:ref", 1, Numbers{1, 1, 1, 1, 1}));
+  CHECK(regions_of(document).array == "medit:ref");
+  CHECK(regions_of(document).count == 1);
+}
+
+TEST_CASE("an array that is named counts even if it numbers the triangles") {
+  MeshDocument document = two_squares();
+  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{1, 1, 1, 1, 1}));
+  document.cell_arrays.push_back(make_data_array("mine", 1, std::vector<double>{0.5, 0.25, 9, 0.75, 1}));
+  const Regions regions = regions_of(document, "mine");
+  CHECK(regions.array == "mine");
+  CHECK(regions.of_triangle == Numbers{1, 0, 2, 3});
+  CHECK(regions.count == 4);
+}
+
+TEST_CASE("a named region array that is missing or of several components is refused, with what there is") {
+  MeshDocument document = two_squares();
+  const auto refusal = [&](const std::string& name) {
+    return message_of<std::invalid_argument>([&] { regions_of(document, name); });
+  };
+  CHECK(contains(refusal("mine"), "'mine'"));
+  CHECK(contains(refusal("mine"), "it has: none"));
+  document.cell_arrays.push_back(make_data_array("region", 1, Numbers(5, 1)));
+  document.cell_arrays.push_back(make_data_array("flux", 3, std::vector<float>(15, 1)));
+  CHECK(contains(refusal("mine"), "it has: region, flux"));
+  CHECK(contains(refusal("flux"), "3 components"));
+}
+
+TEST_CASE("regions may be of any type of number, not-a-number included") {
+  MeshDocument document = two_squares();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  document.cell_arrays.push_back(make_data_array("region", 1, std::vector<float>{nan, 1.5F, 0, nan, 1.5F}));
+  const Regions regions = regions_of(document);
+  CHECK(regions.count == 2);
+  CHECK(regions.of_triangle == Numbers{1, 0, 1, 0});
+}
+
+TEST_CASE("regions that differ beyond the digits of a double are two regions") {
+  MeshDocument document = two_squares();
+  const std::int64_t large = std::int64_t{1} << 53U;
+  document.cell_arrays.push_back(
+      make_data_array("region", 1, std::vector<std::int64_t>{large, large, 0, large + 1, large + 1}));
+  CHECK(regions_of(document).of_triangle == Numbers{0, 0, 1, 1});
+}
+
+TEST_CASE("a point array fixes the vertices where any of its components is not zero") {
+  MeshDocument document = two_squares();
+  document.point_arrays.push_back(make_data_array("fixed", 1, std::vector<double>{0, 1, -0.0, -1, 1e-300, 0}));
+  document.point_arrays.push_back(
+      make_data_array("two", 2, std::vector<std::uint8_t>{0, 0, 0, 1, 2, 0, 0, 0, 3, 3, 0, 0}));
+  for (const bool required : {false, true}) {
+    CHECK(fixed_by_array(document, "fixed", required) == Bytes{0, 1, 0, 1, 1, 0});
+    CHECK(fixed_by_array(document, "two", required) == Bytes{0, 1, 1, 0, 1, 0});
+  }
+}
+
+TEST_CASE("a missing point array fixes nothing, unless it is required") {
+  MeshDocument document = two_squares();
+  document.point_arrays.push_back(make_data_array("depth", 1, std::vector<float>(6, 1)));
+  document.cell_arrays.push_back(make_data_array("fixed", 1, std::vector<float>(5, 1)));
+  CHECK(fixed_by_array(document, "fixed", false).empty());
+  const std::string message = message_of<std::invalid_argument>([&] { fixed_by_array(document, "fixed", true); });
+  CHECK(contains(message, "'fixed'"));
+  CHECK(contains(message, "it has: depth"));
+}
