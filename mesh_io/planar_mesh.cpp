@@ -76,7 +76,7 @@ void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regi
   const auto precedes = [](T a, T b) { return a < b || (a == a && b != b); };
   std::vector<T> of_triangle(mesh.cells.size());
   std::ranges::transform(mesh.cells, of_triangle.begin(), [&](std::int32_t cell) {
-    T value;
+    T value{};
     std::memcpy(&value, array.bytes.data() + static_cast<std::size_t>(cell) * sizeof(T), sizeof(T));
     return value;
   });
