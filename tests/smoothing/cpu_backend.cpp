@@ -1,0 +1,301 @@
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/quality/quality_report.h"
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using test_meshes::Mesh;
+using test_meshes::Point;
+using trismooth::Form;
+using trismooth::Method;
+using trismooth::Precision;
+using trismooth::Progress;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+using trismooth::StopReason;
+using trismooth::Storage;
+using trismooth::SweepRecord;
+using trismooth::Workers;
+
+namespace {
+
+const Mesh& grid() {
+  static const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(20, 20, 0.3, 1), 2);
+  return mesh;
+}
+
+struct Smoothed {
+  SmoothingResult result;
+  std::vector<double> xy;
+};
+
+Smoothed smoothed(const Mesh& mesh, const SmoothingOptions& options) {
+  Smoothed smoothed{{}, mesh.xy()};
+  smoothed.result = trismooth::smooth(smoothed.xy, mesh.indices(), {}, options);
+  return smoothed;
+}
+
+double smallest_shape_of(const Mesh& mesh, const std::vector<double>& xy) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    points.push_back({xy[i], xy[i + 1]});
+  }
+  return trismooth::smallest_shape({points, mesh.triangles, {}, 0});
+}
+
+constexpr Form forms[] = {Form::swap, Form::in_place};
+
+}  // namespace
+
+TEST_CASE("at a fixed point the last sweep, in which nothing moved, counts") {
+  for (const Form form : forms) {
+    SmoothingOptions options;
+    options.form = form;
+    options.tolerance = 0;
+    const auto [result, xy] = smoothed(grid(), options);
+    CHECK(result.stop_reason == StopReason::fixed_point);
+    CHECK(result.sweeps > 5);
+    CHECK(result.sweeps == static_cast<std::int64_t>(result.history.size()));
+    CHECK(result.history.back().moved == 0);
+    CHECK(result.history.back().max_relative_move == 0);
+    CHECK(result.history[result.history.size() - 2].moved > 0);
+    // It is one: smoothing again moves nothing, in one sweep.
+    std::vector<double> again = xy;
+    const SmoothingResult second = trismooth::smooth(again, grid().indices(), {}, options);
+    CHECK(second.sweeps == 1);
+    CHECK(second.stop_reason == StopReason::fixed_point);
+    CHECK(second.moved_vertices == 0);
+    CHECK(again == xy);
+  }
+}
+
+TEST_CASE("the tolerance stops after the first sweep whose moves are all within it") {
+  for (const Form form : forms) {
+    for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
+      SmoothingOptions options;
+      options.form = form;
+      options.method = method;
+      options.tolerance = 1e-2;
+      const SmoothingResult result = smoothed(grid(), options).result;
+      CHECK(result.stop_reason == StopReason::tolerance);
+      CHECK(result.history.back().moved > 0);
+      CHECK(result.history.back().max_relative_move <= 1e-2);
+      for (std::size_t i = 0; i + 1 < result.history.size(); ++i) {
+        CHECK(result.history[i].max_relative_move > 1e-2);
+      }
+    }
+  }
+}
+
+TEST_CASE("the sweep limit stops after as many sweeps, and 0 is none") {
+  SmoothingOptions options;
+  for (const std::int64_t limit : {1, 2, 7}) {
+    options.max_sweeps = limit;
+    const SmoothingResult result = smoothed(grid(), options).result;
+    CHECK(result.stop_reason == StopReason::sweep_limit);
+    CHECK(result.sweeps == limit);
+  }
+  options.method = Method::laplacian;
+  options.tolerance = 1e-9;
+  options.max_sweeps = 0;
+  const SmoothingResult result = smoothed(test_meshes::jittered_grid(60, 60, 0.3, 1), options).result;
+  CHECK(result.stop_reason == StopReason::tolerance);
+  CHECK(result.sweeps > 1000);
+}
+
+TEST_CASE("a time limit of 0 stops after the first sweep") {
+  SmoothingOptions options;
+  options.time_limit_seconds = 0;
+  const auto [result, xy] = smoothed(grid(), options);
+  CHECK(result.stop_reason == StopReason::time_limit);
+  CHECK(result.sweeps == 1);
+  options.time_limit_seconds = std::numeric_limits<double>::infinity();
+  options.max_sweeps = 1;
+  CHECK(xy == smoothed(grid(), options).xy);
+}
+
+TEST_CASE("the quality target stops at the first sweep that reaches it") {
+  SmoothingOptions options;
+  options.record_min_shape = true;
+  options.max_sweeps = 30;
+  for (const Form form : forms) {
+    options.form = form;
+    options.target_quality.reset();
+    const SmoothingResult whole = smoothed(grid(), options).result;
+    REQUIRE(whole.history[4].min_shape > whole.history[0].min_shape);
+    options.target_quality = whole.history[4].min_shape;
+    const auto [result, xy] = smoothed(grid(), options);
+    CHECK(result.stop_reason == StopReason::quality_target);
+    CHECK(result.history.back().min_shape >= *options.target_quality);
+    for (std::size_t i = 0; i + 1 < result.history.size(); ++i) {
+      CHECK(result.history[i].min_shape < *options.target_quality);
+    }
+    CHECK(smallest_shape_of(grid(), xy) == Approx(result.history.back().min_shape).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a quality target that is reached already means no sweep at all") {
+  SmoothingOptions options;
+  const double shape = smallest_shape_of(grid(), grid().xy());
+  REQUIRE(shape > 0);
+  options.target_quality = shape * (1 - 1e-12);
+  const auto [result, xy] = smoothed(grid(), options);
+  CHECK(result.stop_reason == StopReason::quality_target);
+  CHECK(result.sweeps == 0);
+  CHECK(result.history.empty());
+  CHECK(result.vertex_updates == 0);
+  CHECK(xy == grid().xy());
+  options.target_quality = shape * (1 + 1e-12);
+  CHECK(smoothed(grid(), options).result.sweeps > 0);
+}
+
+TEST_CASE("triangles without a free vertex count for the quality target") {
+  // A flat triangle in a component of its own, beside a perfect star.
+  Mesh mesh = test_meshes::star(6);
+  mesh.points[0] = {0, 0};
+  const Mesh flat{{{0, 0}, {1, 0}, {0.5, 0.01}}, {{0, 1, 2}}};
+  mesh = test_meshes::together(mesh, flat, {3, 0});
+  SmoothingOptions options;
+  options.record_min_shape = true;
+  options.target_quality = 0.1;
+  const auto [result, xy] = smoothed(mesh, options);
+  CHECK(result.stop_reason != StopReason::quality_target);
+  REQUIRE_FALSE(result.history.empty());
+  CHECK(result.history.back().min_shape == smallest_shape_of(mesh, xy));
+  CHECK(result.history.back().min_shape < 0.03);
+}
+
+TEST_CASE("a callback that says stop leaves the mesh as it is after that sweep, valid and committed") {
+  for (const Form form : forms) {
+    for (const Mesh& mesh : {grid(), test_meshes::annulus(12, 8, 0.6), test_meshes::tangled(12, 3)}) {
+      SmoothingOptions options;
+      options.form = form;
+      options.method = Method::laplacian;
+      options.progress = [](const SweepRecord& record) {
+        return record.sweep == 3 ? Progress::stop : Progress::proceed;
+      };
+      const auto [result, xy] = smoothed(mesh, options);
+      CHECK(result.stop_reason == StopReason::cancelled);
+      CHECK(result.sweeps == 3);
+      CHECK(smallest_shape_of(mesh, xy) >= smallest_shape_of(mesh, mesh.xy()));
+      options.progress = nullptr;
+      options.max_sweeps = 3;
+      CHECK(xy == smoothed(mesh, options).xy);
+    }
+  }
+}
+
+TEST_CASE("the callback sees every sweep once, in order, from the thread that called") {
+  for (const int threads : {1, 2, 8}) {
+    std::vector<SweepRecord> seen;
+    bool from_caller = true;
+    SmoothingOptions options;
+    options.threads = threads;
+    options.progress = [&, caller = std::this_thread::get_id()](const SweepRecord& record) {
+      seen.push_back(record);
+      from_caller = from_caller && std::this_thread::get_id() == caller;
+      return Progress::proceed;
+    };
+    const SmoothingResult result = smoothed(grid(), options).result;
+    CHECK(from_caller);
+    REQUIRE(seen.size() == result.history.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      CHECK(seen[i].sweep == static_cast<std::int64_t>(i) + 1);
+      CHECK(seen[i].moved == result.history[i].moved);
+      CHECK(seen[i].evaluated == result.history[i].evaluated);
+    }
+  }
+}
+
+TEST_CASE("an exception in the callback reaches the caller, whose coordinates are untouched") {
+  for (const int threads : {1, 2}) {
+    SmoothingOptions options;
+    options.threads = threads;
+    options.progress = [](const SweepRecord& record) -> Progress {
+      throw std::runtime_error("sweep " + std::to_string(record.sweep));
+    };
+    std::vector<double> xy = grid().xy();
+    CHECK_THROWS_WITH(trismooth::smooth(xy, grid().indices(), {}, options), "sweep 1");
+    CHECK(xy == grid().xy());
+  }
+}
+
+TEST_CASE("a smoothing that is done is not called cancelled") {
+  SmoothingOptions options;
+  options.progress = [](const SweepRecord& record) { return record.moved == 0 ? Progress::stop : Progress::proceed; };
+  options.tolerance = 0;
+  CHECK(smoothed(grid(), options).result.stop_reason == StopReason::fixed_point);
+}
+
+TEST_CASE("the result says who did it") {
+  SmoothingOptions options;
+  options.threads = 3;
+  const SmoothingResult b = smoothed(grid(), options).result;
+  CHECK(b.backend == "cpu");
+  CHECK_FALSE(b.device.empty());
+  CHECK(b.threads == 3);
+  CHECK(b.free_vertices == 18 * 18);
+  CHECK(b.colours >= 3);
+  CHECK(b.colours < 10);
+  options.form = Form::swap;
+  CHECK(smoothed(grid(), options).result.colours == 0);
+  options.threads = 0;
+  CHECK(smoothed(grid(), options).result.threads == Workers(0).count());
+}
+
+TEST_CASE("the unordered order is not the CPU's") {
+  SmoothingOptions options;
+  options.order = trismooth::Order::unordered;
+  options.execution = trismooth::Execution::cdp;
+  std::vector<double> xy = grid().xy();
+  CHECK_THROWS_AS(trismooth::smooth(xy, grid().indices(), {}, options), std::invalid_argument);
+  CHECK(xy == grid().xy());
+}
+
+TEST_CASE("layout and execution mean nothing to the CPU") {
+  SmoothingOptions options;
+  const std::vector<double> expected = smoothed(grid(), options).xy;
+  options.layout = trismooth::Layout::soa;
+  options.execution = trismooth::Execution::single_block;
+  CHECK(smoothed(grid(), options).xy == expected);
+}
+
+TEST_CASE("the points that a mesh is made ready with steer its order in memory and no result") {
+  const Mesh& mesh = grid();
+  Workers workers(1);
+  const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
+  const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
+  const auto rings = trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers);
+  std::vector<Point> elsewhere = mesh.points;
+  test_meshes::Random random(1);
+  random.shuffle(elsewhere);
+  for (const Form form : forms) {
+    for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+      SmoothingOptions options;
+      options.form = form;
+      options.precision = precision;
+      const auto ordered = trismooth::cpu_backend().prepare(rings, mesh.points, options);
+      const auto disordered = trismooth::cpu_backend().prepare(rings, elsewhere, options);
+      // Twice: a prepared mesh can be smoothed as often as one likes.
+      for (int i = 0; i < 2; ++i) {
+        std::vector<Point> a = mesh.points;
+        std::vector<Point> b = mesh.points;
+        const SmoothingResult of_a = ordered->smooth(a, Storage::float64, 0);
+        const SmoothingResult of_b = disordered->smooth(b, Storage::float64, 0);
+        CHECK(a == b);
+        CHECK(of_a.sweeps == of_b.sweeps);
+        CHECK(of_a.vertex_updates == of_b.vertex_updates);
+        CHECK_FALSE(a == mesh.points);
+      }
+    }
+  }
+}

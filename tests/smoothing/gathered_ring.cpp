@@ -1,0 +1,34 @@
+#include "trismooth/smoothing/gathered_ring.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "catch.h"
+
+using trismooth::Point2;
+using trismooth::RingGatherer;
+
+TEMPLATE_TEST_CASE("a gathered ring holds the positions of its vertices in ring order, whatever its size", "", float,
+                   double) {
+  std::vector<Point2<TestType>> points;
+  for (int i = 0; i < 50; ++i) {
+    points.push_back({static_cast<TestType>(i), static_cast<TestType>(-2 * i)});
+  }
+  RingGatherer<TestType> gatherer;
+  for (const std::int32_t size : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 40, 3, 12}) {
+    CAPTURE(size);
+    std::vector<std::int32_t> ring;
+    for (std::int32_t i = 0; i < size; ++i) {
+      ring.push_back((7 * i + size) % 50);
+    }
+    const int answer = gatherer.with_ring(std::span<const Point2<TestType>>(points), ring, [&](const auto& gathered) {
+      CHECK(gathered.size() == size);
+      for (std::int32_t i = 0; i < size; ++i) {
+        CHECK(gathered[i] == points[ring[i]]);
+      }
+      return 42;
+    });
+    CHECK(answer == 42);
+  }
+}

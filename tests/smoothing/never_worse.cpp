@@ -1,0 +1,363 @@
+#include "trismooth/smoothing/never_worse.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/quality/quality_report.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/naive_smoothing.h"
+#include "support/test_meshes.h"
+
+using test_meshes::Mesh;
+using test_meshes::Point;
+using trismooth::Form;
+using trismooth::GuardOutcome;
+using trismooth::keep_never_worse;
+using trismooth::Method;
+using trismooth::OneRings;
+using trismooth::Precision;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+using trismooth::Storage;
+using trismooth::Workers;
+
+namespace {
+
+std::vector<Point> as_points(const std::vector<double>& xy) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    points.push_back({xy[i], xy[i + 1]});
+  }
+  return points;
+}
+
+OneRings rings_of(const Mesh& mesh) {
+  Workers workers(1);
+  const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
+  const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
+  return trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers);
+}
+
+/// Free vertices elsewhere: most a little, some far.
+std::vector<Point> disturbed(const Mesh& mesh, const OneRings& rings, double reach, test_meshes::Random& random) {
+  std::vector<Point> points = mesh.points;
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (rings.is_free(v) && random.below(3) > 0) {
+      const double distance = random.below(6) == 0 ? reach : reach / 10;
+      points[v].x += random.between(-distance, distance);
+      points[v].y += random.between(-distance, distance);
+    }
+  }
+  return points;
+}
+
+/// Whether a number in float32's normal range is one of its values, told from the digits that float32 does not have: a
+/// conversion there and back is what compilers have got wrong.
+bool is_float32(double value) {
+  return (std::bit_cast<std::uint64_t>(value) & 0x1fffffffU) == 0;
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// The contract, element by element, and that everything else kept its bits. `uncommitted`: where the sweeps alone
+/// would have left the vertices; it sets T.
+void check_never_worse(const Mesh& mesh, const OneRings& rings, const std::vector<Point>& uncommitted,
+                       const std::vector<Point>& after) {
+  const double threshold = naive::touched_minimum(mesh.triangles, mesh.points, uncommitted);
+  double smallest_before = std::numeric_limits<double>::infinity();
+  double smallest_after = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles) {
+    const double was = naive::element_quotient(mesh.points, t);
+    const double is = naive::element_quotient(after, t);
+    REQUIRE(std::isfinite(is));
+    REQUIRE((!(was > 0) || is > 0));
+    REQUIRE((is >= was || is >= threshold));
+    smallest_before = std::min(smallest_before, was);
+    smallest_after = std::min(smallest_after, is);
+  }
+  REQUIRE(smallest_after >= smallest_before);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const bool has_moved = !(after[v] == mesh.points[v]);
+    REQUIRE((rings.is_free(v) || !has_moved));
+    REQUIRE((has_moved || (same_bits(after[v].x, mesh.points[v].x) && same_bits(after[v].y, mesh.points[v].y))));
+  }
+}
+
+struct Case {
+  Method method;
+  Form form;
+  Precision precision;
+  Storage storage;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
+    for (const Form form : {Form::swap, Form::in_place}) {
+      for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+        for (const Storage storage : {Storage::float64, Storage::float32}) {
+          all.push_back({method, form, precision, storage});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+SmoothingOptions options_of(const Case& which, bool guard) {
+  SmoothingOptions options;
+  options.method = which.method;
+  options.form = which.form;
+  options.precision = which.precision;
+  options.guard = guard;
+  options.max_sweeps = 25;
+  options.threads = 1;
+  return options;
+}
+
+/// As a file of float32 coordinates would hold it.
+Mesh in_floats(Mesh mesh) {
+  for (Point& p : mesh.points) {
+    p = {trismooth::rounded_to_float32(p.x), trismooth::rounded_to_float32(p.y)};
+  }
+  return mesh;
+}
+
+/// The mesh, mirrored if the majority of its triangles is inverted: so that "as listed" is the orientation in which it
+/// is smoothed. Of as many of both kinds the first one decides.
+Mesh upright(Mesh mesh) {
+  int balance = 0;
+  double first = 0;
+  for (const auto& t : mesh.triangles) {
+    const double quotient = naive::element_quotient(mesh.points, t);
+    balance += (quotient > 0 ? 1 : 0) - (quotient < 0 ? 1 : 0);
+    first = first == 0 ? quotient : first;
+  }
+  if (balance < 0 || (balance == 0 && first < 0)) {
+    for (Point& p : mesh.points) {
+      p.x = -p.x;
+    }
+  }
+  return mesh;
+}
+
+/// A tangled grid, or a ring around a hole.
+Mesh random_mesh(test_meshes::Random& random, std::uint64_t seed) {
+  if (random.below(3) > 0) {
+    return test_meshes::jittered_grid(4 + random.below(9), 4 + random.below(9), random.between(0.2, 2), seed);
+  }
+  return test_meshes::annulus(12 + random.below(10), 3 + random.below(4), random.between(0.3, 0.6));
+}
+
+struct Totals {
+  std::int64_t reverted = 0;
+  std::int64_t most_rounds = 0;
+  std::int64_t moved = 0;
+};
+
+/// One mesh, one way to smooth it: the contract holds, and the commit took back what a naive one takes back.
+void check_case(const Mesh& mesh, const Case& which, Totals& totals) {
+  const OneRings rings = rings_of(mesh);
+  std::vector<double> xy = mesh.xy();
+  trismooth::plan(mesh.vertex_count(), mesh.indices(), {}, options_of(which, false)).smooth(xy, which.storage);
+  const std::vector<Point> uncommitted = as_points(xy);
+  xy = mesh.xy();
+  const SmoothingResult result =
+      trismooth::plan(mesh.vertex_count(), mesh.indices(), {}, options_of(which, true)).smooth(xy, which.storage);
+  const std::vector<Point> after = as_points(xy);
+  check_never_worse(mesh, rings, uncommitted, after);
+
+  std::vector<Point> expected = uncommitted;
+  const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+  REQUIRE(after == expected);
+  REQUIRE(result.guard_rounds == commit.rounds);
+  REQUIRE(result.reverted_vertices == static_cast<std::int64_t>(commit.reverted.size()));
+  REQUIRE(result.reverted.size() == commit.reverted.size());
+  for (std::size_t i = 0; i < commit.reverted.size(); ++i) {
+    REQUIRE(result.reverted[i].vertex == commit.reverted[i]);
+    REQUIRE(result.reverted[i].position == uncommitted[commit.reverted[i]]);
+  }
+  std::int64_t moved = 0;
+  for (std::size_t v = 0; v < after.size(); ++v) {
+    moved += after[v] == mesh.points[v] ? 0 : 1;
+  }
+  REQUIRE(result.moved_vertices == moved);
+  if (which.storage == Storage::float32) {
+    REQUIRE(std::ranges::all_of(xy, is_float32));
+  }
+  totals.reverted += result.reverted_vertices;
+  totals.most_rounds = std::max(totals.most_rounds, result.guard_rounds);
+  totals.moved += moved;
+}
+
+}  // namespace
+
+TEST_CASE("an element offends where it is not valid any more, or worse than it was and than the threshold") {
+  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+  CHECK(trismooth::offends(0.2, 0.0, -1));
+  CHECK(trismooth::offends(0.2, -0.1, -1));
+  CHECK(trismooth::offends(1e-300, 0.0, 1));
+  CHECK(trismooth::offends(0.2, 0.1, 0.15));
+  CHECK_FALSE(trismooth::offends(0.2, 0.1, 0.1));
+  CHECK_FALSE(trismooth::offends(0.2, 0.2, 0.25));
+  CHECK_FALSE(trismooth::offends(-0.2, -0.1, 0));
+  CHECK_FALSE(trismooth::offends(-0.1, -0.2, -0.2));
+  CHECK(trismooth::offends(-0.1, -0.2, -0.15));
+  CHECK_FALSE(trismooth::offends(0, 0, 0.1));
+  CHECK(trismooth::offends(0.2, no_number, -1));
+  CHECK(trismooth::offends(-0.2, no_number, -1));
+}
+
+TEST_CASE("the commit takes back the same vertices in the same rounds as one that looks at every element") {
+  test_meshes::Random random(1);
+  std::int64_t most_rounds = 0;
+  std::int64_t reverted = 0;
+  for (int i = 0; i < 60; ++i) {
+    for (const auto& [name, mesh] : test_meshes::zoo()) {
+      CAPTURE(i, name);
+      const OneRings rings = rings_of(mesh);
+      const std::vector<Point> disturbed_points = disturbed(mesh, rings, random.between(0, 0.5), random);
+      std::vector<Point> expected = disturbed_points;
+      const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+      std::vector<Point> after = disturbed_points;
+      Workers workers(1 + i % 3);
+      const GuardOutcome outcome = keep_never_worse(rings.view(), mesh.points, after, workers);
+      REQUIRE(after == expected);
+      REQUIRE(outcome.reverted == commit.reverted);
+      REQUIRE(outcome.rounds == commit.rounds);
+      check_never_worse(mesh, rings, disturbed_points, after);
+      most_rounds = std::max(most_rounds, outcome.rounds);
+      reverted += static_cast<std::int64_t>(outcome.reverted.size());
+    }
+  }
+  // Otherwise nothing was proved: one round cascades into the next somewhere.
+  CHECK(most_rounds >= 3);
+  CHECK(reverted > 1000);
+}
+
+TEST_CASE("the commit does not depend on the number of threads") {
+  test_meshes::Random random(2);
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(120, 120, 0.4, 1), 2);
+  const OneRings rings = rings_of(mesh);
+  const std::vector<Point> disturbed_points = disturbed(mesh, rings, 0.01, random);
+  std::vector<Point> expected = disturbed_points;
+  const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+  CHECK(commit.rounds > 1);
+  for (const int threads : {1, 2, 3, 8}) {
+    std::vector<Point> after = disturbed_points;
+    Workers workers(threads);
+    const GuardOutcome outcome = keep_never_worse(rings.view(), mesh.points, after, workers);
+    CHECK(after == expected);
+    CHECK(outcome.reverted == commit.reverted);
+    CHECK(outcome.rounds == commit.rounds);
+  }
+}
+
+TEST_CASE("the commit leaves alone what is better, and what did not move") {
+  const Mesh mesh = test_meshes::star(6);
+  const OneRings rings = rings_of(mesh);
+  Workers workers(1);
+  std::vector<Point> after = mesh.points;
+  CHECK(keep_never_worse(rings.view(), mesh.points, after, workers).rounds == 0);
+  after[0] = {0, 0};
+  const GuardOutcome outcome = keep_never_worse(rings.view(), mesh.points, after, workers);
+  CHECK(outcome.rounds == 0);
+  CHECK(outcome.reverted.empty());
+  CHECK(after[0] == Point{0, 0});
+  after[0] = {5, 5};
+  CHECK(keep_never_worse(rings.view(), mesh.points, after, workers).reverted == std::vector<std::int32_t>{0});
+  CHECK(after == mesh.points);
+}
+
+TEST_CASE("a position that is no number goes back") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::tangled(8, 1), 2);
+  const OneRings rings = rings_of(mesh);
+  Workers workers(1);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (rings.is_free(v)) {
+      std::vector<Point> after = mesh.points;
+      after[v].y = std::numeric_limits<double>::quiet_NaN();
+      CHECK(keep_never_worse(rings.view(), mesh.points, after, workers).reverted == std::vector<std::int32_t>{v});
+      CHECK(after == mesh.points);
+    }
+  }
+}
+
+TEST_CASE("whatever ran on whichever mesh, no element is worse: every method, form, precision and storage") {
+  Totals totals;
+  for (const Case& which : cases()) {
+    for (const auto& [name, mesh] : test_meshes::zoo()) {
+      CAPTURE(name, which.method, which.form, which.precision, which.storage);
+      check_case(which.storage == Storage::float32 ? in_floats(mesh) : mesh, which, totals);
+    }
+  }
+  CHECK(totals.reverted > 0);
+  CHECK(totals.moved > 0);
+}
+
+TEST_CASE("thousands of random meshes, tangled or around holes, do not get worse, whatever ran") {
+  test_meshes::Random random(3);
+  const std::vector<Case> all = cases();
+  Totals totals;
+  for (std::uint64_t seed = 0; seed < 3600; ++seed) {
+    const Case& which = all[seed % all.size()];
+    const Mesh mesh = upright(test_meshes::shuffled(random_mesh(random, seed), seed + 1));
+    CAPTURE(seed, which.method, which.form, which.precision, which.storage);
+    check_case(which.storage == Storage::float32 ? in_floats(mesh) : mesh, which, totals);
+  }
+  CHECK(totals.reverted > 1000);
+  CHECK(totals.most_rounds >= 3);
+  CHECK(totals.moved > 100000);
+}
+
+TEST_CASE("in a domain that is not convex plain averages do damage, and the commit takes it back") {
+  const Mesh mesh = test_meshes::annulus(12, 8, 0.6);
+  SmoothingOptions options;
+  options.method = Method::laplacian;
+  options.guard = false;
+  std::vector<double> xy = mesh.xy();
+  trismooth::smooth(xy, mesh.indices(), {}, options);
+  const std::vector<std::uint8_t> reversed;
+  const auto inverted = [&](const std::vector<Point>& points) {
+    return trismooth::quality_report({points, mesh.triangles, reversed, 0}).inverted;
+  };
+  REQUIRE(inverted(mesh.points) == 0);
+  REQUIRE(inverted(as_points(xy)) > 0);
+
+  options.guard = true;
+  std::vector<double> guarded = mesh.xy();
+  const SmoothingResult result = trismooth::smooth(guarded, mesh.indices(), {}, options);
+  CHECK(result.reverted_vertices > 0);
+  CHECK(result.guard_rounds > 0);
+  const std::vector<Point> after = as_points(guarded);
+  CHECK(inverted(after) == 0);
+  CHECK(trismooth::smallest_shape({after, mesh.triangles, reversed, 0}) >=
+        trismooth::smallest_shape({mesh.points, mesh.triangles, reversed, 0}));
+}
+
+TEST_CASE("rounding to a coarse storage is part of what the commit judges") {
+  // Cells of one float32 step and a half, far from the origin: a good position is a bad one once it is rounded.
+  Totals in_float32;
+  Totals in_float64;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(14, 14, 0, seed), seed);
+    for (Point& p : mesh.points) {
+      p = {p.x * 13 * 3 + 0x1p24, p.y * 13 * 3 + 0x1p24};
+    }
+    mesh = in_floats(mesh);
+    check_case(mesh, {Method::smart, Form::in_place, Precision::double_precision, Storage::float32}, in_float32);
+    check_case(mesh, {Method::smart, Form::in_place, Precision::double_precision, Storage::float64}, in_float64);
+  }
+  CHECK(in_float32.reverted > 100);
+  CHECK(in_float64.reverted == 0);
+}

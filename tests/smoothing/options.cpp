@@ -1,0 +1,103 @@
+#include "trismooth/smoothing/options.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "catch.h"
+
+using trismooth::Execution;
+using trismooth::Form;
+using trismooth::Order;
+using trismooth::SmoothingOptions;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What validate() says of the defaults with a change; empty where it says nothing.
+std::string complaint(const std::function<void(SmoothingOptions&)>& change) {
+  SmoothingOptions options;
+  change(options);
+  try {
+    options.validate();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void check_tolerance(double value, bool valid) {
+  CAPTURE(value);
+  CHECK(complaint([&](auto& o) { o.tolerance = value; }).empty() == valid);
+}
+
+void check_target(double value, bool valid) {
+  CAPTURE(value);
+  CHECK(complaint([&](auto& o) { o.target_quality = value; }).empty() == valid);
+}
+
+void check_order(Form form, Execution execution, bool valid) {
+  CAPTURE(form, execution);
+  const std::string said = complaint([&](auto& o) {
+    o.order = Order::unordered;
+    o.form = form;
+    o.execution = execution;
+  });
+  CHECK(said.empty() == valid);
+}
+
+}  // namespace
+
+TEST_CASE("the defaults are those of the contract and valid") {
+  const SmoothingOptions options;
+  CHECK_NOTHROW(options.validate());
+  CHECK(options.method == trismooth::Method::smart);
+  CHECK(options.form == Form::in_place);
+  CHECK(options.layout == trismooth::Layout::aos);
+  CHECK(options.execution == Execution::resident);
+  CHECK(options.order == Order::colour);
+  CHECK(options.precision == trismooth::Precision::double_precision);
+  CHECK(options.guard);
+  CHECK(options.max_sweeps == 1000);
+  CHECK(options.tolerance == 1e-6);
+  CHECK_FALSE(options.target_quality.has_value());
+}
+
+TEST_CASE("numbers out of range are refused, and the message names the option") {
+  CHECK(complaint([](auto& o) { o.max_sweeps = -1; }).find("sweep limit") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.max_sweeps = 0; }).empty());
+  CHECK(complaint([](auto& o) { o.max_sweeps = std::numeric_limits<std::int64_t>::max(); }).empty());
+  CHECK(complaint([](auto& o) { o.threads = -1; }).find("threads") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.threads = 5; }).empty());
+  CHECK(complaint([](auto& o) { o.tolerance = -1e-9; }).find("tolerance") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.time_limit_seconds = -1; }).find("time limit") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.time_limit_seconds = not_a_number; }).find("time limit") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.time_limit_seconds = 0; }).empty());
+  CHECK(complaint([](auto& o) { o.target_quality = 1.5; }).find("quality target") != std::string::npos);
+}
+
+TEST_CASE("tolerances are numbers from 0, targets from -1 to 1") {
+  check_tolerance(0, true);
+  check_tolerance(5, true);
+  check_tolerance(not_a_number, false);
+  check_tolerance(infinity, false);
+  check_tolerance(-infinity, false);
+  check_target(-1, true);
+  check_target(1, true);
+  check_target(not_a_number, false);
+  check_target(-1.001, false);
+  check_target(infinity, false);
+}
+
+TEST_CASE("the unordered order goes with form b in a single block or CDP alone") {
+  check_order(Form::in_place, Execution::single_block, true);
+  check_order(Form::in_place, Execution::cdp, true);
+  check_order(Form::in_place, Execution::resident, false);
+  check_order(Form::swap, Execution::single_block, false);
+  check_order(Form::swap, Execution::cdp, false);
+  check_order(Form::swap, Execution::resident, false);
+}

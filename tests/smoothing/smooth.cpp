@@ -1,0 +1,392 @@
+#include "trismooth/smoothing/smooth.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/smoothing/errors.h"
+
+#include "catch.h"
+#include "support/naive_smoothing.h"
+#include "support/test_meshes.h"
+
+using test_meshes::Mesh;
+using test_meshes::Point;
+using trismooth::Constraints;
+using trismooth::Form;
+using trismooth::MeshError;
+using trismooth::Method;
+using trismooth::plan;
+using trismooth::Precision;
+using trismooth::smooth;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingPlan;
+using trismooth::SmoothingResult;
+using trismooth::StopReason;
+
+namespace {
+
+constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted};
+constexpr Form forms[] = {Form::swap, Form::in_place};
+constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
+
+std::vector<double> smoothed(const Mesh& mesh, const SmoothingOptions& options = {}) {
+  std::vector<double> xy = mesh.xy();
+  smooth(xy, mesh.indices(), {}, options);
+  return xy;
+}
+
+/// Calls `use` with options of every method, form and precision.
+template <class Function>
+void for_all_options(const Function& use) {
+  for (const Method method : methods) {
+    for (const Form form : forms) {
+      for (const Precision precision : precisions) {
+        CAPTURE(method, form, precision);
+        SmoothingOptions options;
+        options.method = method;
+        options.form = form;
+        options.precision = precision;
+        options.max_sweeps = 30;
+        use(options);
+      }
+    }
+  }
+}
+
+std::vector<double> times(std::vector<double> xy, double factor) {
+  for (double& x : xy) {
+    x *= factor;
+  }
+  return xy;
+}
+
+Mesh with_coordinates(Mesh mesh, const std::vector<double>& xy) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    mesh.points[v] = {xy[2 * v], xy[2 * v + 1]};
+  }
+  return mesh;
+}
+
+double worst_quotient(const Mesh& mesh) {
+  double worst = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles) {
+    worst = std::min(worst, naive::element_quotient(mesh.points, t));
+  }
+  return worst;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(
+      a, b, {}, [](double x) { return std::bit_cast<std::uint64_t>(x); },
+      [](double x) { return std::bit_cast<std::uint64_t>(x); });
+}
+
+}  // namespace
+
+TEST_CASE("a mesh scaled by a power of two smooths to the same bits, scaled") {
+  for (const auto& [name, mesh] : test_meshes::zoo()) {
+    for_all_options([&, &found_name = name, &found_mesh = mesh](const SmoothingOptions& options) {
+      const std::vector<double> expected = smoothed(found_mesh, options);
+      for (const int power : {-300, -149, -1, 7, 300}) {
+        CAPTURE(found_name, power);
+        const double factor = std::ldexp(1.0, power);
+        const Mesh scaled = with_coordinates(found_mesh, times(found_mesh.xy(), factor));
+        REQUIRE(same_bits(smoothed(scaled, options), times(expected, factor)));
+      }
+    });
+  }
+}
+
+TEST_CASE("huge and tiny meshes are smoothed like others, to rounding") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(12, 12, 0.3, 1), 2);
+  SmoothingOptions options;
+  options.method = Method::laplacian;
+  options.guard = false;
+  options.max_sweeps = 30;
+  for (const Form form : forms) {
+    options.form = form;
+    const std::vector<double> expected = smoothed(mesh, options);
+    for (const double factor : {1e-300, 1e-200, 1e-9, 1e200, 1e307}) {
+      CAPTURE(factor);
+      const std::vector<double> found = smoothed(with_coordinates(mesh, times(mesh.xy(), factor)), options);
+      double largest_error = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        largest_error = std::max(largest_error, std::abs(found[i] / factor - expected[i]));
+      }
+      CHECK(largest_error < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("far from the origin the result is finite and not worse") {
+  const Mesh unit = test_meshes::shuffled(test_meshes::jittered_grid(15, 15, 0.6, 3), 4);
+  for (const double offset : {4e7, -4e7, 1e12, 3e15}) {
+    std::vector<double> xy = unit.xy();
+    for (std::size_t i = 0; i < xy.size(); i += 2) {
+      xy[i] = xy[i] * 100 + offset;
+      xy[i + 1] = xy[i + 1] * 100 - offset / 3;
+    }
+    const Mesh mesh = with_coordinates(unit, xy);
+    for_all_options([&](const SmoothingOptions& options) {
+      CAPTURE(offset);
+      const std::vector<double> found = smoothed(mesh, options);
+      CHECK(std::ranges::all_of(found, [](double x) { return std::isfinite(x); }));
+      CHECK(worst_quotient(with_coordinates(mesh, found)) >= worst_quotient(mesh));
+      CHECK_FALSE(found == xy);
+    });
+  }
+}
+
+TEST_CASE("a translation that the coordinates can hold changes the result by rounding only") {
+  const Mesh unit = test_meshes::jittered_grid(12, 12, 0.3, 1);
+  SmoothingOptions options;
+  options.method = Method::laplacian;
+  options.guard = false;
+  options.max_sweeps = 20;
+  // On a grid of 2^-20, so that the mesh 2^26 away is the same mesh.
+  std::vector<double> near;
+  std::vector<double> far;
+  for (const double x : unit.xy()) {
+    near.push_back(std::round(x * 0x1p20) * 0x1p-20);
+    far.push_back(near.back() + 0x1p26);
+  }
+  const std::vector<double> near_result = smoothed(with_coordinates(unit, near), options);
+  const std::vector<double> far_result = smoothed(with_coordinates(unit, far), options);
+  double largest_error = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    largest_error = std::max(largest_error, std::abs(far_result[i] - 0x1p26 - near_result[i]));
+  }
+  CHECK(largest_error < 0x1p-26);  // coordinates there are 2^-26 apart
+}
+
+TEST_CASE("triangles listed in mixed orientation give the same result as listed alike") {
+  for (const auto& [name, mesh] : test_meshes::zoo()) {
+    if (name == "hopelessly tangled") {
+      continue;  // its majority is inverted
+    }
+    for_all_options([&, &found_name = name, &found_mesh = mesh](const SmoothingOptions& options) {
+      CAPTURE(found_name);
+      const std::vector<double> expected = smoothed(found_mesh, options);
+      for (const std::size_t period : {1U, 2U, 5U}) {
+        REQUIRE(same_bits(smoothed(test_meshes::partly_reversed(found_mesh, period), options), expected));
+      }
+    });
+  }
+}
+
+TEST_CASE("a plan smooths new coordinates as one call would, as often as asked") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(14, 11, 0.3, 1), 2);
+  for_all_options([&](const SmoothingOptions& options) {
+    SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, options);
+    test_meshes::Random random(3);
+    std::vector<double> moving = mesh.xy();
+    for (int step = 0; step < 6; ++step) {
+      CAPTURE(step);
+      for (double& x : moving) {
+        x += random.between(-0.02, 0.02);
+      }
+      std::vector<double> planned = moving;
+      const SmoothingResult result = repeated.smooth(planned);
+      std::vector<double> once = moving;
+      const SmoothingResult expected = smooth(once, mesh.indices(), {}, options);
+      REQUIRE(same_bits(planned, once));
+      REQUIRE(result.sweeps == expected.sweeps);
+      REQUIRE(result.vertex_updates == expected.vertex_updates);
+      REQUIRE(result.moved_vertices == expected.moved_vertices);
+      REQUIRE(result.reverted_vertices == expected.reverted_vertices);
+      REQUIRE(result.stop_reason == expected.stop_reason);
+    }
+  });
+}
+
+TEST_CASE("a plan follows a component that is mirrored between two calls, and back") {
+  const Mesh grid = test_meshes::jittered_grid(10, 10, 0.35, 1);
+  const Mesh mesh = test_meshes::together(grid, test_meshes::jittered_grid(9, 9, 0.35, 2), {5, 0});
+  Mesh other_side = mesh;
+  for (std::size_t v = grid.points.size(); v < mesh.points.size(); ++v) {
+    other_side.points[v].x = 11 - mesh.points[v].x;
+  }
+  const Mesh mirrored = other_side;
+  for_all_options([&](const SmoothingOptions& options) {
+    SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, options);
+    for (const Mesh* now : {&mesh, &mirrored, &mesh, &mirrored, &mirrored}) {
+      std::vector<double> planned = now->xy();
+      repeated.smooth(planned);
+      REQUIRE(same_bits(planned, smoothed(*now, options)));
+      REQUIRE_FALSE(same_bits(planned, now->xy()));
+    }
+  });
+}
+
+TEST_CASE("a plan can be moved, and owns what it needs") {
+  const Mesh mesh = test_meshes::jittered_grid(10, 10, 0.35, 1);
+  const std::vector<double> expected = smoothed(mesh);
+  std::vector<SmoothingPlan> plans;
+  {
+    std::vector<std::int32_t> indices = mesh.indices();
+    plans.push_back(plan(mesh.vertex_count(), indices));
+    std::ranges::fill(indices, -1);
+  }
+  std::vector<double> xy = mesh.xy();
+  plans.back().smooth(xy);
+  SmoothingPlan moved = std::move(plans.back());
+  plans.clear();
+  std::vector<double> again = mesh.xy();
+  moved.smooth(again);
+  CHECK(xy == expected);
+  CHECK(again == expected);
+}
+
+TEST_CASE("vertices that the caller fixes do not move, and the others move as if they were boundary") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(15, 15, 0.4, 1), 2);
+  test_meshes::Random random(3);
+  std::vector<std::int32_t> ids;
+  std::vector<std::uint8_t> flags(mesh.points.size(), 0);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (random.below(5) == 0) {
+      ids.push_back(v);
+      flags[v] = 1;
+    }
+  }
+  Constraints by_id;
+  by_id.fixed_ids = ids;
+  Constraints by_flag;
+  by_flag.fixed = flags;
+  for_all_options([&](const SmoothingOptions& options) {
+    std::vector<double> xy = mesh.xy();
+    const SmoothingResult result = smooth(xy, mesh.indices(), by_id, options);
+    CHECK(result.moved_vertices > 50);
+    for (const std::int32_t v : ids) {
+      REQUIRE((xy[2 * v] == mesh.points[v].x && xy[2 * v + 1] == mesh.points[v].y));
+    }
+    std::vector<double> flagged = mesh.xy();
+    smooth(flagged, mesh.indices(), by_flag, options);
+    REQUIRE(same_bits(flagged, xy));
+  });
+}
+
+TEST_CASE("negative zeros, subnormals and whatever else stays where it is keep their bits") {
+  Mesh mesh = test_meshes::jittered_grid(8, 8, 0.4, 1);
+  for (Point& p : mesh.points) {
+    p.x = p.x == 0 ? -0.0 : p.x;
+    p.y = p.y == 0 ? 5e-324 : p.y;
+  }
+  for_all_options([&](const SmoothingOptions& options) {
+    const std::vector<double> before = mesh.xy();
+    const std::vector<double> after = smoothed(mesh, options);
+    for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+      if (v % 8 == 0 || v % 8 == 7 || v / 8 == 0 || v / 8 == 7) {
+        REQUIRE(same_bits({after[2 * v], after[2 * v + 1]}, {before[2 * v], before[2 * v + 1]}));
+      }
+    }
+  });
+}
+
+TEST_CASE("a mesh of nothing, of isolated vertices or without a free vertex is done in one sweep") {
+  for (const Mesh& mesh : {Mesh{}, Mesh{{{0, 0}, {1, 1}}, {}}, test_meshes::three_on_an_edge(), test_meshes::bow_tie(),
+                           Mesh{{{3, 3}, {3, 3}, {3, 3}}, {{0, 1, 2}}}}) {
+    for_all_options([&](const SmoothingOptions& options) {
+      std::vector<double> xy = mesh.xy();
+      const SmoothingResult result = smooth(xy, mesh.indices(), {}, options);
+      CHECK(result.stop_reason == StopReason::fixed_point);
+      CHECK(result.sweeps == 1);
+      CHECK(result.free_vertices == 0);
+      CHECK(result.moved_vertices == 0);
+      CHECK(same_bits(xy, mesh.xy()));
+    });
+  }
+}
+
+TEST_CASE("a free vertex whose whole ring is one point is left in peace or brought there") {
+  Mesh mesh = test_meshes::star(5);
+  for (Point& p : mesh.points) {
+    p = {2, 7};
+  }
+  for_all_options([&](const SmoothingOptions& options) { CHECK(same_bits(smoothed(mesh, options), mesh.xy())); });
+  mesh.points[0] = {3, 7};
+  for_all_options([&](const SmoothingOptions& options) {
+    const std::vector<double> after = smoothed(mesh, options);
+    CHECK(std::ranges::all_of(after, [](double x) { return std::isfinite(x); }));
+  });
+}
+
+TEST_CASE("coordinates that are not finite are refused, and xy is untouched") {
+  const Mesh mesh = test_meshes::star(5);
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity()}) {
+    for (const std::size_t place : {0U, 1U, 6U, 11U}) {
+      std::vector<double> xy = mesh.xy();
+      xy[place] = bad;
+      const std::vector<double> before = xy;
+      const std::string message = "vertex " + std::to_string(place / 2) + " has a coordinate that is not finite";
+      CHECK_THROWS_AS(repeated.smooth(xy), MeshError);
+      CHECK_THROWS_WITH(repeated.smooth(xy), message);
+      CHECK_THROWS_WITH(smooth(xy, mesh.indices()), message);
+      CHECK(same_bits(xy, before));
+    }
+  }
+  // The plan is as good as before.
+  std::vector<double> xy = mesh.xy();
+  repeated.smooth(xy);
+  CHECK(xy == smoothed(mesh));
+}
+
+TEST_CASE("arrays of the wrong length are refused, and xy is untouched") {
+  const Mesh mesh = test_meshes::star(5);
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
+  for (const std::size_t length : {0U, 10U, 11U, 13U, 14U}) {
+    std::vector<double> xy(length, 0.25);
+    CHECK_THROWS_AS(repeated.smooth(xy), std::invalid_argument);
+    CHECK(xy == std::vector<double>(length, 0.25));
+  }
+  std::vector<double> odd = mesh.xy();
+  odd.push_back(0);
+  const std::vector<double> before = odd;
+  CHECK_THROWS_AS(smooth(odd, mesh.indices()), std::invalid_argument);
+  std::vector<std::int32_t> indices = mesh.indices();
+  indices.pop_back();
+  std::vector<double> xy = mesh.xy();
+  CHECK_THROWS_AS(smooth(xy, indices), std::invalid_argument);
+  CHECK_THROWS_AS(plan(mesh.vertex_count(), indices), std::invalid_argument);
+  CHECK(odd == before);
+  CHECK(xy == mesh.xy());
+}
+
+TEST_CASE("triangles that are no mesh, constraints and options that do not fit are refused, and xy is untouched") {
+  const Mesh mesh = test_meshes::star(5);
+  std::vector<double> xy = mesh.xy();
+  const auto refuses_triangle = [&](std::vector<std::int32_t> more) {
+    std::vector<std::int32_t> indices = mesh.indices();
+    indices.insert(indices.end(), more.begin(), more.end());
+    CHECK_THROWS_AS(smooth(xy, indices), MeshError);
+  };
+  refuses_triangle({0, 1, 6});
+  refuses_triangle({0, -1, 2});
+  refuses_triangle({2, 2, 3});
+  const std::vector<std::int32_t> ids{6};
+  Constraints constraints;
+  constraints.fixed_ids = ids;
+  CHECK_THROWS_AS(smooth(xy, mesh.indices(), constraints), std::invalid_argument);
+  SmoothingOptions options;
+  options.tolerance = -1;
+  CHECK_THROWS_AS(smooth(xy, mesh.indices(), {}, options), std::invalid_argument);
+  CHECK(xy == mesh.xy());
+  std::vector<double> band = test_meshes::moebius_band(5).xy();
+  CHECK_THROWS_AS(smooth(band, test_meshes::moebius_band(5).indices()), MeshError);
+}
+
+TEST_CASE("without a backend in the options it is the CPU's") {
+  SmoothingOptions options;
+  CHECK(&trismooth::backend_of(options) == &trismooth::cpu_backend());
+  options.backend = &trismooth::cpu_backend();
+  CHECK(&trismooth::backend_of(options) == &trismooth::cpu_backend());
+  CHECK(trismooth::cpu_backend().name() == "cpu");
+}
