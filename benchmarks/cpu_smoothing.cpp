@@ -78,8 +78,8 @@ void bench_topology(const RandomMesh& mesh, int runs) {
     connect.add(milliseconds([&] { topology = connect_triangles(n, mesh.triangles, workers); }));
     const Orientation orientation = orient(topology, mesh.triangles, mesh.points);
     HalfedgeMesh halfedges;
-    fill.add(milliseconds(
-        [&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, topology, orientation.reversed); }));
+    fill.add(
+        milliseconds([&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, topology, orientation.reversed); }));
     rings.add(milliseconds([&] { one_rings(halfedges.mesh, topology.hold, {}, workers); }));
   }
   fmt::print(" topology, one thread\n");

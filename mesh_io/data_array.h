@@ -24,16 +24,26 @@ std::string_view to_string(ScalarType type);
 template <class Function>
 decltype(auto) visit_scalar_type(ScalarType type, Function&& function) {
   switch (type) {
-    case ScalarType::int8: return std::forward<Function>(function)(std::int8_t{});
-    case ScalarType::uint8: return std::forward<Function>(function)(std::uint8_t{});
-    case ScalarType::int16: return std::forward<Function>(function)(std::int16_t{});
-    case ScalarType::uint16: return std::forward<Function>(function)(std::uint16_t{});
-    case ScalarType::int32: return std::forward<Function>(function)(std::int32_t{});
-    case ScalarType::uint32: return std::forward<Function>(function)(std::uint32_t{});
-    case ScalarType::int64: return std::forward<Function>(function)(std::int64_t{});
-    case ScalarType::uint64: return std::forward<Function>(function)(std::uint64_t{});
-    case ScalarType::float32: return std::forward<Function>(function)(float{});
-    case ScalarType::float64: break;
+    case ScalarType::int8:
+      return std::forward<Function>(function)(std::int8_t{});
+    case ScalarType::uint8:
+      return std::forward<Function>(function)(std::uint8_t{});
+    case ScalarType::int16:
+      return std::forward<Function>(function)(std::int16_t{});
+    case ScalarType::uint16:
+      return std::forward<Function>(function)(std::uint16_t{});
+    case ScalarType::int32:
+      return std::forward<Function>(function)(std::int32_t{});
+    case ScalarType::uint32:
+      return std::forward<Function>(function)(std::uint32_t{});
+    case ScalarType::int64:
+      return std::forward<Function>(function)(std::int64_t{});
+    case ScalarType::uint64:
+      return std::forward<Function>(function)(std::uint64_t{});
+    case ScalarType::float32:
+      return std::forward<Function>(function)(float{});
+    case ScalarType::float64:
+      break;
   }
   return std::forward<Function>(function)(double{});
 }

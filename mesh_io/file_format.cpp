@@ -14,9 +14,13 @@ constexpr std::array<FileFormat, 7> formats{FileFormat::off, FileFormat::obj, Fi
 
 }  // namespace
 
-std::string_view to_string(FileFormat format) { return format_names[static_cast<std::size_t>(format)]; }
+std::string_view to_string(FileFormat format) {
+  return format_names[static_cast<std::size_t>(format)];
+}
 
-std::span<const FileFormat> all_formats() { return formats; }
+std::span<const FileFormat> all_formats() {
+  return formats;
+}
 
 std::optional<FileFormat> format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();

@@ -14,13 +14,20 @@ namespace {
 
 const Codec& codec_of(FileFormat format) {
   switch (format) {
-    case FileFormat::off: return off_codec;
-    case FileFormat::obj: return obj_codec;
-    case FileFormat::ply: return ply_codec;
-    case FileFormat::stl: return stl_codec;
-    case FileFormat::vtk: return vtk_legacy_codec;
-    case FileFormat::vtu: return vtu_codec;
-    case FileFormat::vtp: break;
+    case FileFormat::off:
+      return off_codec;
+    case FileFormat::obj:
+      return obj_codec;
+    case FileFormat::ply:
+      return ply_codec;
+    case FileFormat::stl:
+      return stl_codec;
+    case FileFormat::vtk:
+      return vtk_legacy_codec;
+    case FileFormat::vtu:
+      return vtu_codec;
+    case FileFormat::vtp:
+      break;
   }
   return vtp_codec;
 }

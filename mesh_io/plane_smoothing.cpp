@@ -48,8 +48,7 @@ void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double
       ++result.moved_vertices;
     }
   }
-  result.timings.commit +=
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.timings.commit += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace

@@ -14,11 +14,10 @@ namespace trismooth {
 namespace {
 
 void require_no_deleted_elements(const TriangleMesh& mesh) {
-  const bool vertices = mesh.has_vertex_status() && std::ranges::any_of(mesh.all_vertices(), [&](auto v) {
-                          return mesh.status(v).deleted();
-                        });
-  const bool faces = mesh.has_face_status() &&
-                     std::ranges::any_of(mesh.all_faces(), [&](auto f) { return mesh.status(f).deleted(); });
+  const bool vertices = mesh.has_vertex_status() &&
+                        std::ranges::any_of(mesh.all_vertices(), [&](auto v) { return mesh.status(v).deleted(); });
+  const bool faces =
+      mesh.has_face_status() && std::ranges::any_of(mesh.all_faces(), [&](auto f) { return mesh.status(f).deleted(); });
   if (vertices || faces) {
     throw std::invalid_argument("the mesh has deleted elements; call garbage_collection() first");
   }
@@ -50,8 +49,7 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
 
   Workers workers(options.threads);
   const std::vector<Triangle> triangles = face_list(mesh);
-  const TriangleTopology topology =
-      connect_triangles(static_cast<std::int32_t>(mesh.n_vertices()), triangles, workers);
+  const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(mesh.n_vertices()), triangles, workers);
   const Orientation orientation = orient(topology, triangles, local);
   const std::vector<std::uint8_t> fixed = fixed_vertices(topology, triangles, constraints);
   const OneRings rings = one_rings(mesh, fixed, orientation.reversed, workers);
@@ -64,6 +62,8 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   return result;
 }
 
-SmoothingResult smooth(TriangleMesh& mesh, const SmoothingOptions& options) { return smooth(mesh, {}, options); }
+SmoothingResult smooth(TriangleMesh& mesh, const SmoothingOptions& options) {
+  return smooth(mesh, {}, options);
+}
 
 }  // namespace trismooth

@@ -2,8 +2,8 @@
 
 // clang-format off: OpenMesh's Eigen traits need its own vector traits before them.
 #include <Eigen/Core>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 // clang-format on
 
 namespace trismooth {

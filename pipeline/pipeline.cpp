@@ -1,10 +1,10 @@
 #include "trismooth/pipeline/pipeline.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <limits>
+
+#include <sys/resource.h>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge_mesh.h"
@@ -94,8 +94,7 @@ class Run {
     reversed_ = std::move(orientation.reversed);
     fixed_ = fixed(topology, regions);
     {
-      const HalfedgeMesh halfedges =
-          build_halfedge_mesh(document_.points, mesh_.triangles, topology, reversed_);
+      const HalfedgeMesh halfedges = build_halfedge_mesh(document_.points, mesh_.triangles, topology, reversed_);
       rings_ = one_rings(halfedges.mesh, fixed_, {}, workers_, halfedges.copies_of);
     }
     note_irregular_vertices(topology);
@@ -139,14 +138,11 @@ class Run {
   std::vector<std::uint8_t> fixed(const TriangleTopology& topology, const Regions& regions) const {
     const std::vector<std::uint8_t> named =
         fixed_by_array(document_, options_.fixed_array.value_or("fixed"), options_.fixed_array.has_value());
-    const std::vector<std::int32_t> ids = options_.fixed_ids
-                                              ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices)
-                                              : std::vector<std::int32_t>{};
-    return fixed_vertices(topology, mesh_.triangles,
-                          {.fixed = named,
-                           .fixed_ids = ids,
-                           .other_cells = mesh_.in_other_cell,
-                           .regions = regions.of_triangle});
+    const std::vector<std::int32_t> ids =
+        options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
+    return fixed_vertices(
+        topology, mesh_.triangles,
+        {.fixed = named, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions.of_triangle});
   }
 
   void enter_frame() {
@@ -156,8 +152,8 @@ class Run {
   }
 
   QualityReport check() {
-    QualityReport report = quality_report({local_, mesh_.triangles, reversed_, frame_.exponent},
-                                          {.threads = options_.smoothing.threads});
+    QualityReport report =
+        quality_report({local_, mesh_.triangles, reversed_, frame_.exponent}, {.threads = options_.smoothing.threads});
     for (WorstElement& element : report.worst) {
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
       element.centroid = frame_.leave(element.centroid);
@@ -245,6 +241,8 @@ class Run {
 
 }  // namespace
 
-PipelineResult run_pipeline(const PipelineOptions& options) { return Run(options).run(); }
+PipelineResult run_pipeline(const PipelineOptions& options) {
+  return Run(options).run();
+}
 
 }  // namespace trismooth

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,11 +34,11 @@ struct PipelineOptions {
   std::filesystem::path input;
   std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed
   SmoothingOptions smoothing;
-  std::optional<std::string> region_array;          ///< absent: see find_regions
-  std::optional<std::string> fixed_array;           ///< absent: the point array "fixed", where there is one
-  std::optional<std::filesystem::path> fixed_ids;   ///< a file of vertex numbers
-  bool annotate = false;                            ///< add shape, fixed and displacement to VTK output
-  std::function<Progress(Stage)> stage_started;     ///< may answer stop: Cancelled is thrown then
+  std::optional<std::string> region_array;         ///< absent: see find_regions
+  std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
+  std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
+  bool annotate = false;                           ///< add shape, fixed and displacement to VTK output
+  std::function<Progress(Stage)> stage_started;    ///< may answer stop: Cancelled is thrown then
 };
 
 /// The run was stopped by a callback; nothing was written.

@@ -32,8 +32,7 @@ class Stopwatch {
 };
 
 Point2<double> rounded_to(Storage storage, Point2<double> point) {
-  return storage == Storage::float64 ? point
-                                     : Point2<double>{rounded_to_float32(point.x), rounded_to_float32(point.y)};
+  return storage == Storage::float64 ? point : Point2<double>{rounded_to_float32(point.x), rounded_to_float32(point.y)};
 }
 
 class CpuSmoother final : public PreparedSmoother {
@@ -80,13 +79,13 @@ class CpuSmoother final : public PreparedSmoother {
       const Point2<double> now = points[rings_.input_index[v]];
       return working[v] == narrow<T>(before[v])
                  ? now
-                 : rounded_to(storage, frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)}));
+                 : rounded_to(storage,
+                              frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)}));
     };
     std::vector<Point2<double>> after = before;
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
-      const GuardOutcome outcome =
-          keep_never_worse(rings_.view(), before, after, workers_);
+      const GuardOutcome outcome = keep_never_worse(rings_.view(), before, after, workers_);
       result.guard_rounds = outcome.rounds;
       result.reverted_vertices = static_cast<std::int64_t>(outcome.reverted.size());
       for (const std::int32_t v : outcome.reverted) {

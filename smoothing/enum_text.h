@@ -15,7 +15,9 @@ struct EnumText;
 
 /// The text of a value, as options, messages and reports write it.
 template <class Enum>
-  requires requires { EnumText<Enum>::texts; }
+requires requires {
+  EnumText<Enum>::texts;
+}
 constexpr std::string_view to_string(Enum value) {
   for (const auto& [candidate, text] : EnumText<Enum>::texts) {
     if (candidate == value) {

@@ -35,14 +35,22 @@ class RingGatherer {
   template <class Function>
   auto with_ring(std::span<const Point2<T>> points, std::span<const std::int32_t> ring, const Function& function) {
     switch (ring.size()) {
-      case 3: return function(fixed<3>(points, ring));
-      case 4: return function(fixed<4>(points, ring));
-      case 5: return function(fixed<5>(points, ring));
-      case 6: return function(fixed<6>(points, ring));
-      case 7: return function(fixed<7>(points, ring));
-      case 8: return function(fixed<8>(points, ring));
-      case 9: return function(fixed<9>(points, ring));
-      default: break;
+      case 3:
+        return function(fixed<3>(points, ring));
+      case 4:
+        return function(fixed<4>(points, ring));
+      case 5:
+        return function(fixed<5>(points, ring));
+      case 6:
+        return function(fixed<6>(points, ring));
+      case 7:
+        return function(fixed<7>(points, ring));
+      case 8:
+        return function(fixed<8>(points, ring));
+      case 9:
+        return function(fixed<9>(points, ring));
+      default:
+        break;
     }
     buffer_.clear();
     for (const std::int32_t neighbour : ring) {

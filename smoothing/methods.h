@@ -13,9 +13,12 @@ namespace trismooth {
 template <class Function>
 decltype(auto) visit_method(Method method, Function&& function) {
   switch (method) {
-    case Method::laplacian: return std::forward<Function>(function)(Laplacian{});
-    case Method::weighted: return std::forward<Function>(function)(WeightedLaplacian{});
-    case Method::smart: break;
+    case Method::laplacian:
+      return std::forward<Function>(function)(Laplacian{});
+    case Method::weighted:
+      return std::forward<Function>(function)(WeightedLaplacian{});
+    case Method::smart:
+      break;
   }
   return std::forward<Function>(function)(SmartLaplacian{});
 }

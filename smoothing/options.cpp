@@ -19,7 +19,8 @@ void SmoothingOptions::validate() const {
   require(tolerance >= 0 && tolerance < std::numeric_limits<double>::infinity(),
           "the tolerance must be a number from 0");
   require(time_limit_seconds >= 0, "the time limit must not be negative");
-  require(!target_quality || (*target_quality >= -1 && *target_quality <= 1), "the quality target must be from -1 to 1");
+  require(!target_quality || (*target_quality >= -1 && *target_quality <= 1),
+          "the quality target must be from -1 to 1");
   require(threads >= 0, "the number of threads must not be negative (0: one for each core)");
   require(order == Order::colour || (form == Form::in_place && execution != Execution::resident),
           "order 'unordered' goes with form b and execution single-block or cdp only");

@@ -94,14 +94,14 @@ struct SmoothingOptions {
   Order order = Order::colour;
   Precision precision = Precision::double_precision;
   Evaluation evaluation = Evaluation::changed;
-  bool guard = true;              ///< take back what made an element worse: see never_worse.h
+  bool guard = true;               ///< take back what made an element worse: see never_worse.h
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
   double time_limit_seconds = std::numeric_limits<double>::infinity();  ///< checked after every sweep
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
-  int threads = 0;                       ///< 0: one for each core. The result does not depend on it
-  bool record_min_shape = false;         ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
+  int threads = 0;                         ///< 0: one for each core. The result does not depend on it
+  bool record_min_shape = false;           ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
   /// Called after every sweep, from the thread that called; `stop` ends the smoothing with a valid mesh.
   std::function<Progress(const SweepRecord&)> progress{};
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.

@@ -14,11 +14,11 @@ namespace trismooth {
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
 /// windows of the curve vertices are sorted by ring size, so that the loops over rings are predictable.
 struct PackedRings {
-  std::vector<std::int32_t> input_index;    ///< the caller's number of each packed vertex
-  std::vector<std::int64_t> offsets;        ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
-  std::vector<std::int32_t> neighbours;     ///< packed numbers, in ring order
-  std::vector<std::int32_t> batches{0};     ///< batch b holds packed vertices batches[b] .. batches[b + 1]
-  std::int32_t colours = 0;                 ///< 0 for Form A
+  std::vector<std::int32_t> input_index;  ///< the caller's number of each packed vertex
+  std::vector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
+  std::vector<std::int32_t> neighbours;   ///< packed numbers, in ring order
+  std::vector<std::int32_t> batches{0};   ///< batch b holds packed vertices batches[b] .. batches[b + 1]
+  std::int32_t colours = 0;               ///< 0 for Form A
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(input_index.size()); }
   std::int32_t free_count() const { return batches.back(); }

@@ -5,8 +5,9 @@
 
 namespace trismooth {
 
-/// Calls `visit(quotient)` with the shape quotient of each triangle (v, n_i, n_i+1) around `position`, evaluated in this
-/// corner order. Edge vectors and squares are shared between triangles; the operations are those of shape_quotient.
+/// Calls `visit(quotient)` with the shape quotient of each triangle (v, n_i, n_i+1) around `position`, evaluated in
+/// this corner order. Edge vectors and squares are shared between triangles; the operations are those of
+/// shape_quotient.
 template <class T, class Ring, class Visit>
 constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
   const int size = ring.size();

@@ -63,8 +63,8 @@ SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
   if (smoother_ == nullptr || orientation.reversed != reversed_) {
     reversed_ = std::move(orientation.reversed);
     Workers workers(options_.threads);
-    smoother_ = backend_of(options_).prepare(one_rings(topology_, triangles_, reversed_, fixed_, workers), local,
-                                             options_);
+    smoother_ =
+        backend_of(options_).prepare(one_rings(topology_, triangles_, reversed_, fixed_, workers), local, options_);
   }
   const double fixed_quotient = options_.target_quality || options_.record_min_shape
                                     ? smallest_fixed_quotient(local, triangles_, reversed_, fixed_)

@@ -145,7 +145,8 @@ class Sweeper {
     const T tolerance = static_cast<T>(options_.tolerance);
     const auto next = [&](std::int32_t v) { return all || v == end ? v : next_marked(marked, v, end); };
     for (std::int32_t v = next(begin); v < end;) {
-      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next one is known.
+      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next one is
+      // known.
       const std::int32_t following = next(v + 1);
       if (following < end) {
         prefetch_ring(from, following);
@@ -233,9 +234,8 @@ class Sweeper {
       RingGatherer<T> gatherer;
       T worst = std::numeric_limits<T>::infinity();
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        worst = std::min(worst, gatherer.with_ring(points, view_[v], [&](const auto& ring) {
-          return worst_quotient(points[v], ring);
-        }));
+        worst = std::min(worst, gatherer.with_ring(points, view_[v],
+                                                   [&](const auto& ring) { return worst_quotient(points[v], ring); }));
       }
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);

@@ -23,17 +23,17 @@ inline constexpr std::uint8_t named = 64;        ///< named by the user
 
 /// How triangles hang together. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
 struct TriangleTopology {
-  static constexpr std::int32_t no_twin = -1;       ///< a boundary edge
-  static constexpr std::int32_t many_twins = -2;    ///< an edge with three triangles or more
+  static constexpr std::int32_t no_twin = -1;     ///< a boundary edge
+  static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
 
   std::int32_t vertex_count = 0;
-  std::vector<std::int32_t> twins;       ///< per halfedge: the other triangle's halfedge on the edge
-  std::vector<std::uint8_t> parity;      ///< per triangle: 1 where it is listed against its component's lowest triangle
-  std::vector<std::int32_t> component;   ///< per triangle: from 0, in the order of their lowest triangles
-  std::int32_t components = 0;           ///< connected through edges with exactly two triangles
-  std::vector<std::int32_t> corner;      ///< per vertex: the lowest halfedge that starts there; -1: isolated
-  std::vector<std::int32_t> degree;      ///< per vertex: its triangles
-  std::vector<std::uint8_t> hold;        ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
+  std::vector<std::int32_t> twins;      ///< per halfedge: the other triangle's halfedge on the edge
+  std::vector<std::uint8_t> parity;     ///< per triangle: 1 where it is listed against its component's lowest triangle
+  std::vector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
+  std::int32_t components = 0;          ///< connected through edges with exactly two triangles
+  std::vector<std::int32_t> corner;     ///< per vertex: the lowest halfedge that starts there; -1: isolated
+  std::vector<std::int32_t> degree;     ///< per vertex: its triangles
+  std::vector<std::uint8_t> hold;       ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
 };
 
 /// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for an index out of range, a triangle that
@@ -43,8 +43,8 @@ TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Tr
 
 /// The orientation of every triangle.
 struct Orientation {
-  std::vector<std::uint8_t> reversed;       ///< 1 where the triangle is listed clockwise in the consistent orientation
-  std::int64_t reoriented_triangles = 0;    ///< listed against the majority of their component
+  std::vector<std::uint8_t> reversed;     ///< 1 where the triangle is listed clockwise in the consistent orientation
+  std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
 };
 
 /// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
