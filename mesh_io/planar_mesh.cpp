@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -73,7 +74,8 @@ constexpr std::array<std::string_view, 7> region_array_names{
 /// In the array's own type: whole numbers beyond 2^53 are not equal for being equal as doubles.
 template <class T>
 void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regions) {
-  const auto precedes = [](T a, T b) { return a < b || (a == a && b != b); };
+  const auto is_nan = [](T a) { return std::isnan(static_cast<double>(a)); };
+  const auto precedes = [&](T a, T b) { return a < b || (!is_nan(a) && is_nan(b)); };
   std::vector<T> of_triangle(mesh.cells.size());
   std::ranges::transform(mesh.cells, of_triangle.begin(), [&](std::int32_t cell) {
     T value{};
@@ -82,7 +84,7 @@ void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regi
   });
   std::vector<T> values = of_triangle;
   std::ranges::sort(values, precedes);
-  values.erase(std::ranges::unique(values, [&](T a, T b) { return !precedes(a, b); }).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end(), [&](T a, T b) { return !precedes(a, b); }), values.end());
   regions.count = static_cast<std::int32_t>(values.size());
   regions.of_triangle.resize(of_triangle.size());
   std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](T value) {

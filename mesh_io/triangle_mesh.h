@@ -1,9 +1,10 @@
 #pragma once
 
-// clang-format off: OpenMesh's Eigen traits need its own vector traits before them.
+// OpenMesh's Eigen traits need its own vector traits before them.
+// clang-format off
 #include <Eigen/Core>
-#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 // clang-format on
 
 namespace trismooth {

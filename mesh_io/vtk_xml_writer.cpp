@@ -13,6 +13,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
@@ -175,6 +176,9 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
   VtkMessages messages;
   messages.watch(writer);
+  // Says no more than that the writer failed, but on standard error and in many lines.
+  VtkMessages repetitions;
+  repetitions.watch(writer->GetExecutive());
   writer->set_stream(stream);
   writer->SetInputData(&data);
   writer->SetDataMode(encoding.mode == VtkXmlMode::ascii    ? vtkXMLWriter::Ascii

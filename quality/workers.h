@@ -32,8 +32,8 @@ class Workers {
     count_ == 1 ? function() : arena_.execute(std::forward<Function>(function));
   }
 
-  /// Calls body(begin, end) on parts of [0, size) of at most about `grain` elements, in any order, on all threads;
-  /// on the calling thread alone, in one part, where there is one thread or no more than `grain` elements.
+  /// Calls body(begin, end) on parts of [0, size) of no less than half of `grain` elements, in any order, on all
+  /// threads; on the calling thread alone, in one part, where there is one thread or no more than `grain` elements.
   template <class Body>
   void for_blocks(std::int64_t size, std::int64_t grain, const Body& body) {
     if (size <= 0) {

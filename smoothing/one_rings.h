@@ -55,7 +55,7 @@ struct OneRings {
   void fill(std::int32_t vertex, Next next) {
     const auto ring = std::span(neighbours).subspan(static_cast<std::size_t>(offsets[vertex]), (*this)[vertex].size());
     std::ranges::generate(ring, std::move(next));
-    std::ranges::rotate(ring, std::ranges::min_element(ring));
+    std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
   }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/one_ring_update.h"
 
@@ -29,13 +31,17 @@ constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, cons
   visit(shape_quotient(spoke, first_spoke, squared, squared_length(first - neighbour), first_squared));
 }
 
-/// The smallest shape quotient of the triangles around `position`. Without branches: on a CPU a wrong guess costs more
-/// than the divisions that an early exit saves.
+/// The smallest shape quotient of the triangles around `position`; no number if one of them is none. Without branches:
+/// on a CPU a wrong guess costs more than the divisions that an early exit saves.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring& ring) {
   T worst = 1;  // no quotient is above 1 / (2 sqrt(3))
-  for_ring_quotients(position, ring, [&](T quotient) { worst = quotient < worst ? quotient : worst; });
-  return worst;
+  bool numbers = true;
+  for_ring_quotients(position, ring, [&](T quotient) {
+    worst = quotient < worst ? quotient : worst;
+    numbers &= quotient == quotient;
+  });
+  return numbers ? worst : static_cast<T>(NAN);
 }
 
 /// How many of the triangles around `position` are inverted.

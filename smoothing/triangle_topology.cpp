@@ -15,6 +15,9 @@ namespace {
 constexpr std::int64_t grain = 4096;
 
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
+  if (vertex_count < 0) {
+    throw MeshError("the number of vertices is negative");
+  }
   if (triangles.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 3)) {
     throw MeshError("more than 715827882 triangles");
   }
