@@ -37,8 +37,8 @@ struct TriangleTopology {
 };
 
 /// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index out of
-/// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity: linear,
-/// but for sorting the edges of each vertex.
+/// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
+/// linear, but for sorting the edges of each vertex.
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
 
 /// The orientation of every triangle.
