@@ -19,8 +19,9 @@ function(trismooth_configure target)
             # No effect on any value: nobody looks at floating-point traps or errno, which lets a quotient be a
             # select instead of a branch.
             -fno-trapping-math -fno-math-errno>
-            # GCC 12 warns of "literal" + std::string where nothing overlaps (its bug 105651).
-            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+            # GCC 12 warns of "literal" + std::string where nothing overlaps (its bug 105651), and of the default-made
+            # Eigen vectors with which OpenMesh fills a new point property.
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized>)
   if(TRISMOOTH_WERROR)
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
   endif()
