@@ -301,7 +301,7 @@ TEST_CASE("a report that cannot be written is answered with 4") {
   CHECK(outcome.says(folder.file("missing/a.json") + ": "));
 }
 
-TEST_CASE("--quiet leaves errors and failed gates only") {
+TEST_CASE("quiet leaves errors and failed gates only") {
   const Outcome fine = smooth({"--quiet"});
   CHECK(fine.code == 0);
   CHECK(fine.out.empty());
@@ -335,7 +335,7 @@ TEST_CASE("notes go to standard error, a long list is cut unless --verbose asks 
   CHECK(notes_in(call({"smooth", "a.vtk", "b.vtk", "--verbose"}, with_notes(40))) == 40);
 }
 
-TEST_CASE("--verbose records the smallest shape and prints every sweep and the times") {
+TEST_CASE("verbose records the smallest shape and prints every sweep and the times") {
   const Outcome outcome = call({"smooth", "a.vtk", "b.vtk", "--verbose"}, [](const PipelineOptions& options) {
     CHECK(options.smoothing.record_min_shape);
     CHECK(options.smoothing.progress({7, 100, 50, 0.125, 0.25}) == Progress::proceed);

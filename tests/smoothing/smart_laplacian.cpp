@@ -90,8 +90,8 @@ TEST_CASE("of a tangled ring a vertex moves as soon as its worst triangle is les
 }
 
 TEST_CASE("a ring with a quotient that is no number has no smallest one, so it never passes for better") {
-  // The square of the far corner's coordinate overflows, which no local frame lets happen.
-  const RingOf<double> ring{{{1e200, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  // Products of the far corners' coordinates overflow, which no local frame lets happen.
+  const RingOf<double> ring{{{1e200, 1e200}, {1e200, 2e200}, {-1, 0}, {0, -1}}};
   const double worst = worst_quotient(Point2<double>{0.1, 0.1}, ring);
   CHECK(worst != worst);
   CHECK_FALSE(SmartLaplacian::update<double>({0.1, 0.1}, ring).moved);
