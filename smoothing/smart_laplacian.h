@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/one_ring_update.h"
 
@@ -31,17 +29,22 @@ constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, cons
   visit(shape_quotient(spoke, first_spoke, squared, squared_length(first - neighbour), first_squared));
 }
 
-/// The smallest shape quotient of the triangles around `position`; no number if one of them is none. Without branches:
-/// on a CPU a wrong guess costs more than the divisions that an early exit saves.
+/// The smallest shape quotient of the triangles around `position`. Without branches, here and below: on a CPU a wrong
+/// guess costs more than the divisions that an early exit saves.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring& ring) {
   T worst = 1;  // no quotient is above 1 / (2 sqrt(3))
-  bool numbers = true;
-  for_ring_quotients(position, ring, [&](T quotient) {
-    worst = quotient < worst ? quotient : worst;
-    numbers &= quotient == quotient;
-  });
-  return numbers ? worst : static_cast<T>(NAN);
+  for_ring_quotients(position, ring, [&](T quotient) { worst = quotient < worst ? quotient : worst; });
+  return worst;
+}
+
+/// Whether the smallest shape quotient of the triangles around `position` is larger than `bound`, that is, every one of
+/// them is. A quotient that is no number is not.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE bool is_better_than(T bound, Point2<T> position, const Ring& ring) {
+  bool better = true;
+  for_ring_quotients(position, ring, [&](T quotient) { better &= quotient > bound; });
+  return better;
 }
 
 /// How many of the triangles around `position` are inverted.
@@ -59,8 +62,7 @@ struct SmartLaplacian {
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
     const Point2<T> target = laplacian_position<T>(ring);
     const T before = worst_quotient(position, ring);
-    const T after = worst_quotient(target, ring);
-    if (!(after > before)) {
+    if (!is_better_than(before, target, ring)) {
       return stay(position);
     }
     // Where nothing was inverted, a larger minimum says that nothing is.
