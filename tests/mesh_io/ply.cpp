@@ -1,3 +1,5 @@
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
