@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -162,8 +163,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--runs", settings.runs)->capture_default_str()->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  for (const std::int64_t vertices : settings.vertices) {
-    bench_mesh(vertices, settings);
+  try {
+    for (const std::int64_t vertices : settings.vertices) {
+      bench_mesh(vertices, settings);
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cpu_smoothing: error: {}\n", error.what());
+    return 1;
   }
   return 0;
 }

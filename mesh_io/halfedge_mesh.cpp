@@ -93,7 +93,7 @@ class Builder {
           mesh_.set_boundary(outer);
         }
       }
-      mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedges_[static_cast<std::size_t>(3 * t)]));
+      mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedges_[3 * static_cast<std::size_t>(t)]));
     }
   }
 

@@ -69,7 +69,8 @@ std::optional<Plane> fit_plane(std::span<const double> xyz) {
   const auto normalised = [&](std::size_t i) -> Eigen::Vector3d {
     return (Eigen::Map<const Eigen::Vector3d>(xyz.data() + i) - box.centre) / size;
   };
-  const double count = static_cast<double>(xyz.size() / 3);
+  const std::size_t points = xyz.size() / 3;
+  const auto count = static_cast<double>(points);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     mean += normalised(i) / count;

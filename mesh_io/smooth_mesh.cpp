@@ -14,10 +14,12 @@ namespace trismooth {
 namespace {
 
 void require_no_deleted_elements(const TriangleMesh& mesh) {
-  const bool vertices = mesh.has_vertex_status() &&
-                        std::ranges::any_of(mesh.all_vertices(), [&](auto v) { return mesh.status(v).deleted(); });
-  const bool faces =
-      mesh.has_face_status() && std::ranges::any_of(mesh.all_faces(), [&](auto f) { return mesh.status(f).deleted(); });
+  const bool vertices = mesh.has_vertex_status() && std::ranges::any_of(mesh.all_vertices(), [&](auto v) {
+                          return mesh.status(OpenMesh::VertexHandle(v.idx())).deleted();
+                        });
+  const bool faces = mesh.has_face_status() && std::ranges::any_of(mesh.all_faces(), [&](auto f) {
+                       return mesh.status(OpenMesh::FaceHandle(f.idx())).deleted();
+                     });
   if (vertices || faces) {
     throw std::invalid_argument("the mesh has deleted elements; call garbage_collection() first");
   }
