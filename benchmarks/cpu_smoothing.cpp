@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <functional>
 #include <string>
@@ -148,9 +149,7 @@ void bench_mesh(std::int64_t vertices, const Settings& settings) {
   fmt::print(" bits: {} runs, {}\n\n", hashes.size(), same ? "all the same" : "DIFFERENT");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Measures the CPU path on random Delaunay meshes");
   Settings settings;
   app.add_option("--vertices", settings.vertices, "mesh sizes")->capture_default_str();
@@ -163,13 +162,19 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--runs", settings.runs)->capture_default_str()->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  try {
-    for (const std::int64_t vertices : settings.vertices) {
-      bench_mesh(vertices, settings);
-    }
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "cpu_smoothing: error: {}\n", error.what());
-    return 1;
+  for (const std::int64_t vertices : settings.vertices) {
+    bench_mesh(vertices, settings);
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cpu_smoothing: error: %s\n", error.what());
+    return 1;
+  }
 }
