@@ -5,11 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "trismooth/quality/thread_arena.h"
 #include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/workers.h"
 
 namespace trismooth {
 
@@ -26,20 +23,12 @@ std::size_t block_count(const TriangleView& view) {
 /// Calls `function(block)` for every block of the view.
 template <class Function>
 void for_each_block(const TriangleView& view, int threads, const Function& function) {
-  const std::size_t blocks = block_count(view);
-  if (threads == 1) {
-    for (std::size_t block = 0; block < blocks; ++block) {
-      function(block);
-    }
-    return;
-  }
-  thread_arena(threads).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t block = range.begin(); block < range.end(); ++block) {
-        function(block);
-      }
-    });
-  });
+  Workers(threads).for_blocks(static_cast<std::int64_t>(block_count(view)), 1,
+                              [&](std::int64_t begin, std::int64_t end) {
+                                for (std::int64_t block = begin; block < end; ++block) {
+                                  function(static_cast<std::size_t>(block));
+                                }
+                              });
 }
 
 using CornerPoints = std::array<Point2<double>, 3>;
