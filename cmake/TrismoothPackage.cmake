@@ -1,0 +1,105 @@
+# The portable package: the target `package` makes trismooth-<version>-linux-<processor>.tar.gz. It holds the programs
+# with every shared library that they need beside the C library, unpacks anywhere and runs on any Linux whose C library
+# is as new as that of the machine that made it.
+#
+# What it holds is the install component `portable`, which an ordinary `cmake --install` leaves out: that one is for
+# building against trismooth, on a machine that has the libraries.
+
+# trismooth_programs_below(<variable> <folder>) lists the executables that the folder and all below it make.
+function(trismooth_programs_below variable folder)
+  set(programs)
+  get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "EXECUTABLE")
+      list(APPEND programs ${target})
+    endif()
+  endforeach()
+  get_property(subfolders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+  foreach(subfolder IN LISTS subfolders)
+    trismooth_programs_below(below "${subfolder}")
+    list(APPEND programs ${below})
+  endforeach()
+  set(${variable} ${programs} PARENT_SCOPE)
+endfunction()
+
+# trismooth_package_programs(<folder of the package> <target>...)
+function(trismooth_package_programs folder)
+  foreach(program IN LISTS ARGN)
+    # The bundled libraries have no search path of their own, and only the older of the two kinds of path in a program,
+    # DT_RPATH, serves the libraries of its libraries as well.
+    target_link_options(${program} PRIVATE "$<HOST_LINK:LINKER:--disable-new-dtags>")
+    get_target_property(path ${program} INSTALL_RPATH)
+    if(NOT path)
+      set(path)
+    endif()
+    list(APPEND path "$ORIGIN/../lib")
+    list(REMOVE_DUPLICATES path)
+    set_target_properties(${program} PROPERTIES INSTALL_RPATH "${path}")
+  endforeach()
+  install(TARGETS ${ARGN} RUNTIME DESTINATION "${folder}" COMPONENT portable EXCLUDE_FROM_ALL)
+endfunction()
+
+trismooth_programs_below(packaged_programs "${PROJECT_SOURCE_DIR}/pipeline")
+if(TRISMOOTH_BENCHMARKS)
+  trismooth_programs_below(benchmark_programs "${PROJECT_SOURCE_DIR}/benchmarks")
+  list(APPEND packaged_programs ${benchmark_programs})
+endif()
+trismooth_package_programs(bin ${packaged_programs})
+
+if(TRISMOOTH_TESTS AND TRISMOOTH_PACKAGE_TESTS)
+  trismooth_programs_below(test_programs "${PROJECT_SOURCE_DIR}/tests")
+  trismooth_package_programs(tests ${test_programs})
+  list(APPEND packaged_programs ${test_programs})
+  install(PROGRAMS scripts/test-gpu.sh DESTINATION tests COMPONENT portable EXCLUDE_FROM_ALL)
+  install(DIRECTORY tests/end_to_end tests/mesh_io DESTINATION tests COMPONENT portable EXCLUDE_FROM_ALL
+          FILES_MATCHING PATTERN "*.py")
+endif()
+
+# The library step, run at the time of installing. It reads the programs where they were built: there they find their
+# libraries as the linker did.
+set(packaged_files)
+foreach(program IN LISTS packaged_programs)
+  list(APPEND packaged_files "$<TARGET_FILE:${program}>")
+endforeach()
+# Libraries that are compiled in, by their Debian packages.
+set(packages_compiled_in libcli11-dev libeigen3-dev libfmt-dev libopenmesh-dev libtbb-dev libvtk9-dev
+                         nlohmann-json3-dev)
+if(TRISMOOTH_TESTS AND TRISMOOTH_PACKAGE_TESTS)
+  list(APPEND packages_compiled_in catch2)
+endif()
+install(CODE "
+set(programs \"${packaged_files}\")
+set(packages_compiled_in \"${packages_compiled_in}\")
+set(with_cuda \"${TRISMOOTH_CUDA}\")
+set(strip \"${CMAKE_STRIP}\")
+set(licences \"share/doc/trismooth/third-party\")
+include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_libraries.cmake\")
+include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_licences.cmake\")"
+        COMPONENT portable EXCLUDE_FROM_ALL)
+
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/trismooth COMPONENT portable EXCLUDE_FROM_ALL)
+install(DIRECTORY docs/images DESTINATION share/doc/trismooth/docs COMPONENT portable EXCLUDE_FROM_ALL)
+# Where the README and the tests expect them, seen from the top of the package.
+install(DIRECTORY examples/data DESTINATION examples COMPONENT portable EXCLUDE_FROM_ALL
+        FILES_MATCHING PATTERN "*.off" PATTERN "*.vtk" PATTERN "*.vtu" PATTERN "README.md")
+
+string(TOLOWER "${CMAKE_SYSTEM_NAME}" system)
+set(CPACK_PACKAGE_FILE_NAME "trismooth-${PROJECT_VERSION}-${system}-${CMAKE_SYSTEM_PROCESSOR}")
+set(CPACK_GENERATOR TGZ)
+set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};trismooth;portable;/")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+include(CPack)
+
+if(TRISMOOTH_TESTS)
+  set(test "install: the portable package brings its libraries")
+  add_test(
+    NAME "${test}"
+    COMMAND
+      "${CMAKE_COMMAND}" -D "BUILD=${PROJECT_BINARY_DIR}" -D "CONFIGURATION=$<CONFIG>" -D "READELF=${CMAKE_READELF}"
+      -D "FOLDER=${PROJECT_BINARY_DIR}/tests/install/portable"
+      -P "${PROJECT_SOURCE_DIR}/tests/install/portable_package.cmake")
+  # Installing writes a list of files into the build folder: one at a time.
+  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install)
+endif()
