@@ -36,3 +36,20 @@ function(trismooth_library name)
   target_include_directories(
     trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
+
+# Adds to a target that compiles CUDA what its .cu files need: the host's rules once more, for nvcc.
+function(trismooth_configure_cuda target)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CUDA_RUNTIME_LIBRARY Static)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
+  target_compile_options(
+    ${target}
+    PRIVATE # The language level is said by hand: the CMake of Debian 12 does not know the flag of CUDA 13.
+            $<$<COMPILE_LANGUAGE:CUDA>:-std=c++20 --expt-relaxed-constexpr
+            # No multiply and add are ever fused, on either side.
+            -fmad=false -Xcompiler=-ffp-contract=off,-fno-trapping-math,-fno-math-errno
+            # Messages name files of the project, not of the machine that it was built on.
+            -Xcompiler=-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)
+  if(TRISMOOTH_WERROR)
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings>)
+  endif()
+endfunction()

@@ -1,5 +1,7 @@
 #include "trismooth/pipeline/backend_choice.h"
 
+#include "trismooth/smoothing/errors.h"
+
 namespace trismooth {
 
 void choose_backend(BackendChoice choice, SmoothingOptions& options) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 
 #include "trismooth/smoothing/enum_text.h"
 #include "trismooth/smoothing/options.h"
@@ -16,11 +15,6 @@ struct EnumText<BackendChoice> {
   static constexpr std::string_view what = "backend";
   static constexpr std::array<std::pair<BackendChoice, std::string_view>, 3> texts{
       {{BackendChoice::automatic, "auto"}, {BackendChoice::cpu, "cpu"}, {BackendChoice::cuda, "cuda"}}};
-};
-
-/// A device that is not there or that failed.
-struct DeviceError : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// Sets `options.backend` to the one that was chosen and checks that it can do what the options ask for. Throws

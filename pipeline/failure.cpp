@@ -5,7 +5,6 @@
 #include <string>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/pipeline/backend_choice.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/smoothing/errors.h"

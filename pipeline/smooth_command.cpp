@@ -9,16 +9,6 @@
 
 namespace trismooth {
 
-/// Who finds the neighbours and the constraints (CUDA only). The results are identical.
-enum class Topology : std::uint8_t { halfedge, device };
-
-template <>
-struct EnumText<Topology> {
-  static constexpr std::string_view what = "topology";
-  static constexpr std::array<std::pair<Topology, std::string_view>, 2> texts{
-      {{Topology::halfedge, "halfedge"}, {Topology::device, "device"}}};
-};
-
 /// Whether a step is done.
 enum class Switch : std::uint8_t { on, off };
 
@@ -33,7 +23,6 @@ namespace {
 struct SmoothSettings {
   MeshRunSettings run;
   BackendChoice backend = BackendChoice::automatic;
-  Topology topology = Topology::halfedge;
   Switch guard = Switch::on;
 };
 
@@ -82,7 +71,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
   add_enum_option(command, "--layout", options.layout, "Data layout on the device")->group(group);
   add_enum_option(command, "--execution", options.execution, "How sweeps are launched")->group(group);
   add_enum_option(command, "--order", options.order, "Of form b; unordered: single-block and cdp only")->group(group);
-  add_enum_option(command, "--topology", settings.topology, "Who finds the neighbours")->group(group);
+  add_enum_option(command, "--topology", options.topology, "Who finds the neighbours")->group(group);
 }
 
 ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environment) {

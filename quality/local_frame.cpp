@@ -49,6 +49,10 @@ LocalFrame local_frame(std::span<const Point2<double>> stored) {
     low = {std::min(low.x, point.x), std::min(low.y, point.y)};
     high = {std::max(high.x, point.x), std::max(high.y, point.y)};
   }
+  return local_frame(low, high);
+}
+
+LocalFrame local_frame(Point2<double> low, Point2<double> high) {
   const Axis x = fit_axis(low.x, high.x);
   const Axis y = fit_axis(low.y, high.y);
   const int exponent = std::max(x.exponent, y.exponent);

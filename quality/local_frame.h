@@ -21,12 +21,12 @@ struct LocalFrame {
   int exponent = 0;  ///< local = (stored - centre) * 2^-exponent
 
   /// From the coordinates of the file to the local frame.
-  Point2<double> enter(Point2<double> stored) const {
+  TRISMOOTH_HOST_DEVICE Point2<double> enter(Point2<double> stored) const {
     return {scaled(stored.x - centre_x, -exponent), scaled(stored.y - centre_y, -exponent)};
   }
 
   /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated.
-  Point2<double> leave(Point2<double> local) const {
+  TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local) const {
     return {translated(scaled(local.x, exponent), centre_x), translated(scaled(local.y, exponent), centre_y)};
   }
 
@@ -36,20 +36,23 @@ struct LocalFrame {
 
  private:
   /// value * 2^power for |power| <= 2044, in two steps since 2^power alone may be out of range.
-  static double scaled(double value, int power) {
+  static TRISMOOTH_HOST_DEVICE double scaled(double value, int power) {
     const int half = power / 2;
     return value * power_of_two(half) * power_of_two(power - half);
   }
   /// 2^power for |power| <= 1022, from its bits: cheap enough to recompute for every point.
-  static double power_of_two(int power) {
+  static TRISMOOTH_HOST_DEVICE double power_of_two(int power) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(power) + 1023) << 52U);
   }
   /// value + centre that keeps the sign of a zero where there is no translation.
-  static double translated(double value, double centre) { return centre == 0 ? value : value + centre; }
+  static TRISMOOTH_HOST_DEVICE double translated(double value, double centre) { return centre == 0 ? value : value + centre; }
 };
 
 /// The local frame of the points, which are finite. A mesh scaled by a power of two enters its own frame with the same
 /// bits. An axis along which all points are equal is translated to 0. No points: the identity. Complexity: linear.
 LocalFrame local_frame(std::span<const Point2<double>> stored);
+
+/// The same from the corners of the points' bounding box.
+LocalFrame local_frame(Point2<double> low, Point2<double> high);
 
 }  // namespace trismooth

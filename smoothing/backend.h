@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "trismooth/quality/point2.h"
-#include "trismooth/smoothing/one_rings.h"
+#include "trismooth/smoothing/mesh_rings.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -25,6 +27,18 @@ class PreparedSmoother {
   virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) = 0;
 };
 
+/// A mesh whose connectivity a backend has analysed by itself, for coordinates that change. Owns all it needs.
+class PreparedMesh {
+ public:
+  PreparedMesh() = default;
+  PreparedMesh(const PreparedMesh&) = delete;
+  PreparedMesh& operator=(const PreparedMesh&) = delete;
+  virtual ~PreparedMesh() = default;
+
+  /// As SmoothingPlan::smooth(): x and y of every vertex, smoothed in place.
+  virtual SmoothingResult smooth(std::span<double> xy, Storage storage) = 0;
+};
+
 /// Whoever runs the sweeps: the CPU, a GPU. Given the same rings, points and options, every backend gives the same
 /// bits.
 class Backend {
@@ -42,6 +56,25 @@ class Backend {
   /// backend does not have.
   virtual std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
                                                     const SmoothingOptions& options) const = 0;
+
+  /// Finds the rings of a mesh with the backend's own means: what find_mesh_rings() finds, in every number, with the
+  /// same errors. Nothing where the backend leaves that to the host. For Topology::device. With
+  /// Execution::single_block the CUDA backend finds the neighbours by one thread, as the paper does.
+  virtual std::optional<MeshRings> find_rings(std::span<const Point2<double>> /*points*/,
+                                              std::span<const Triangle> /*triangles*/,
+                                              const Constraints& /*constraints*/,
+                                              const SmoothingOptions& /*options*/) const {
+    return std::nullopt;
+  }
+
+  /// Analyses a mesh with the backend's own means and keeps what was found where the sweeps run. Null where the backend
+  /// leaves that to the host. For Topology::device. Arguments and errors as those of SmoothingPlan's constructor.
+  virtual std::unique_ptr<PreparedMesh> prepare_mesh(std::int32_t /*vertex_count*/,
+                                                     std::span<const Triangle> /*triangles*/,
+                                                     const Constraints& /*constraints*/,
+                                                     const SmoothingOptions& /*options*/) const {
+    return nullptr;
+  }
 };
 
 /// The CPU backend. Layout and execution mean nothing to it; Order::unordered is refused.

@@ -10,4 +10,9 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A device that is not there, has too little memory, or failed.
+struct DeviceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace trismooth

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "trismooth/quality/host_device.h"
+
 namespace trismooth {
 
 namespace detail {
@@ -46,18 +48,24 @@ inline constexpr HilbertTable hilbert_table = make_hilbert_table();
 /// The place of cell (x, y) along the Hilbert curve of a square of 2^order x 2^order cells: a bijection onto
 /// [0, 4^order) under which cells that follow each other share a side. The curve starts at (0, 0) and ends at
 /// (2^order - 1, 0). Sorting points by it puts points that are near each other in the plane near each other in memory.
-/// `order` is 1 to 32; x and y are below 2^order (no check). One table look-up for every four levels.
-constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, int order = 32) {
+/// `order` is 1 to 32; x and y are below 2^order (no check). One look-up in the table (a copy of
+/// detail::hilbert_table in memory that the caller can read) for every four levels.
+constexpr TRISMOOTH_HOST_DEVICE std::uint64_t hilbert_index(const std::uint16_t* table, std::uint32_t x,
+                                                            std::uint32_t y, int order) {
   const int levels = (order + 3) & ~3;
   // Levels above the square's own only lead through first quadrants, each of which transposes the curve.
   auto orientation = static_cast<unsigned>(levels - order) & 1U;
   std::uint64_t index = 0;
   for (int shift = levels - 4; shift >= 0; shift -= 4) {
-    const unsigned entry = detail::hilbert_table[orientation << 8 | ((x >> shift) & 15U) << 4 | ((y >> shift) & 15U)];
+    const unsigned entry = table[orientation << 8 | ((x >> shift) & 15U) << 4 | ((y >> shift) & 15U)];
     index = index << 8 | (entry & 255U);
     orientation = entry >> 8;
   }
   return index;
+}
+
+constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, int order = 32) {
+  return hilbert_index(detail::hilbert_table.data(), x, y, order);
 }
 
 }  // namespace trismooth

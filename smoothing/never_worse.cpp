@@ -37,9 +37,8 @@ class Guard {
 
   /// The quotient of the element (a, b, c), counter-clockwise, in canonical corner order.
   double quotient(std::span<const Point2<double>> points, Triangle element) const {
-    const Triangle input{rings_.input(element[0]), rings_.input(element[1]), rings_.input(element[2])};
-    const auto first = static_cast<std::size_t>(std::ranges::min_element(input) - input.begin());
-    return shape_quotient(points[element[first]], points[element[(first + 1) % 3]], points[element[(first + 2) % 3]]);
+    const auto [a, b, c] = element;
+    return canonical_quotient(points[a], points[b], points[c], rings_.input(a), rings_.input(b), rings_.input(c));
   }
 
   /// Calls `visit` for each element around the vertex until it answers false.

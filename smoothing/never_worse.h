@@ -5,17 +5,11 @@
 #include <vector>
 
 #include "trismooth/quality/point2.h"
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/guard_rule.h"
 #include "trismooth/smoothing/one_rings.h"
 
 namespace trismooth {
-
-/// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
-/// Written so that a quotient that is no number offends.
-constexpr TRISMOOTH_HOST_DEVICE bool offends(double before, double after, double threshold) {
-  return (before > 0 && !(after > 0)) || !(after >= threshold || after >= before);
-}
 
 /// What the commit took back.
 struct GuardOutcome {

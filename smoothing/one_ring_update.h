@@ -9,7 +9,9 @@ namespace trismooth {
 ///     template <class T, class Ring> Move<T> update(Point2<T> position, const Ring& ring);
 ///
 /// where ring.size() is the number of neighbours and ring[i] the position of neighbour i, counter-clockwise. Every
-/// backend calls exactly this function; a new method is one new header and an entry in methods.h.
+/// backend calls exactly this function; a new method is one new header and an entry in methods.h. A method that uses
+/// the smallest shape quotient around the vertex has another one that takes it as a third argument: see
+/// update_with_minimum().
 template <class T>
 struct Move {
   Point2<T> position;
@@ -39,6 +41,16 @@ constexpr TRISMOOTH_HOST_DEVICE Point2<T> laplacian_position(const Ring& ring) {
   }
   const T weight = T(1) / static_cast<T>(ring.size());
   return {sum.x * weight, sum.y * weight};
+}
+
+/// The update of a vertex whose smallest shape quotient is stored, by the methods that have a use for it.
+template <class Update, class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(Point2<T> position, const Ring& ring, T minimum) {
+  if constexpr (requires { Update::template update<T>(position, ring, minimum); }) {
+    return Update::template update<T>(position, ring, minimum);
+  } else {
+    return Update::template update<T>(position, ring);
+  }
 }
 
 }  // namespace trismooth

@@ -34,6 +34,12 @@ enum class Execution : std::uint8_t { resident, single_block, cdp };
 /// The order of Form B: by colour (reproducible), or as threads happen to run (CUDA single-block and cdp only).
 enum class Order : std::uint8_t { colour, unordered };
 
+/// Who finds neighbours, orientation and constraints (CUDA only). The results are the same bit for bit.
+enum class Topology : std::uint8_t {
+  halfedge,  ///< the host: the halfedge mesh for files and halfedge meshes, triangle_topology.h for flat arrays
+  device,    ///< the device, in parallel, from the triangle list
+};
+
 /// The working precision of the sweeps. The commit is always evaluated in double.
 enum class Precision : std::uint8_t { double_precision, single_precision };
 
@@ -79,6 +85,12 @@ struct EnumText<Order> {
       {{Order::colour, "colour"}, {Order::unordered, "unordered"}}};
 };
 template <>
+struct EnumText<Topology> {
+  static constexpr std::string_view what = "topology";
+  static constexpr std::array<std::pair<Topology, std::string_view>, 2> texts{
+      {{Topology::halfedge, "halfedge"}, {Topology::device, "device"}}};
+};
+template <>
 struct EnumText<Precision> {
   static constexpr std::string_view what = "precision";
   static constexpr std::array<std::pair<Precision, std::string_view>, 2> texts{
@@ -92,6 +104,7 @@ struct SmoothingOptions {
   Layout layout = Layout::aos;
   Execution execution = Execution::resident;
   Order order = Order::colour;
+  Topology topology = Topology::halfedge;
   Precision precision = Precision::double_precision;
   Evaluation evaluation = Evaluation::changed;
   bool guard = true;               ///< take back what made an element worse: see never_worse.h

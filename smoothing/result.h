@@ -71,6 +71,11 @@ struct SmoothingResult {
   std::string backend;                   ///< "cpu", "cuda"
   std::string device;                    ///< the processor or GPU by name
   int threads = 0;                       ///< CPU threads used
+  std::int64_t kernel_launches = 0;      ///< on a device, by the host: sweeps and commit
+  std::int64_t child_launches = 0;       ///< on a device, by the device (dynamic parallelism)
+  std::int64_t device_memory_bytes = 0;  ///< the most that was allocated on the device at a time
+  bool reproducible = true;              ///< false for Order::unordered
+  std::string backend_note;              ///< why a backend was chosen that the caller may not have expected, or empty
   SmoothingTimings timings;
 };
 

@@ -60,8 +60,13 @@ constexpr TRISMOOTH_HOST_DEVICE int inverted_triangles(Point2<T> position, const
 struct SmartLaplacian {
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
+    return update(position, ring, worst_quotient(position, ring));
+  }
+
+  /// The same where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
+  template <class T, class Ring>
+  static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
     const Point2<T> target = laplacian_position<T>(ring);
-    const T before = worst_quotient(position, ring);
     if (!is_better_than(before, target, ring)) {
       return stay(position);
     }

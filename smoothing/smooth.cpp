@@ -49,12 +49,22 @@ SmoothingPlan::SmoothingPlan(std::int32_t vertex_count, std::span<const std::int
                              const Constraints& constraints, const SmoothingOptions& options)
     : options_(options), triangles_(as_triangles(triangles)) {
   options.validate();
+  if (options.topology == Topology::device) {
+    mesh_ = backend_of(options).prepare_mesh(vertex_count, triangles_, constraints, options);
+    if (mesh_ != nullptr) {
+      triangles_ = {};
+      return;
+    }
+  }
   Workers workers(options.threads);
   topology_ = connect_triangles(vertex_count, triangles_, workers);
   fixed_ = fixed_vertices(topology_, triangles_, constraints);
 }
 
 SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
+  if (mesh_ != nullptr) {
+    return mesh_->smooth(xy, storage);
+  }
   std::vector<Point2<double>> points = as_points(xy, topology_.vertex_count);
   const LocalFrame frame = local_frame(points);
   std::vector<Point2<double>> local(points.size());

@@ -30,6 +30,7 @@ class SmoothingPlan {
 
  private:
   SmoothingOptions options_;
+  std::unique_ptr<PreparedMesh> mesh_;  ///< of a backend that analyses meshes itself; the rest is empty then
   std::vector<Triangle> triangles_;
   TriangleTopology topology_;
   std::vector<std::uint8_t> fixed_;

@@ -13,30 +13,15 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/quality/workers.h"
 #include "trismooth/smoothing/gathered_ring.h"
 #include "trismooth/smoothing/methods.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/packed_rings.h"
+#include "trismooth/smoothing/stop_rule.h"
+#include "trismooth/smoothing/sweep_tally.h"
 
 namespace trismooth {
-
-/// What a part of a sweep did. All of it is independent of the order in which parts are joined.
-template <class T>
-struct SweepTally {
-  std::int64_t evaluated = 0;
-  std::int64_t moved = 0;
-  bool within_tolerance = true;
-  T max_relative_squared = 0;  ///< of move^2 * k / sum |n_i - v|^2
-
-  void join(const SweepTally& other) {
-    evaluated += other.evaluated;
-    moved += other.moved;
-    within_tolerance = within_tolerance && other.within_tolerance;
-    max_relative_squared = std::max(max_relative_squared, other.max_relative_squared);
-  }
-};
 
 /// Runs sweeps in working precision T over packed points, to a stop. Form A writes into a second buffer and swaps;
 /// Form B writes in place, batch by batch. A vertex is marked when it or a neighbour moves and evaluated only if it is
@@ -98,14 +83,9 @@ class Sweeper {
   std::optional<StopReason> reason_to_stop(const SweepTally<T>& tally, const SweepRecord& record,
                                            Clock::time_point start) const {
     const bool stopped = options_.progress && options_.progress(record) == Progress::stop;
-    if (tally.moved == 0) {
-      return StopReason::fixed_point;
-    }
-    if (tally.within_tolerance) {
-      return StopReason::tolerance;
-    }
-    if (options_.target_quality && record.min_shape >= *options_.target_quality) {
-      return StopReason::quality_target;
+    if (const auto reason = reason_in_sweep(tally.moved, tally.within_tolerance, record.min_shape,
+                                            options_.target_quality.value_or(no_target))) {
+      return reason;
     }
     if (stopped) {
       return StopReason::cancelled;
@@ -158,7 +138,7 @@ class Sweeper {
         const Move<T> move = Update::template update<T>(position, ring);
         to[v] = move.position;
         if (move.moved) {
-          tally.join(measure(position, move.position, ring, tolerance));
+          tally.join(tally_of_move(position, move.position, ring, tolerance));
         }
         return move.moved;
       });
@@ -210,16 +190,6 @@ class Sweeper {
     }
   }
 
-  template <class Ring>
-  static SweepTally<T> measure(Point2<T> from, Point2<T> to, const Ring& ring, T tolerance) {
-    T sum = 0;
-    for (int i = 0; i < ring.size(); ++i) {
-      sum += squared_length(ring[i] - from);
-    }
-    const T moved = squared_length(to - from) * static_cast<T>(ring.size());
-    return {0, 1, moved <= tolerance * tolerance * sum, sum > 0 ? moved / sum : T(0)};
-  }
-
   bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
 
   bool reached_target(std::span<const Point2<T>> points, double fixed_quotient) {
@@ -240,8 +210,7 @@ class Sweeper {
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);
     });
-    const double quotient = std::min(static_cast<double>(smallest), fixed_quotient);
-    return std::isfinite(quotient) ? shape_constant * quotient : std::numeric_limits<double>::quiet_NaN();
+    return min_shape_of(static_cast<double>(smallest), fixed_quotient);
   }
 
   const PackedRings& rings_;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "trismooth/cuda/packing.h"
+#include "trismooth/quality/point2.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth::cuda {
+
+/// A packed mesh on the device with all that it takes to smooth its coordinates again and again.
+class DeviceSmoother {
+ public:
+  DeviceSmoother() = default;
+  DeviceSmoother(const DeviceSmoother&) = delete;
+  DeviceSmoother& operator=(const DeviceSmoother&) = delete;
+  virtual ~DeviceSmoother() = default;
+
+  /// Smooths coordinates in device memory, in the caller's numbering, in place: local frame, sweeps, commit. They are
+  /// finite. `fixed_quotient`: see PreparedSmoother::smooth(). Fills all of the result but transfers and preparation.
+  virtual SmoothingResult smooth(Point2<double>* stored, Storage storage, double fixed_quotient) = 0;
+};
+
+/// The smoother for the precision, the layout and the execution that the options name. `context` outlives it.
+std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, PackedDeviceRings rings,
+                                                     const SmoothingOptions& options);
+
+}  // namespace trismooth::cuda

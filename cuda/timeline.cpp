@@ -1,0 +1,27 @@
+#include "trismooth/cuda/timeline.h"
+
+#include "trismooth/cuda/error.h"
+
+namespace trismooth::cuda {
+
+Timeline::~Timeline() {
+  for (cudaEvent_t event : events_) {
+    cudaEventDestroy(event);
+  }
+}
+
+void Timeline::mark() {
+  cudaEvent_t event = nullptr;
+  TRISMOOTH_CUDA_CHECK(cudaEventCreate(&event));
+  events_.push_back(event);
+  TRISMOOTH_CUDA_CHECK(cudaEventRecord(event, context_.stream()));
+}
+
+double Timeline::milliseconds(std::size_t from) const {
+  TRISMOOTH_CUDA_CHECK(cudaEventSynchronize(events_[from + 1]));
+  float elapsed = 0;
+  TRISMOOTH_CUDA_CHECK(cudaEventElapsedTime(&elapsed, events_[from], events_[from + 1]));
+  return static_cast<double>(elapsed);
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/quality/point2.h"
+
+namespace trismooth {
+
+/// What a part of a sweep did. All of it is independent of the order in which parts are joined, so it is the same for
+/// every number of threads and on every backend.
+template <class T>
+struct SweepTally {
+  std::int64_t evaluated = 0;
+  std::int64_t moved = 0;
+  bool within_tolerance = true;
+  T max_relative_squared = 0;  ///< of move^2 * k / sum |n_i - v|^2
+
+  constexpr TRISMOOTH_HOST_DEVICE void join(const SweepTally& other) {
+    evaluated += other.evaluated;
+    moved += other.moved;
+    within_tolerance = within_tolerance && other.within_tolerance;
+    max_relative_squared =
+        other.max_relative_squared > max_relative_squared ? other.max_relative_squared : max_relative_squared;
+  }
+};
+
+/// The tally of one move, measured by the values that the update read. It is within the tolerance where
+/// move^2 * k <= tolerance^2 * sum |n_i - v|^2, in working precision.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE SweepTally<T> tally_of_move(Point2<T> from, Point2<T> to, const Ring& ring,
+                                                            T tolerance) {
+  T sum = 0;
+  for (int i = 0; i < ring.size(); ++i) {
+    sum += squared_length(ring[i] - from);
+  }
+  const T moved = squared_length(to - from) * static_cast<T>(ring.size());
+  return {0, 1, moved <= tolerance * tolerance * sum, sum > 0 ? moved / sum : T(0)};
+}
+
+}  // namespace trismooth
