@@ -8,8 +8,8 @@ namespace trismooth {
 
 namespace {
 
-void require_length(std::string_view what, std::size_t length, std::size_t expected) {
-  if (length != 0 && length != expected) {
+void require_length(std::string_view what, std::size_t length, std::int64_t expected) {
+  if (length != 0 && static_cast<std::int64_t>(length) != expected) {
     throw std::invalid_argument(std::string(what) + " has " + std::to_string(length) + " entries, expected " +
                                 std::to_string(expected) + " or none");
   }
@@ -17,11 +17,21 @@ void require_length(std::string_view what, std::size_t length, std::size_t expec
 
 }  // namespace
 
+void check_constraints(const Constraints& constraints, std::int32_t vertex_count, std::int64_t triangle_count) {
+  require_length("Constraints::fixed", constraints.fixed.size(), vertex_count);
+  require_length("Constraints::other_cells", constraints.other_cells.size(), vertex_count);
+  require_length("Constraints::regions", constraints.regions.size(), triangle_count);
+  for (const std::int32_t v : constraints.fixed_ids) {
+    if (v < 0 || v >= vertex_count) {
+      throw std::invalid_argument("fixed vertex " + std::to_string(v) + " is not one of the " +
+                                  std::to_string(vertex_count) + " vertices");
+    }
+  }
+}
+
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
                                          const Constraints& constraints) {
-  require_length("Constraints::fixed", constraints.fixed.size(), topology.hold.size());
-  require_length("Constraints::other_cells", constraints.other_cells.size(), topology.hold.size());
-  require_length("Constraints::regions", constraints.regions.size(), triangles.size());
+  check_constraints(constraints, topology.vertex_count, std::ssize(triangles));
   std::vector<std::uint8_t> reasons = topology.hold;
   for (std::size_t v = 0; v < constraints.fixed.size(); ++v) {
     if (constraints.fixed[v] != 0) {
@@ -34,10 +44,6 @@ std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::
     }
   }
   for (const std::int32_t v : constraints.fixed_ids) {
-    if (v < 0 || v >= topology.vertex_count) {
-      throw std::invalid_argument("fixed vertex " + std::to_string(v) + " is not one of the " +
-                                  std::to_string(topology.vertex_count) + " vertices");
-    }
     reasons[v] |= hold::named;
   }
   if (!constraints.regions.empty()) {

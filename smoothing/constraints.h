@@ -17,8 +17,11 @@ struct Constraints {
   std::span<const std::int32_t> regions{};      ///< one number a triangle; ends of edges between two regions are fixed
 };
 
-/// Why each vertex is fixed: the bits of namespace hold; 0 is a free vertex. Throws std::invalid_argument for a view of
-/// the wrong length and a vertex number out of range. Complexity: linear.
+/// Throws std::invalid_argument for a view of the wrong length and for the first vertex number out of range.
+void check_constraints(const Constraints& constraints, std::int32_t vertex_count, std::int64_t triangle_count);
+
+/// Why each vertex is fixed: the bits of namespace hold; 0 is a free vertex. Checks the constraints as
+/// check_constraints() does. Complexity: linear.
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
                                          const Constraints& constraints);
 

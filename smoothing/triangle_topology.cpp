@@ -15,12 +15,6 @@ namespace {
 constexpr std::int64_t grain = 4096;
 
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
-  if (vertex_count < 0) {
-    throw MeshError("the number of vertices is negative");
-  }
-  if (triangles.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 3)) {
-    throw MeshError("more than 715827882 triangles");
-  }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [a, b, c] = triangles[t];
     for (const std::int32_t v : {a, b, c}) {
@@ -237,7 +231,17 @@ void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topolo
 
 }  // namespace
 
+void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
+  if (vertex_count < 0) {
+    throw MeshError("the number of vertices is negative");
+  }
+  if (triangle_count > std::numeric_limits<std::int32_t>::max() / 3) {
+    throw MeshError("more than 715827882 triangles");
+  }
+}
+
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
+  check_mesh_size(vertex_count, std::ssize(triangles));
   check_triangles(vertex_count, triangles);
   TriangleTopology topology;
   topology.vertex_count = vertex_count;

@@ -7,19 +7,9 @@
 #include "trismooth/quality/point2.h"
 #include "trismooth/quality/triangle_view.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/hold.h"
 
 namespace trismooth {
-
-/// Why a vertex is held fixed: bits of one byte a vertex.
-namespace hold {
-inline constexpr std::uint8_t boundary = 1;      ///< on an edge with one triangle
-inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three triangles or more
-inline constexpr std::uint8_t bow_tie = 4;       ///< its triangles form more than one fan
-inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
-inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
-inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
-inline constexpr std::uint8_t named = 64;        ///< named by the user
-}  // namespace hold
 
 /// How triangles hang together. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
 struct TriangleTopology {
@@ -35,6 +25,9 @@ struct TriangleTopology {
   std::vector<std::int32_t> degree;     ///< per vertex: its triangles
   std::vector<std::uint8_t> hold;       ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
 };
+
+/// Throws MeshError for a negative number of vertices and for more triangles than 32 bits number the corners of.
+void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count);
 
 /// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index out of
 /// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
