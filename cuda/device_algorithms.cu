@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+
+#include "trismooth/cuda/device_algorithms.h"
+
+namespace trismooth::cuda {
+
+void sum_up(Context& context, std::uint32_t* values, std::int64_t count) {
+  if (count <= 0) {
+    return;
+  }
+  std::size_t bytes = 0;
+  TRISMOOTH_CUDA_CHECK(cub::DeviceScan::InclusiveSum(nullptr, bytes, values, values, count, context.stream()));
+  bytes = std::max<std::size_t>(bytes, 1);  // no scratch memory would ask for the size again
+  DeviceBuffer<std::byte> scratch(context, bytes);
+  TRISMOOTH_CUDA_CHECK(cub::DeviceScan::InclusiveSum(scratch.data(), bytes, values, values, count, context.stream()));
+}
+
+void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<std::uint32_t>& values,
+                 int key_bits) {
+  const auto count = static_cast<std::int64_t>(keys.size());
+  if (count == 0) {
+    return;
+  }
+  DeviceBuffer<std::uint64_t> other_keys(context, keys.size());
+  DeviceBuffer<std::uint32_t> other_values(context, values.size());
+  cub::DoubleBuffer<std::uint64_t> both_keys(keys.data(), other_keys.data());
+  cub::DoubleBuffer<std::uint32_t> both_values(values.data(), other_values.data());
+  std::size_t bytes = 0;
+  TRISMOOTH_CUDA_CHECK(
+      cub::DeviceRadixSort::SortPairs(nullptr, bytes, both_keys, both_values, count, 0, key_bits, context.stream()));
+  bytes = std::max<std::size_t>(bytes, 1);  // no scratch memory would ask for the size again
+  DeviceBuffer<std::byte> scratch(context, bytes);
+  TRISMOOTH_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(scratch.data(), bytes, both_keys, both_values, count, 0,
+                                                       key_bits, context.stream()));
+  if (both_keys.Current() != keys.data()) {
+    std::swap(keys, other_keys);
+  }
+  if (both_values.Current() != values.data()) {
+    std::swap(values, other_values);
+  }
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
+
+namespace trismooth::cuda {
+
+/// Replaces each value by the sum of all up to it, itself included. Queued; in place.
+void sum_up(Context& context, std::uint32_t* values, std::int64_t count);
+
+/// Sorts keys by their lowest `key_bits` bits, and the values with them. Queued. Takes as much memory again as both.
+void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<std::uint32_t>& values,
+                 int key_bits);
+
+/// Waits for the device and returns one of its values.
+template <class T>
+T download(const Context& context, const T* value) {
+  T result;
+  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&result, value, sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
+  context.synchronize();
+  return result;
+}
+
+}  // namespace trismooth::cuda

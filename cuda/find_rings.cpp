@@ -1,0 +1,81 @@
+#include "trismooth/cuda/find_rings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
+#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/topology.h"
+#include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/triangle_topology.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Throws what the host would throw first: a fault of the triangles comes before one of the constraints.
+void check_lengths(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints) {
+  try {
+    check_constraints(constraints, vertex_count, std::ssize(triangles));
+  } catch (const std::invalid_argument&) {
+    Workers workers(0);
+    connect_triangles(vertex_count, triangles, workers);
+    throw;
+  }
+}
+
+template <class T>
+std::vector<T> copied_to_host(Context& context, const T* values, std::size_t count) {
+  std::vector<T> copy(count);
+  if (count > 0) {
+    TRISMOOTH_CUDA_CHECK(
+        cudaMemcpyAsync(copy.data(), values, count * sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
+    context.synchronize();
+  }
+  return copy;
+}
+
+OneRings copied_to_host(Context& context, const DeviceRings& rings) {
+  const std::vector<std::uint32_t> offsets =
+      copied_to_host(context, rings.offsets.data(), static_cast<std::size_t>(rings.size()) + 1);
+  OneRings copy;
+  copy.offsets.assign(offsets.begin(), offsets.end());
+  copy.neighbours = copied_to_host(context, rings.neighbours.data(), rings.neighbours.size());
+  return copy;
+}
+
+}  // namespace
+
+MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                               const Constraints& constraints, NeighbourFinding way) {
+  const auto vertex_count = static_cast<std::int32_t>(points.size());
+  check_mesh_size(vertex_count, std::ssize(triangles));
+  check_lengths(vertex_count, triangles, constraints);
+
+  Context context;
+  const DeviceBuffer<Triangle> device_triangles(context, triangles);
+  const DeviceBuffer<Point2<double>> device_points(context, points);
+  const DeviceBuffer<std::uint8_t> fixed(context, constraints.fixed);
+  const DeviceBuffer<std::uint8_t> other_cells(context, constraints.other_cells);
+  const DeviceBuffer<std::int32_t> fixed_ids(context, constraints.fixed_ids);
+  const DeviceBuffer<std::int32_t> regions(context, constraints.regions);
+  const DeviceConstraints device_constraints{fixed.data(), other_cells.data(), fixed_ids.data(),
+                                             static_cast<std::int32_t>(fixed_ids.size()), regions.data()};
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
+  DeviceTopology topology(context, vertex_count, static_cast<std::int32_t>(triangles.size()),
+                          reinterpret_cast<const std::int32_t*>(device_triangles.data()), device_constraints, way);
+  topology.orient(device_points.data());
+
+  MeshRings found;
+  found.rings = copied_to_host(context, topology.rings());
+  found.fixed = copied_to_host(context, topology.fixed(), points.size());
+  found.reversed = copied_to_host(context, topology.reversed(), triangles.size());
+  found.components = topology.components();
+  found.reoriented_triangles = topology.reoriented_triangles();
+  return found;
+}
+
+}  // namespace trismooth::cuda

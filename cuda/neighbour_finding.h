@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/findings.h"
+#include "trismooth/cuda/incident_corners.h"
+#include "trismooth/cuda/triangle_list.h"
+
+namespace trismooth::cuda {
+
+/// Who finds the neighbours. What is found is the same.
+enum class NeighbourFinding : std::uint8_t {
+  parallel,   ///< one thread for each triangle
+  one_thread  ///< one block of one thread, the paper's way
+};
+
+/// Finds the neighbours and incident elements of every vertex, and reports triangles that name a vertex out of range or
+/// one twice, which are left out, and the large vertices. Queued.
+IncidentCorners find_neighbours(Context& context, std::int32_t vertex_count, const TriangleList& triangles,
+                                NeighbourFinding way, Findings* findings);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,87 @@
+#include "trismooth/cuda/topology.h"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "trismooth/cuda/device_algorithms.h"
+#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/ring_building.h"
+#include "trismooth/cuda/triangle_quotients.h"
+#include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/triangle_topology.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+template <class T>
+std::vector<T> copied_to_host(const Context& context, const void* values, std::int32_t count) {
+  std::vector<T> copy(static_cast<std::size_t>(count));
+  if (count > 0) {
+    TRISMOOTH_CUDA_CHECK(
+        cudaMemcpyAsync(copy.data(), values, copy.size() * sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
+  }
+  context.synchronize();
+  return copy;
+}
+
+/// Throws what the host says of what the device has refused: every message has one definition.
+void throw_host_error(const Context& context, std::int32_t vertex_count, const TriangleList& triangles,
+                      const DeviceConstraints& constraints, std::uint32_t faults) {
+  if ((faults & (Findings::bad_triangle | Findings::one_sided)) != 0) {
+    Workers workers(0);
+    connect_triangles(vertex_count, copied_to_host<Triangle>(context, triangles.vertices, triangles.count), workers);
+  }
+  const auto fixed_ids = copied_to_host<std::int32_t>(context, constraints.fixed_ids, constraints.fixed_id_count);
+  check_constraints({.fixed_ids = fixed_ids}, vertex_count, triangles.count);
+  throw DeviceError("CUDA: the device has refused a mesh in which the host finds no fault");
+}
+
+}  // namespace
+
+DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
+                               const std::int32_t* triangles, const DeviceConstraints& constraints,
+                               NeighbourFinding way)
+    : context_(&context), triangles_{triangles, triangle_count} {
+  check_mesh_size(vertex_count, triangle_count);
+  DeviceBuffer<Findings> device_findings(context, 1);
+  device_findings.fill_bytes(0);
+  const auto found = [&] {
+    const Findings findings = download(context, device_findings.data());
+    if (findings.faults != 0) {
+      throw_host_error(context, vertex_count, triangles_, constraints, findings.faults);
+    }
+    return findings;
+  };
+  corners_ = find_neighbours(context, vertex_count, triangles_, way, device_findings.data());
+  const Findings neighbourhoods = found();
+
+  fixed_ = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(vertex_count));
+  DeviceBuffer<std::uint32_t> forest_words(context, static_cast<std::size_t>(triangle_count));
+  const ParityForest forest{forest_words.data()};
+  determine_constraints(context, triangles_, corners_.view(), constraints, forest, fixed_.data(),
+                        device_findings.data());
+  large_fans_ = find_large_fans(context, triangles_, corners_.view(), neighbourhoods, constraints.regions, forest,
+                                fixed_.data(), device_findings.data());
+  found();
+  components_ = number_components(context, std::move(forest_words));
+}
+
+bool DeviceTopology::orient(const Point2<double>* local_points) {
+  return cuda::orient(*context_, triangles_, local_points, components_, orientation_);
+}
+
+DeviceRings DeviceTopology::rings() const {
+  return build_rings(*context_, triangles_, corners_.view(), large_fans_, fixed_.data(), orientation_.reversed.data());
+}
+
+double DeviceTopology::smallest_fixed_quotient(const Point2<double>* local_points) const {
+  return cuda::smallest_fixed_quotient(*context_, triangles_, local_points, orientation_.reversed.data(),
+                                       fixed_.data());
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,53 @@
+#include <limits>
+
+#include "trismooth/cuda/for_each.cuh"
+#include "trismooth/cuda/reduce.cuh"
+#include "trismooth/cuda/triangle_quotients.h"
+#include "trismooth/quality/triangle_quality.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+struct EvaluateTriangle {
+  TriangleList triangles;
+  const Point2<double>* points;
+  double* quotients;
+
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
+    const auto [a, b, c] = triangles[t];
+    quotients[t] = shape_quotient(points[a], points[b], points[c]);
+  }
+};
+
+struct FixedQuotient {
+  TriangleList triangles;
+  const Point2<double>* points;
+  const std::uint8_t* reversed;
+  const std::uint8_t* fixed;
+
+  TRISMOOTH_HOST_DEVICE double operator()(std::uint32_t t) const {
+    const auto [a, b, c] = canonical_corners(triangles[t], reversed[t] != 0);
+    return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0 ? shape_quotient(points[a], points[b], points[c])
+                                                           : std::numeric_limits<double>::infinity();
+  }
+};
+
+struct Smaller {
+  TRISMOOTH_HOST_DEVICE double operator()(double a, double b) const { return b < a ? b : a; }
+};
+
+}  // namespace
+
+void evaluate_triangles(const Context& context, const TriangleList& triangles, const Point2<double>* points,
+                        double* quotients) {
+  for_each(context, static_cast<std::uint32_t>(triangles.count), EvaluateTriangle{triangles, points, quotients});
+}
+
+double smallest_fixed_quotient(Context& context, const TriangleList& triangles, const Point2<double>* points,
+                               const std::uint8_t* reversed, const std::uint8_t* fixed) {
+  return reduce(context, static_cast<std::uint32_t>(triangles.count), std::numeric_limits<double>::infinity(),
+                FixedQuotient{triangles, points, reversed, fixed}, Smaller{});
+}
+
+}  // namespace trismooth::cuda
