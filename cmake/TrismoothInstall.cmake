@@ -34,6 +34,7 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/trismoothConfig.cmake.i
 # Below 1.0 every minor version may change the interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/trismoothConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/trismoothConfig.cmake" "${PROJECT_BINARY_DIR}/trismoothConfigVersion.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/TrismoothCudaDeviceRuntime.cmake"
         DESTINATION "${trismooth_package_dir}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)

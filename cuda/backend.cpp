@@ -1,0 +1,150 @@
+#include "trismooth/cuda/backend.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/device_smoother.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/find_rings.h"
+#include "trismooth/cuda/timeline.h"
+#include "trismooth/cuda/uploaded_constraints.h"
+#include "trismooth/smoothing/triangle_topology.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Smooths coordinates of the host: there and back, with the time that it takes.
+template <class Smooth>
+SmoothingResult smooth_host_points(Context& context, DeviceBuffer<Point2<double>>& stored,
+                                   std::span<Point2<double>> points, const Smooth& smooth) {
+  Timeline timeline(context);
+  timeline.mark();
+  stored.upload(points);
+  timeline.mark();
+  SmoothingResult result = smooth();
+  Timeline way_back(context);
+  way_back.mark();
+  if (result.moved_vertices > 0) {
+    stored.download(points);
+  }
+  way_back.mark();
+  result.timings.transfer_in = timeline.milliseconds(0);
+  result.timings.transfer_out = way_back.milliseconds(0);
+  return result;
+}
+
+/// One-rings of the host on the device.
+DeviceRings uploaded(Context& context, const OneRings& rings) {
+  std::vector<std::uint32_t> offsets(rings.offsets.size());
+  std::ranges::transform(rings.offsets, offsets.begin(), [](std::int64_t o) { return static_cast<std::uint32_t>(o); });
+  return {DeviceBuffer<std::uint32_t>(context, offsets), DeviceBuffer<std::int32_t>(context, rings.neighbours)};
+}
+
+class RingSmoother final : public PreparedSmoother {
+ public:
+  RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
+      : stored_(context_, points.size()) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
+    smoother_ = make_device_smoother(
+        context_,
+        pack_rings(context_, uploaded(context_, rings), DeviceBuffer<Point2<double>>(context_, points), by_colour),
+        options);
+    context_.synchronize();
+    prepare_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
+    SmoothingResult result = smooth_host_points(
+        context_, stored_, points, [&] { return smoother_->smooth(stored_.data(), storage, fixed_quotient); });
+    result.timings.prepare = prepare_ms_;
+    return result;
+  }
+
+ private:
+  Context context_;
+  DeviceBuffer<Point2<double>> stored_;
+  std::unique_ptr<DeviceSmoother> smoother_;
+  double prepare_ms_ = 0;
+};
+
+/// A mesh of the host with its topology found and kept on the device.
+class TriangleSmoother final : public PreparedMesh {
+ public:
+  TriangleSmoother(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
+                   const SmoothingOptions& options)
+      : constraints_(context_, checked(constraints, vertex_count, triangles.size())),
+        triangles_(context_, triangles),
+        stored_(context_, static_cast<std::size_t>(vertex_count)),
+        plan_(
+            {vertex_count, static_cast<std::int32_t>(triangles.size()), triangles_.data()->data(), constraints_.view()},
+            options, context_.stream()) {
+    // They have been read.
+    constraints_ = {};
+  }
+
+  SmoothingResult smooth(std::span<double> xy, Storage storage) override {
+    if (xy.size() != 2 * stored_.size()) {
+      throw std::invalid_argument("xy has " + std::to_string(xy.size()) + " entries, expected two for each of " +
+                                  std::to_string(stored_.size()) + " vertices");
+    }
+    const std::span points(reinterpret_cast<Point2<double>*>(xy.data()), stored_.size());
+    return smooth_host_points(context_, stored_, points, [&] { return plan_.smooth(&stored_.data()->x, storage); });
+  }
+
+ private:
+  static const Constraints& checked(const Constraints& constraints, std::int32_t vertex_count,
+                                    std::size_t triangle_count) {
+    check_mesh_size(vertex_count, static_cast<std::int64_t>(triangle_count));
+    check_constraints(constraints, vertex_count, static_cast<std::int64_t>(triangle_count));
+    return constraints;
+  }
+
+  Context context_;
+  UploadedConstraints constraints_;
+  DeviceBuffer<Triangle> triangles_;
+  DeviceBuffer<Point2<double>> stored_;
+  Plan plan_;
+};
+
+class CudaBackend final : public Backend {
+ public:
+  std::string name() const override { return "cuda"; }
+
+  std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
+                                            const SmoothingOptions& options) const override {
+    options.validate();
+    require_device();
+    return std::make_unique<RingSmoother>(rings, points, options);
+  }
+
+  std::optional<MeshRings> find_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                                      const Constraints& constraints, const SmoothingOptions& options) const override {
+    require_device();
+    return find_rings_on_device(
+        points, triangles, constraints,
+        options.execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel);
+  }
+
+  std::unique_ptr<PreparedMesh> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                                             const Constraints& constraints,
+                                             const SmoothingOptions& options) const override {
+    options.validate();
+    require_device();
+    return std::make_unique<TriangleSmoother>(vertex_count, triangles, constraints, options);
+  }
+};
+
+}  // namespace
+
+const Backend& backend() {
+  static const CudaBackend backend;
+  return backend;
+}
+
+}  // namespace trismooth::cuda

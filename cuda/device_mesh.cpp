@@ -1,0 +1,107 @@
+#include "trismooth/cuda/device_mesh.h"
+
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "trismooth/cuda/bounding_box.h"
+#include "trismooth/cuda/coordinates.h"
+#include "trismooth/cuda/device_smoother.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth::cuda {
+
+class Plan::Implementation {
+ public:
+  Implementation(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream)
+      : vertex_count_(mesh.vertex_count),
+        options_(options),
+        context_(stream),
+        topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
+                  neighbour_finding(options)) {}
+
+  SmoothingResult smooth(Point2<double>* stored, Storage storage) {
+    if (const std::int32_t vertex = first_not_finite(context_, stored, vertex_count_); vertex >= 0) {
+      throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+    }
+    const auto start = std::chrono::steady_clock::now();
+    double fixed_quotient = std::numeric_limits<double>::infinity();
+    prepare(stored, fixed_quotient);
+    context_.synchronize();
+    const std::chrono::duration<double, std::milli> preparing = std::chrono::steady_clock::now() - start;
+    SmoothingResult result = smoother_->smooth(stored, storage, fixed_quotient);
+    result.timings.prepare = preparing.count();
+    result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
+    return result;
+  }
+
+  SmoothingResult smooth(float* xy) {
+    DeviceBuffer<Point2<double>> stored(context_, static_cast<std::size_t>(vertex_count_));
+    widen(context_, xy, vertex_count_, stored.data());
+    SmoothingResult result = smooth(stored.data(), Storage::float32);
+    narrow(context_, stored.data(), vertex_count_, xy);
+    context_.synchronize();
+    return result;
+  }
+
+ private:
+  static NeighbourFinding neighbour_finding(const SmoothingOptions& options) {
+    return options.execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel;
+  }
+
+  /// Orients the mesh by its coordinates; packs it where that is new.
+  void prepare(const Point2<double>* stored, double& fixed_quotient) {
+    DeviceBuffer<Point2<double>> local(context_, static_cast<std::size_t>(vertex_count_));
+    if (vertex_count_ > 0) {
+      const auto [low, high] = bounding_box(context_, stored, vertex_count_);
+      enter_frame(context_, stored, vertex_count_, local_frame(low, high), local.data());
+    }
+    const bool changed = topology_.orient(local.data());
+    if (options_.target_quality || options_.record_min_shape) {
+      fixed_quotient = topology_.smallest_fixed_quotient(local.data());
+    }
+    if (changed || smoother_ == nullptr) {
+      smoother_.reset();
+      const bool by_colour = options_.form == Form::in_place && options_.order == Order::colour;
+      smoother_ = make_device_smoother(context_, pack_rings(context_, topology_.rings(), std::move(local), by_colour),
+                                       options_);
+    }
+  }
+
+  std::int32_t vertex_count_;
+  SmoothingOptions options_;
+  Context context_;
+  DeviceTopology topology_;
+  std::unique_ptr<DeviceSmoother> smoother_;
+};
+
+Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream) {
+  options.validate();
+  require_device();
+  implementation_ = std::make_unique<Implementation>(mesh, options, stream);
+}
+
+Plan::Plan(Plan&&) noexcept = default;
+Plan& Plan::operator=(Plan&&) noexcept = default;
+Plan::~Plan() = default;
+
+SmoothingResult Plan::smooth(double* xy, Storage storage) {
+  return implementation_->smooth(reinterpret_cast<Point2<double>*>(xy), storage);
+}
+
+SmoothingResult Plan::smooth(float* xy) {
+  return implementation_->smooth(xy);
+}
+
+SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options, cudaStream_t stream) {
+  return Plan(mesh, options, stream).smooth(xy);
+}
+
+SmoothingResult smooth(const DeviceMesh& mesh, float* xy, const SmoothingOptions& options, cudaStream_t stream) {
+  return Plan(mesh, options, stream).smooth(xy);
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <cuda_runtime_api.h>
+
+#include "trismooth/cuda/topology.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+/// Smoothing of meshes that are in device memory already, on the caller's stream.
+namespace trismooth::cuda {
+
+/// A mesh in device memory. The caller owns all arrays.
+struct DeviceMesh {
+  std::int32_t vertex_count = 0;
+  std::int32_t triangle_count = 0;
+  const std::int32_t* triangles = nullptr;  ///< 3 triangle_count vertex indices from 0, listed in either direction
+  DeviceConstraints constraints{};          ///< arrays on the device; all may be absent
+};
+
+/// A mesh whose connectivity is analysed once, on the device, and stays there; coordinates are smoothed as often as
+/// they change. All work is queued on the stream; calls wait for it where they need an answer, and return when it is
+/// done.
+class Plan {
+ public:
+  /// `mesh.triangles` must stay as they are for as long as the plan lives; the constraints are read now. The stream
+  /// stays the caller's and outlives the plan. `options.backend` and `options.topology` mean nothing here.
+  /// Throws MeshError for triangles that are no mesh, std::invalid_argument for options or constraints that do not fit,
+  /// DeviceError where there is no device, its memory does not suffice, or a call fails.
+  Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream = nullptr);
+  Plan(Plan&&) noexcept;
+  Plan& operator=(Plan&&) noexcept;
+  ~Plan();
+
+  /// Smooths `xy` (x and y of every vertex, in device memory, aligned to 16 bytes as device allocations are) in place.
+  /// Vertices that do not move keep their bits, the others are rounded to `storage`, or to float. The first call also
+  /// finds orientation and rings and orders the mesh in memory; a later one repeats that only if the majority
+  /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite (`xy` is untouched
+  /// then), DeviceError.
+  SmoothingResult smooth(double* xy, Storage storage = Storage::float64);
+  SmoothingResult smooth(float* xy);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The same, once: analysis, sweeps and commit of a mesh in device memory, without a copy to the host and back.
+SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options = {},
+                       cudaStream_t stream = nullptr);
+SmoothingResult smooth(const DeviceMesh& mesh, float* xy, const SmoothingOptions& options = {},
+                       cudaStream_t stream = nullptr);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,324 @@
+// Runs every combination of method, form, precision, execution, layout and topology on a device and compares the bits
+// of the result, before and after the commit, with the CPU's. Prints one row for each. A row counts only if the report
+// names a GPU and counts launches. Form B in no fixed order is held to the contract alone.
+//
+//     test_cuda_combinations [--vertices N...] [--mesh FILE...] [--max-sweeps N]
+//
+// Exit status 77: no device, skipped.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/guard_rule.h"
+#include "trismooth/smoothing/mesh_rings.h"
+
+namespace {
+
+using namespace trismooth;
+
+constexpr int skipped = 77;
+
+/// What a run is known by.
+struct Outcome {
+  std::uint64_t committed = 0;
+  std::uint64_t uncommitted = 0;
+  SmoothingResult result;
+};
+
+/// A mesh that can be smoothed with any options.
+class TestMesh {
+ public:
+  TestMesh() = default;
+  TestMesh(const TestMesh&) = delete;
+  TestMesh& operator=(const TestMesh&) = delete;
+  virtual ~TestMesh() = default;
+  virtual std::string name() const = 0;
+  virtual Outcome smooth(const SmoothingOptions& options) = 0;
+  /// What is wrong with the last result by the contract (never worse, fixed vertices unmoved, finite); empty: nothing.
+  virtual std::string breach() const = 0;
+};
+
+/// A random Delaunay mesh in memory, its rings found in all three ways.
+class DelaunayMesh final : public TestMesh {
+ public:
+  explicit DelaunayMesh(std::int64_t vertices) : mesh_(random_delaunay_mesh(vertices, 1)) {
+    const LocalFrame frame = local_frame(mesh_.points);
+    for (const Point2<double> p : mesh_.points) {
+      local_.push_back(frame.enter(p));
+    }
+    Workers workers(0);
+    std::vector<double> xyz;
+    for (const Point2<double> p : mesh_.points) {
+      xyz.insert(xyz.end(), {p.x, p.y, 0.0});
+    }
+    const TriangleTopology topology =
+        connect_triangles(static_cast<std::int32_t>(mesh_.points.size()), mesh_.triangles, workers);
+    const Orientation orientation = orient(topology, mesh_.triangles, local_);
+    fixed_ = fixed_vertices(topology, mesh_.triangles, {});
+    const HalfedgeMesh halfedges = build_halfedge_mesh(xyz, mesh_.triangles, topology, orientation.reversed);
+    halfedge_rings_ = one_rings(halfedges.mesh, fixed_, {}, workers, halfedges.copies_of);
+    SmoothingOptions options;
+    parallel_rings_ = cuda::backend().find_rings(local_, mesh_.triangles, {}, options)->rings;
+    options.execution = Execution::single_block;
+    one_thread_rings_ = cuda::backend().find_rings(local_, mesh_.triangles, {}, options)->rings;
+  }
+
+  std::string name() const override { return fmt::format("delaunay {}", mesh_.points.size()); }
+
+  Outcome smooth(const SmoothingOptions& options) override {
+    const OneRings& device_rings = options.execution == Execution::single_block ? one_thread_rings_ : parallel_rings_;
+    const OneRings& rings = options.topology == Topology::device ? device_rings : halfedge_rings_;
+    const Backend& backend = options.backend != nullptr ? *options.backend : cpu_backend();
+    smoothed_ = mesh_.points;
+    Outcome outcome;
+    outcome.result = backend.prepare(rings, local_, options)
+                         ->smooth(smoothed_, Storage::float64, std::numeric_limits<double>::infinity());
+    outcome.committed = hash(smoothed_);
+    uncommitted_ = smoothed_;
+    for (const auto& [vertex, position] : outcome.result.reverted) {
+      uncommitted_[static_cast<std::size_t>(vertex)] = position;
+    }
+    outcome.uncommitted = hash(uncommitted_);
+    return outcome;
+  }
+
+  std::string breach() const override {
+    double threshold = std::numeric_limits<double>::infinity();
+    const auto moved = [&](std::int32_t v) { return !(smoothed_[v] == mesh_.points[v]); };
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(smoothed_.size()); ++v) {
+      if (!std::isfinite(smoothed_[v].x) || !std::isfinite(smoothed_[v].y)) {
+        return "not finite";
+      }
+      if (fixed_[v] != 0 && moved(v)) {
+        return "a fixed vertex moved";
+      }
+    }
+    const auto was_moved = [&](std::int32_t v) { return !(uncommitted_[v] == mesh_.points[v]); };
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      if (was_moved(a) || was_moved(b) || was_moved(c)) {
+        threshold = std::min(threshold, quotient(mesh_.points, a, b, c));
+      }
+    }
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      if (offends(quotient(mesh_.points, a, b, c), quotient(smoothed_, a, b, c), threshold)) {
+        return "an element got worse";
+      }
+    }
+    return {};
+  }
+
+ private:
+  static double quotient(const std::vector<Point2<double>>& points, std::int32_t a, std::int32_t b, std::int32_t c) {
+    return canonical_quotient(points[a], points[b], points[c], a, b, c);
+  }
+  static std::uint64_t hash(const std::vector<Point2<double>>& points) {
+    std::vector<double> xyz;
+    xyz.reserve(3 * points.size());
+    for (const Point2<double> p : points) {
+      xyz.insert(xyz.end(), {p.x, p.y, 0.0});
+    }
+    return coordinates_hash(xyz);
+  }
+
+  RandomMesh mesh_;
+  std::vector<Point2<double>> local_;
+  std::vector<Point2<double>> smoothed_;
+  std::vector<Point2<double>> uncommitted_;
+  std::vector<std::uint8_t> fixed_;
+  OneRings halfedge_rings_;
+  OneRings parallel_rings_;
+  OneRings one_thread_rings_;
+};
+
+/// A mesh file, through the whole pipeline.
+class FileMesh final : public TestMesh {
+ public:
+  explicit FileMesh(const std::filesystem::path& path) : output_(std::filesystem::temp_directory_path()) {
+    pipeline_.input = path;
+    pipeline_.output = output_ / ("combination" + path.extension().string());
+  }
+  ~FileMesh() override {
+    std::error_code ignored;
+    std::filesystem::remove(*pipeline_.output, ignored);
+  }
+
+  std::string name() const override { return pipeline_.input.filename().string(); }
+
+  Outcome smooth(const SmoothingOptions& options) override {
+    pipeline_.smoothing = options;
+    last_ = run_pipeline(pipeline_);
+    return {last_.coordinates_hash, last_.uncommitted_hash, *last_.smoothing};
+  }
+
+  std::string breach() const override {
+    // Fixed vertices and single elements are looked at for the meshes in memory; here what the report says.
+    if (last_.after->inverted > last_.before.inverted) {
+      return "more inverted elements";
+    }
+    if (!(last_.after->worst.front().shape >= last_.before.worst.front().shape)) {
+      return "the worst element got worse";
+    }
+    return {};
+  }
+
+ private:
+  std::filesystem::path output_;
+  PipelineOptions pipeline_;
+  PipelineResult last_;
+};
+
+class Table {
+ public:
+  void print_head() const {
+    fmt::print("{:<20} {:<9} {:<4} {:<6} {:<12} {:<6} {:<8} {:<16} {:<16} {:>6} {:>8} {:>8} {:>9}  {}\n", "mesh",
+               "method", "form", "prec.", "execution", "layout", "topology", "committed", "uncommitted", "sweeps",
+               "launches", "children", "ms", "verdict");
+  }
+
+  void row(const std::string& mesh, const SmoothingOptions& options, const Outcome& outcome,
+           const std::string& execution, const std::string& verdict) {
+    const bool on_cpu = outcome.result.backend == "cpu";
+    fmt::print("{:<20} {:<9} {:<4} {:<6} {:<12} {:<6} {:<8} {} {} {:>6} {:>8} {:>8} {:>9.3f}  {}\n", mesh,
+               to_string(options.method), to_string(options.form), to_string(options.precision), execution,
+               on_cpu ? "" : to_string(options.layout), on_cpu ? "" : to_string(options.topology),
+               hash_text(outcome.committed), hash_text(outcome.uncommitted), outcome.result.sweeps,
+               outcome.result.kernel_launches, outcome.result.child_launches,
+               outcome.result.timings.smooth + outcome.result.timings.commit, verdict);
+    std::fflush(stdout);
+  }
+
+  /// Whether the report says that a device did it, and with dynamic parallelism where that was asked for.
+  static bool ran_on_device(const SmoothingOptions& options, const SmoothingResult& result) {
+    return result.backend == "cuda" && !result.device.empty() && result.kernel_launches > 0 &&
+           (options.execution != Execution::cdp || result.child_launches > 0);
+  }
+
+  void compare(TestMesh& mesh, SmoothingOptions options) {
+    options.backend = nullptr;
+    const Outcome expected = mesh.smooth(options);
+    row(mesh.name(), options, expected, "cpu", "reference");
+    options.backend = &cuda::backend();
+    for (const Execution execution : {Execution::single_block, Execution::cdp, Execution::resident}) {
+      for (const Layout layout : {Layout::aos, Layout::soa}) {
+        for (const Topology topology : {Topology::halfedge, Topology::device}) {
+          options.execution = execution;
+          options.layout = layout;
+          options.topology = topology;
+          const Outcome outcome = mesh.smooth(options);
+          const bool same = outcome.committed == expected.committed && outcome.uncommitted == expected.uncommitted &&
+                            outcome.result.sweeps == expected.result.sweeps &&
+                            outcome.result.stop_reason == expected.result.stop_reason &&
+                            outcome.result.moved_vertices == expected.result.moved_vertices &&
+                            outcome.result.guard_rounds == expected.result.guard_rounds;
+          const bool counts = ran_on_device(options, outcome.result);
+          ++rows_;
+          equal_ += same && counts ? 1 : 0;
+          row(mesh.name(), options, outcome, std::string(to_string(execution)),
+              !counts ? "NOT ON A GPU" : (same ? "equal" : "DIFFERENT"));
+        }
+      }
+    }
+  }
+
+  void hold_to_contract(TestMesh& mesh, SmoothingOptions options) {
+    options.backend = &cuda::backend();
+    options.form = Form::in_place;
+    options.order = Order::unordered;
+    for (const Execution execution : {Execution::single_block, Execution::cdp}) {
+      for (const Layout layout : {Layout::aos, Layout::soa}) {
+        options.execution = execution;
+        options.layout = layout;
+        const Outcome outcome = mesh.smooth(options);
+        const std::string breach = mesh.breach();
+        const bool counts = ran_on_device(options, outcome.result) && !outcome.result.reproducible;
+        ++unordered_rows_;
+        kept_ += breach.empty() && counts ? 1 : 0;
+        row(mesh.name(), options, outcome, std::string(to_string(execution)) + "*",
+            !counts ? "NOT ON A GPU" : (breach.empty() ? "contract kept" : "BROKEN: " + breach));
+      }
+    }
+  }
+
+  void all_of(TestMesh& mesh, std::int64_t max_sweeps) {
+    SmoothingOptions options;
+    options.max_sweeps = max_sweeps;
+    for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
+      for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+        options.method = method;
+        options.precision = precision;
+        for (const Form form : {Form::swap, Form::in_place}) {
+          options.form = form;
+          compare(mesh, options);
+        }
+        hold_to_contract(mesh, options);
+      }
+    }
+  }
+
+  bool print_verdict() const {
+    fmt::print("\n{} of {} rows have the CPU's bits; {} of {} unordered rows (*) keep the contract\n", equal_, rows_,
+               kept_, unordered_rows_);
+    return equal_ == rows_ && kept_ == unordered_rows_;
+  }
+
+ private:
+  int rows_ = 0;
+  int equal_ = 0;
+  int unordered_rows_ = 0;
+  int kept_ = 0;
+};
+
+int run(int argc, char** argv) {
+  CLI::App app("Compares every combination on a CUDA device with the CPU, bit for bit");
+  std::vector<std::int64_t> sizes{1'000, 10'000};
+  std::vector<std::filesystem::path> files;
+  std::int64_t max_sweeps = 200;
+  app.add_option("--vertices", sizes, "random Delaunay meshes of so many vertices")->capture_default_str();
+  app.add_option("--mesh", files, "mesh files");
+  app.add_option("--max-sweeps", max_sweeps)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const cuda::DeviceSurvey survey = cuda::survey_devices();
+  if (survey.devices.empty()) {
+    fmt::print("skipped: {}\n", survey.problem);
+    return skipped;
+  }
+  fmt::print("device: {}\n", survey.devices.front().name);
+  Table table;
+  table.print_head();
+  for (const std::int64_t size : sizes) {
+    DelaunayMesh mesh(size);
+    table.all_of(mesh, max_sweeps);
+  }
+  for (const std::filesystem::path& file : files) {
+    FileMesh mesh(file);
+    table.all_of(mesh, max_sweeps);
+  }
+  return table.print_verdict() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "test_cuda_combinations: error: %s\n", error.what());
+    return 1;
+  }
+}
