@@ -51,13 +51,13 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
 
   Workers workers(options.threads);
   const std::vector<Triangle> triangles = face_list(mesh);
-  const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(mesh.n_vertices()), triangles, workers);
-  const Orientation orientation = orient(topology, triangles, local);
-  const std::vector<std::uint8_t> fixed = fixed_vertices(topology, triangles, constraints);
-  const OneRings rings = one_rings(mesh, fixed, orientation.reversed, workers);
-  const double fixed_quotient = smallest_fixed_quotient(local, triangles, orientation.reversed, fixed);
+  const MeshRings found = rings_for(options, local, triangles, constraints, workers,
+                                    [&](const TriangleTopology& /*topology*/, const MeshRings& known) {
+                                      return one_rings(mesh, known.fixed, known.reversed, workers);
+                                    });
+  const double fixed_quotient = smallest_fixed_quotient(local, triangles, found.reversed, found.fixed);
   SmoothingResult result =
-      smooth_in_plane(rings, *plane, xyz, points, local, fixed_quotient, Storage::float64, options);
+      smooth_in_plane(found.rings, *plane, xyz, points, local, fixed_quotient, Storage::float64, options);
   for (std::size_t v = 0; v < points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
   }

@@ -83,36 +83,46 @@ class Run {
     result_.input.vertices = static_cast<std::int64_t>(document_.point_count());
   }
 
-  /// From cells to one-rings: orientation, constraints, the halfedge mesh.
+  /// From cells to one-rings: orientation, constraints, neighbours.
   void connect() {
     mesh_ = planar_mesh(document_, options_.input);
     std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
     enter_frame();
     const Regions regions = find_regions(document_, mesh_, options_.region_array);
-    const TriangleTopology topology = connected_triangles();
-    Orientation orientation = orient(topology, mesh_.triangles, local_);
-    reversed_ = std::move(orientation.reversed);
-    fixed_ = fixed(topology, regions);
-    {
-      const HalfedgeMesh halfedges = build_halfedge_mesh(document_.points, mesh_.triangles, topology, reversed_);
-      rings_ = one_rings(halfedges.mesh, fixed_, {}, workers_, halfedges.copies_of);
-    }
-    note_irregular_vertices(topology);
+    const std::vector<std::uint8_t> named =
+        fixed_by_array(document_, options_.fixed_array.value_or("fixed"), options_.fixed_array.has_value());
+    const std::vector<std::int32_t> ids =
+        options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
+    found_ = find_rings(
+        {.fixed = named, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions.of_triangle});
+    note_irregular_vertices();
     InputSummary& input = result_.input;
     input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
     input.other_cells = mesh_.other_cells;
     input.regions = regions.count;
     input.region_array = regions.array;
-    input.components = topology.components;
-    input.free_vertices = std::ranges::count(fixed_, 0);
+    input.components = found_.components;
+    input.free_vertices = std::ranges::count(found_.fixed, 0);
     input.fixed_vertices = input.vertices - input.free_vertices;
-    input.reoriented_triangles = orientation.reoriented_triangles;
+    input.reoriented_triangles = found_.reoriented_triangles;
   }
 
-  void note_irregular_vertices(const TriangleTopology& topology) {
+  MeshRings find_rings(const Constraints& constraints) {
+    const auto by_halfedges = [this](const TriangleTopology& topology, const MeshRings& known) {
+      const HalfedgeMesh halfedges = build_halfedge_mesh(document_.points, mesh_.triangles, topology, known.reversed);
+      return one_rings(halfedges.mesh, known.fixed, {}, workers_, halfedges.copies_of);
+    };
+    try {
+      return rings_for(options_.smoothing, local_, mesh_.triangles, constraints, workers_, by_halfedges);
+    } catch (const MeshError& error) {
+      throw ReadError(options_.input, error.what());
+    }
+  }
+
+  void note_irregular_vertices() {
     std::int64_t non_manifold = 0;
     std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
-    for (const std::uint8_t reasons : topology.hold) {
+    for (const std::uint8_t reasons : found_.fixed) {
       const bool on_edge = (reasons & hold::non_manifold) != 0;
       non_manifold += on_edge ? 1 : 0;
       bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? 1 : 0;
@@ -127,24 +137,6 @@ class Run {
     note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
   }
 
-  TriangleTopology connected_triangles() {
-    try {
-      return connect_triangles(static_cast<std::int32_t>(document_.point_count()), mesh_.triangles, workers_);
-    } catch (const MeshError& error) {
-      throw ReadError(options_.input, error.what());
-    }
-  }
-
-  std::vector<std::uint8_t> fixed(const TriangleTopology& topology, const Regions& regions) const {
-    const std::vector<std::uint8_t> named =
-        fixed_by_array(document_, options_.fixed_array.value_or("fixed"), options_.fixed_array.has_value());
-    const std::vector<std::int32_t> ids =
-        options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
-    return fixed_vertices(
-        topology, mesh_.triangles,
-        {.fixed = named, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions.of_triangle});
-  }
-
   void enter_frame() {
     frame_ = local_frame(mesh_.points);
     local_.resize(mesh_.points.size());
@@ -152,8 +144,8 @@ class Run {
   }
 
   QualityReport check() {
-    QualityReport report =
-        quality_report({local_, mesh_.triangles, reversed_, frame_.exponent}, {.threads = options_.smoothing.threads});
+    QualityReport report = quality_report({local_, mesh_.triangles, found_.reversed, frame_.exponent},
+                                          {.threads = options_.smoothing.threads});
     for (WorstElement& element : report.worst) {
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
       element.centroid = frame_.leave(element.centroid);
@@ -167,10 +159,11 @@ class Run {
     }
     const std::vector<Point2<double>> input_points = mesh_.points;
     const bool wants_shape = options_.smoothing.target_quality || options_.smoothing.record_min_shape;
-    const double fixed_quotient = wants_shape ? smallest_fixed_quotient(local_, mesh_.triangles, reversed_, fixed_)
-                                              : std::numeric_limits<double>::infinity();
+    const double fixed_quotient = wants_shape
+                                      ? smallest_fixed_quotient(local_, mesh_.triangles, found_.reversed, found_.fixed)
+                                      : std::numeric_limits<double>::infinity();
     const Storage storage = document_.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
-    SmoothingResult smoothing = smooth_in_plane(rings_, mesh_.plane, document_.points, mesh_.points, local_,
+    SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, local_,
                                                 fixed_quotient, storage, options_.smoothing);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
@@ -212,11 +205,11 @@ class Run {
   AddedArrays annotations() const {
     std::vector<double> shapes(document_.cells.size(), 0.0);  // cells that are no triangles have none
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto [a, b, c] = canonical_corners(mesh_.triangles[t], reversed_[t] != 0);
+      const auto [a, b, c] = canonical_corners(mesh_.triangles[t], found_.reversed[t] != 0);
       shapes[static_cast<std::size_t>(mesh_.cells[t])] = trismooth::shape(local_[a], local_[b], local_[c]);
     }
-    std::vector<std::uint8_t> flags(fixed_.size());
-    std::ranges::transform(fixed_, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
+    std::vector<std::uint8_t> flags(found_.fixed.size());
+    std::ranges::transform(found_.fixed, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
     std::vector<double> displacements(document_.points.size());
     std::ranges::transform(document_.points, input_points_, displacements.begin(), std::minus<>());
     AddedArrays added;
@@ -233,9 +226,7 @@ class Run {
   PlanarMesh mesh_;
   LocalFrame frame_;
   std::vector<Point2<double>> local_;  ///< mesh_.points in the local frame
-  std::vector<std::uint8_t> reversed_;
-  std::vector<std::uint8_t> fixed_;
-  OneRings rings_;
+  MeshRings found_;
   std::vector<double> input_points_;  ///< for --annotate
 };
 

@@ -45,6 +45,17 @@ const Backend& backend_of(const SmoothingOptions& options) {
   return options.backend != nullptr ? *options.backend : cpu_backend();
 }
 
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> points,
+                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                    const RingFinder& find_rings) {
+  if (options.topology == Topology::device) {
+    if (auto found = backend_of(options).find_rings(points, triangles, constraints, options)) {
+      return *std::move(found);
+    }
+  }
+  return find_mesh_rings(points, triangles, constraints, workers, find_rings);
+}
+
 SmoothingPlan::SmoothingPlan(std::int32_t vertex_count, std::span<const std::int32_t> triangles,
                              const Constraints& constraints, const SmoothingOptions& options)
     : options_(options), triangles_(as_triangles(triangles)) {

@@ -50,4 +50,10 @@ SmoothingResult smooth(std::span<double> xy, std::span<const std::int32_t> trian
 /// The backend that the options name, or the CPU's.
 const Backend& backend_of(const SmoothingOptions& options);
 
+/// The rings of a mesh as the options want them found: by their backend where they say Topology::device and it finds
+/// rings, else on the host, by find_mesh_rings() with `workers` and `find_rings`. The same numbers either way.
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> points,
+                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                    const RingFinder& find_rings = {});
+
 }  // namespace trismooth

@@ -17,6 +17,7 @@
 
 #include "catch.h"
 #include "mesh_io/planar_samples.h"
+#include "support/fake_backend.h"
 
 using planar_samples::Sample;
 using trismooth::Form;
@@ -153,6 +154,23 @@ TEST_CASE("constraints hold in a halfedge mesh as they do in flat arrays") {
       CHECK(mesh.point(v) == Eigen::Vector3d(sample.xyz[3 * i], sample.xyz[3 * i + 1], sample.xyz[3 * i + 2]));
     }
   }
+}
+
+TEST_CASE("with Topology::device the backend finds the rings of a halfedge mesh, and the bits are the same") {
+  std::mt19937_64 random(40);
+  const Sample sample = planar_samples::shuffled(planar_samples::grid(14, 0.4, random), random);
+  TriangleMesh mesh = mesh_of(sample);
+  TriangleMesh by_halfedges = mesh_of(sample);
+  const fakes::FakeBackend device;
+  SmoothingOptions options;
+  options.backend = &device;
+  trismooth::smooth(by_halfedges, options);
+  CHECK(device.rings_found == 0);
+  options.topology = trismooth::Topology::device;
+  const SmoothingResult result = trismooth::smooth(mesh, options);
+  CHECK(device.rings_found == 1);
+  CHECK(result.backend == "cuda");
+  CHECK(points_of(mesh) == points_of(by_halfedges));
 }
 
 TEST_CASE("in a tilted plane vertices stay in the plane, boundaries where they are, and nothing gets worse") {

@@ -1,0 +1,135 @@
+#include "trismooth/pipeline/pipeline.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "trismooth/mesh_io/errors.h"
+
+#include "catch.h"
+#include "support/fake_backend.h"
+#include "support/test_meshes.h"
+
+using trismooth::PipelineOptions;
+using trismooth::PipelineResult;
+
+namespace {
+
+/// A mesh in a file, and a place for the output, for as long as the test lasts.
+class Files {
+ public:
+  explicit Files(const test_meshes::Mesh& mesh) {
+    std::string name = (std::filesystem::temp_directory_path() / "trismooth_run_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    std::ofstream file(folder_ / "in.off");
+    file << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() << " 0\n" << std::setprecision(17);
+    for (const auto& [x, y] : mesh.points) {
+      file << x << ' ' << y << " 0\n";
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+      file << "3 " << a << ' ' << b << ' ' << c << '\n';
+    }
+  }
+  Files(const Files&) = delete;
+  Files& operator=(const Files&) = delete;
+  ~Files() { std::filesystem::remove_all(folder_); }
+
+  PipelineOptions options() const {
+    PipelineOptions options;
+    options.input = folder_ / "in.off";
+    options.output = folder_ / "out.off";
+    return options;
+  }
+  std::string output() const {
+    std::ifstream file(folder_ / "out.off", std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// A mesh with much that topology has to find: two components of opposite orientation, an edge with three triangles,
+/// a bow tie, an isolated vertex.
+test_meshes::Mesh irregular_mesh() {
+  test_meshes::Mesh mesh = test_meshes::jittered_grid(14, 11, 0.45, 5);
+  const auto second = static_cast<std::int32_t>(mesh.points.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 5) {
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  }
+  const test_meshes::Mesh other = test_meshes::jittered_grid(9, 9, 0.4, 6);
+  for (const auto& [x, y] : other.points) {
+    mesh.points.push_back({x + 2, y});
+  }
+  for (const auto& [a, b, c] : other.triangles) {
+    mesh.triangles.push_back({a + second, c + second, b + second});
+  }
+  const auto next = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), {{0.5, 2}, {-1, -1}, {-1, 0}, {7, 7}});
+  mesh.triangles.push_back({50, 51, next});
+  mesh.triangles.push_back({0, next + 2, next + 1});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("with --topology device the backend finds the rings, and the file is the same to the byte") {
+  const Files files(irregular_mesh());
+  PipelineOptions options = files.options();
+  const PipelineResult expected = trismooth::run_pipeline(options);
+  const std::string expected_output = files.output();
+  REQUIRE(expected.input.components >= 2);
+  REQUIRE(expected.input.reoriented_triangles > 0);
+  REQUIRE(expected.notes.size() == 2);
+
+  const fakes::FakeBackend device;
+  options.smoothing.backend = &device;
+  trismooth::run_pipeline(options);
+  CHECK(device.rings_found == 0);
+  options.smoothing.topology = trismooth::Topology::device;
+  const PipelineResult found = trismooth::run_pipeline(options);
+  CHECK(device.rings_found == 1);
+  CHECK(found.coordinates_hash == expected.coordinates_hash);
+  CHECK(files.output() == expected_output);
+  CHECK(found.notes == expected.notes);
+  CHECK(found.input.components == expected.input.components);
+  CHECK(found.input.free_vertices == expected.input.free_vertices);
+  CHECK(found.input.fixed_vertices == expected.input.fixed_vertices);
+  CHECK(found.input.reoriented_triangles == expected.input.reoriented_triangles);
+  CHECK(found.after->metrics[0].min == expected.after->metrics[0].min);
+}
+
+TEST_CASE("a backend that leaves the topology to the host gets the halfedge mesh's rings") {
+  const Files files(irregular_mesh());
+  PipelineOptions options = files.options();
+  const PipelineResult expected = trismooth::run_pipeline(options);
+  options.smoothing.topology = trismooth::Topology::device;  // the CPU's finds none
+  CHECK(trismooth::run_pipeline(options).coordinates_hash == expected.coordinates_hash);
+}
+
+TEST_CASE("triangles that are no mesh are told with the file, whoever finds out") {
+  test_meshes::Mesh moebius;
+  moebius.points = {{0, 0}, {1, 0}, {2, 1}, {1, 2}, {0, 2}};
+  moebius.triangles = {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}};
+  const Files files(moebius);
+  PipelineOptions options = files.options();
+  const fakes::FakeBackend device;
+  options.smoothing.backend = &device;
+  for (const auto topology : {trismooth::Topology::halfedge, trismooth::Topology::device}) {
+    options.smoothing.topology = topology;
+    std::string message;
+    try {
+      trismooth::run_pipeline(options);
+    } catch (const trismooth::ReadError& error) {
+      message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(message.find("in.off: ") != std::string::npos);
+    CHECK(message.find("orient") != std::string::npos);
+  }
+}
