@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/smoothing/enum_text.h"
 #include "trismooth/smoothing/options.h"
 
@@ -17,8 +19,11 @@ struct EnumText<BackendChoice> {
       {{BackendChoice::automatic, "auto"}, {BackendChoice::cpu, "cpu"}, {BackendChoice::cuda, "cuda"}}};
 };
 
-/// Sets `options.backend` to the one that was chosen and checks that it can do what the options ask for. Throws
-/// DeviceError where the backend is not in this build, std::invalid_argument for options that only another has.
-void choose_backend(BackendChoice choice, SmoothingOptions& options);
+/// Sets `options.backend` to the one that was chosen and checks that it can do what the options ask for, before
+/// anything is read: null for the CPU, `cuda.backend`, or `automatic`, which is to be made from the same `cuda`.
+/// Order::unordered leaves `automatic` no choice. Throws DeviceError where CUDA is wanted and cannot be had (not in
+/// this build, no device, no CDP), std::invalid_argument for options that only another backend has.
+void choose_backend(BackendChoice choice, const CudaSupport& cuda, const AutoBackend& automatic,
+                    SmoothingOptions& options);
 
 }  // namespace trismooth

@@ -3,16 +3,18 @@
 #include <functional>
 #include <ostream>
 
+#include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/pipeline.h"
 
 namespace trismooth {
 
-/// What a command line is connected to. Tests hand in streams and a run of their own.
+/// What a command line is connected to. Tests hand in streams, a run and a CUDA of their own.
 struct CommandEnvironment {
   std::ostream& out;             ///< results
   std::ostream& err;             ///< messages
   bool err_is_terminal = false;  ///< progress is shown
   std::function<PipelineResult(const PipelineOptions&)> run = &run_pipeline;
+  std::function<CudaSupport()> cuda = &cuda_support;
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for

@@ -71,6 +71,9 @@ std::string lead(const PipelineResult& result) {
   } else if (last.triangles > 0) {
     text += " No triangle is inverted.";
   }
+  if (result.smoothing && !result.smoothing->reproducible) {
+    text += fmt::format(" Not reproducible: {}.", escape_html(not_reproducible_text()));
+  }
   return fmt::format("<p class=\"lead{}\">{}</p>\n", last.inverted > 0 ? " bad" : "", text);
 }
 
@@ -240,19 +243,36 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
   if (options.fixed_ids) {
     rows.emplace_back("fixed by file", escape_html(options.fixed_ids->string()));
   }
-  rows.emplace_back("backend", escape_html(fmt::format("{}, {} thread{}", smoothing.backend, smoothing.threads,
-                                                       smoothing.threads == 1 ? "" : "s")));
+  if (ran_on_device(smoothing)) {
+    rows.emplace_back("backend", escape_html(smoothing.backend));
+    rows.emplace_back("execution", escape_html(to_string(chosen.execution)));
+    rows.emplace_back("layout", escape_html(to_string(chosen.layout)));
+    rows.emplace_back("order", escape_html(to_string(chosen.order)));
+    rows.emplace_back("topology", escape_html(to_string(chosen.topology)));
+  } else {
+    rows.emplace_back("backend", escape_html(fmt::format("{}, {} thread{}", smoothing.backend, smoothing.threads,
+                                                         smoothing.threads == 1 ? "" : "s")));
+  }
+  if (!smoothing.backend_note.empty()) {
+    rows.emplace_back("why this backend", escape_html(smoothing.backend_note));
+  }
   rows.emplace_back("device", escape_html(smoothing.device));
   return row_table(rows);
 }
 
 std::string outcome_table(const SmoothingResult& smoothing) {
-  return row_table({{"stopped by", escape_html(to_string(smoothing.stop_reason))},
-                    {"sweeps", count_text(smoothing.sweeps)},
-                    {"vertex updates", count_text(smoothing.vertex_updates)},
-                    {"vertices moved", count_text(smoothing.moved_vertices)},
-                    {"vertices put back", count_text(smoothing.reverted_vertices)},
-                    {"guard rounds", count_text(smoothing.guard_rounds)}});
+  Rows rows{{"stopped by", escape_html(to_string(smoothing.stop_reason))},
+            {"sweeps", count_text(smoothing.sweeps)},
+            {"vertex updates", count_text(smoothing.vertex_updates)},
+            {"vertices moved", count_text(smoothing.moved_vertices)},
+            {"vertices put back", count_text(smoothing.reverted_vertices)},
+            {"guard rounds", count_text(smoothing.guard_rounds)}};
+  if (ran_on_device(smoothing)) {
+    rows.emplace_back("kernel launches", launches_text(smoothing));
+    rows.emplace_back("device memory", bytes_text(smoothing.device_memory_bytes));
+  }
+  rows.emplace_back("reproducible", smoothing.reproducible ? "yes" : "no");
+  return row_table(rows);
 }
 
 std::string timings_table(const PipelineTimings& timings) {
@@ -284,12 +304,10 @@ std::string notes_list(const std::vector<std::string>& notes) {
 }
 
 std::string footer(const PipelineResult& result) {
-  constexpr double bytes_per_mebibyte = 1024.0 * 1024.0;
   const std::string hash =
       result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
-  return fmt::format("<footer>trismooth {}; input <code>{}</code>{}; peak memory {:.0f} MiB</footer>\n", version(),
-                     escape_html(result.input.path.string()), hash,
-                     static_cast<double>(result.peak_memory_bytes) / bytes_per_mebibyte);
+  return fmt::format("<footer>trismooth {}; input <code>{}</code>{}; peak memory {}</footer>\n", version(),
+                     escape_html(result.input.path.string()), hash, bytes_text(result.peak_memory_bytes));
 }
 
 std::string body(const PipelineOptions& options, const PipelineResult& result) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 
@@ -42,13 +43,14 @@ std::string compiler() {
 }
 
 ExitCode run_info(const CommandEnvironment& environment) {
+  const CudaSupport cuda = environment.cuda();
   const unsigned threads = std::thread::hardware_concurrency();
   environment.out << "trismooth " << version() << '\n'
                   << "formats:    " << format_list() << " (all are read and written)\n"
                   << "compiler:   " << compiler() << '\n'
                   << "SIMD:       " << simd_level() << '\n'
                   << "threads:    " << threads << '\n'
-                  << "CUDA:       not in this build\n";
+                  << (cuda.backend != nullptr ? cuda.lines() : "CUDA:       not in this build\n");
   return ExitCode::done;
 }
 

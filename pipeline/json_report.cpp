@@ -57,6 +57,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"backend", result ? result->backend : "cpu"},
           {"execution", name_of(smoothing.execution)},
           {"order", name_of(smoothing.order)},
+          {"topology", name_of(smoothing.topology)},
           {"precision", name_of(smoothing.precision)},
           {"guard", smoothing.guard},
           {"threads", result ? result->threads : smoothing.threads},
@@ -108,6 +109,11 @@ Json smoothing_json(const SmoothingResult& smoothing) {
           {"moved_vertices", smoothing.moved_vertices},
           {"reverted_vertices", smoothing.reverted_vertices},
           {"device", smoothing.device},
+          {"backend_note", smoothing.backend_note.empty() ? Json(nullptr) : Json(smoothing.backend_note)},
+          {"reproducible", smoothing.reproducible},
+          {"kernel_launches", smoothing.kernel_launches},
+          {"child_launches", smoothing.child_launches},
+          {"device_memory_bytes", smoothing.device_memory_bytes},
           {"guard_rounds", smoothing.guard_rounds},
           {"history", std::move(history)}};
 }

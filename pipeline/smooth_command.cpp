@@ -2,7 +2,11 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/auto_backend.h"
 #include "trismooth/pipeline/backend_choice.h"
+#include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/mesh_run.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/subcommands.h"
@@ -65,20 +69,35 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
 
 void add_device_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
-  add_enum_option(command, "--backend", settings.backend, "Who runs the sweeps; auto: cpu in this build")
+  add_enum_option(command, "--backend", settings.backend,
+                  fmt::format("Who runs the sweeps; auto: cuda, where this build has it,\n"
+                              "finds a device and {} vertices or more are free;\nelse cpu",
+                              free_vertices_for_cuda))
       ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except unordered)";
-  add_enum_option(command, "--layout", options.layout, "Data layout on the device")->group(group);
-  add_enum_option(command, "--execution", options.execution, "How sweeps are launched")->group(group);
-  add_enum_option(command, "--order", options.order, "Of form b; unordered: single-block and cdp only")->group(group);
-  add_enum_option(command, "--topology", options.topology, "Who finds the neighbours")->group(group);
+  add_enum_option(command, "--layout", options.layout,
+                  "Points on the device: an array of structures, or an\narray for each coordinate")
+      ->group(group);
+  add_enum_option(command, "--execution", options.execution,
+                  "resident: one kernel on the whole GPU makes all sweeps;\n"
+                  "single-block, cdp: the paper's versions, by one block\n"
+                  "and by CUDA dynamic parallelism")
+      ->group(group);
+  add_enum_option(command, "--order", options.order,
+                  "Of form b; unordered, as the threads happen to run: the\n"
+                  "paper's, not reproducible, for single-block and cdp only")
+      ->group(group);
+  add_enum_option(command, "--topology", options.topology, "Who finds the neighbours; the result is the same")
+      ->group(group);
 }
 
 ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environment) {
   PipelineOptions& options = settings.run.pipeline;
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
-  choose_backend(settings.backend, options.smoothing);
+  const CudaSupport cuda = environment.cuda();
+  const AutoBackend automatic(cuda);
+  choose_backend(settings.backend, cuda, automatic, options.smoothing);
   return run_on_mesh(std::move(settings.run), environment);
 }
 

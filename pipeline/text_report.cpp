@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/quality/quality_table.h"
+#include "trismooth/smoothing/backend.h"
 
 namespace trismooth {
 
@@ -66,12 +67,32 @@ std::string_view why_nothing_moved(const PipelineResult& result) {
   return "nothing moved: no vertex could be improved";
 }
 
+std::string who_smoothed(const SmoothingResult& smoothing) {
+  return ran_on_device(smoothing)
+             ? smoothing.backend
+             : fmt::format("{} with {}", smoothing.backend, counted(smoothing.threads, "thread", "threads"));
+}
+
+std::string device_line(const SmoothingOptions& options, const SmoothingResult& smoothing) {
+  return line("device:", fmt::format("{}, {} execution, {} layout; launches: {}; {} of its memory", smoothing.device,
+                                     to_string(options.execution), to_string(options.layout), launches_text(smoothing),
+                                     bytes_text(smoothing.device_memory_bytes)));
+}
+
 std::string smoothing_lines(const SmoothingOptions& options, const PipelineResult& result) {
   const SmoothingResult& smoothing = *result.smoothing;
   std::string text =
-      line("smoothing:", fmt::format("{}, form {}, {} precision, {} with {}", to_string(options.method),
-                                     to_string(options.form), to_string(options.precision), smoothing.backend,
-                                     counted(smoothing.threads, "thread", "threads")));
+      line("smoothing:", fmt::format("{}, form {}, {} precision, {}", to_string(options.method),
+                                     to_string(options.form), to_string(options.precision), who_smoothed(smoothing)));
+  if (!smoothing.backend_note.empty()) {
+    text += line("", smoothing.backend_note);
+  }
+  if (ran_on_device(smoothing)) {
+    text += device_line(options, smoothing);
+  }
+  if (!smoothing.reproducible) {
+    text += line("order:", fmt::format("{}: {}", to_string(options.order), not_reproducible_text()));
+  }
   text += line("stopped:", fmt::format("{} after {}: {}", to_string(smoothing.stop_reason),
                                        counted(smoothing.sweeps, "sweep", "sweeps"), describe(smoothing.stop_reason)));
   std::string moved = fmt::format("{} moved", counted(smoothing.moved_vertices, "vertex", "vertices"));
@@ -125,6 +146,33 @@ std::string duration_text(double milliseconds) {
     return fmt::format("{:.2f} ms", milliseconds);
   }
   return milliseconds < 999.5 ? fmt::format("{:.0f} ms", milliseconds) : fmt::format("{:.1f} s", milliseconds / 1000);
+}
+
+std::string bytes_text(std::int64_t bytes) {
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  constexpr double gibibyte = 1024.0 * mebibyte;
+  const auto size = static_cast<double>(bytes);
+  if (size >= gibibyte) {
+    return fmt::format("{:.1f} GiB", size / gibibyte);
+  }
+  return size < 9.95 * mebibyte ? fmt::format("{:.2f} MiB", size / mebibyte)
+                                : fmt::format("{:.0f} MiB", size / mebibyte);
+}
+
+bool ran_on_device(const SmoothingResult& smoothing) {
+  return smoothing.backend != cpu_backend().name();
+}
+
+std::string launches_text(const SmoothingResult& smoothing) {
+  std::string text = fmt::format("{} by the host", smoothing.kernel_launches);
+  if (smoothing.child_launches > 0) {
+    text += fmt::format(", {} by the device", smoothing.child_launches);
+  }
+  return text;
+}
+
+std::string_view not_reproducible_text() {
+  return "threads saw each other's moves in no fixed order; another run gives another result";
 }
 
 std::string text_report(const PipelineOptions& options, const PipelineResult& result) {

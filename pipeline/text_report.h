@@ -14,6 +14,18 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
 /// "0.42 ms", "13 ms", "2.1 s": a time with the digits that matter.
 std::string duration_text(double milliseconds);
 
+/// "0.25 MiB", "213 MiB", "139.8 GiB": an amount of memory with the digits that matter.
+std::string bytes_text(std::int64_t bytes);
+
+/// Whether a device, not the CPU, ran the sweeps.
+bool ran_on_device(const SmoothingResult& smoothing);
+
+/// "14 by the host, 120 by the device": kernel launches of a smoothing on a device.
+std::string launches_text(const SmoothingResult& smoothing);
+
+/// What every report says of a result that another run would not give.
+std::string_view not_reproducible_text();
+
 /// "nothing moved any more", ...: a stop reason in words.
 std::string_view describe(StopReason reason);
 

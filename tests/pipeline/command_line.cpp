@@ -21,7 +21,9 @@
 
 #include "catch.h"
 #include "sample_run.h"
+#include "support/fake_backend.h"
 
+using trismooth::CudaSupport;
 using trismooth::PipelineOptions;
 using trismooth::PipelineResult;
 using trismooth::Progress;
@@ -43,8 +45,8 @@ struct Outcome {
   bool shows(const std::string& words) const { return out.find(words) != std::string::npos; }
 };
 
-/// Calls the command line with a pipeline that answers `run`.
-Outcome call(Words words, const Run& run, bool terminal = false) {
+/// Calls the command line with a pipeline that answers `run`, as in a build without CUDA unless `cuda` is another.
+Outcome call(Words words, const Run& run, bool terminal = false, const CudaSupport& cuda = {}) {
   words.insert(words.begin(), "trismooth");
   std::vector<const char*> arguments;
   for (const std::string& word : words) {
@@ -57,8 +59,8 @@ Outcome call(Words words, const Run& run, bool terminal = false) {
     outcome.options = options;
     return run(options);
   };
-  outcome.code =
-      trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(), {out, err, terminal, recorded});
+  outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(),
+                                             {out, err, terminal, recorded, [&] { return cuda; }});
   outcome.out = out.str();
   outcome.err = err.str();
   return outcome;
@@ -73,6 +75,11 @@ Outcome call(const Words& words) {
 Outcome smooth(Words more) {
   more.insert(more.begin(), {"smooth", "plate.vtk", "out.vtk"});
   return call(more);
+}
+
+/// A build with CUDA on a machine where `problem` says why there is no device, or where there is one.
+CudaSupport cuda_with(const fakes::FakeBackend& backend, const std::string& problem) {
+  return {&backend, false, [problem] { return problem; }, [] { return "CUDA:       lines of a test\n"; }};
 }
 
 template <class Error>
@@ -140,6 +147,7 @@ TEST_CASE("every option of smooth reaches the pipeline") {
   CHECK(options.smoothing.layout == trismooth::Layout::soa);
   CHECK(options.smoothing.execution == trismooth::Execution::single_block);
   CHECK(options.smoothing.order == trismooth::Order::colour);
+  CHECK(options.smoothing.topology == trismooth::Topology::device);
   CHECK(options.smoothing.precision == trismooth::Precision::single_precision);
   CHECK_FALSE(options.smoothing.guard);
   CHECK(options.smoothing.max_sweeps == 0);
@@ -232,12 +240,34 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
   }
 }
 
-TEST_CASE("CUDA is answered with 5 and what to do, before anything is read") {
-  const Outcome outcome = smooth({"--backend", "cuda"});
-  CHECK(outcome.code == 5);
-  CHECK(outcome.says("this build has no CUDA backend"));
-  CHECK(outcome.says("leave out '--backend cuda'"));
-  CHECK_FALSE(outcome.options.has_value());
+TEST_CASE("CUDA that cannot be had is answered with 5 and what to do, before anything is read") {
+  const Outcome not_built = smooth({"--backend", "cuda"});
+  CHECK(not_built.code == 5);
+  CHECK(not_built.says("this build has no CUDA backend"));
+  CHECK(not_built.says("leave out '--backend cuda'"));
+  CHECK_FALSE(not_built.options.has_value());
+
+  const fakes::FakeBackend backend;
+  const auto call_on = [&](const std::string& problem, const Words& more) {
+    Words words{"smooth", "plate.vtk", "out.vtk"};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(
+        words, [](const PipelineOptions&) { return sample::result(); }, false, cuda_with(backend, problem));
+  };
+  const std::string no_device = "cudaErrorNoDevice (no CUDA-capable device is detected)";
+  const Outcome missing = call_on(no_device, {"--backend", "cuda"});
+  CHECK(missing.code == 5);
+  CHECK(missing.err == "trismooth: error: no CUDA device to smooth on: " + no_device +
+                           "; use '--backend cpu', or see what 'trismooth info' finds\n");
+  CHECK_FALSE(missing.options.has_value());
+  CHECK(call_on("", {"--backend", "cuda", "--execution", "cdp"}).code == 5);
+  CHECK(call_on(no_device, {"--order", "unordered", "--execution", "single-block"}).code == 5);
+  CHECK(call_on("", {"--order", "unordered", "--execution", "single-block", "--backend", "cpu"}).code == 2);
+
+  CHECK(call_on(no_device, {}).code == 0);
+  CHECK(call_on("", {"--backend", "cpu"}).options->smoothing.backend == nullptr);
+  CHECK(call_on("", {"--backend", "cuda"}).options->smoothing.backend == &backend);
+  CHECK(call_on("", {"--order", "unordered", "--execution", "single-block"}).options->smoothing.backend == &backend);
 }
 
 TEST_CASE("an output of no known format is told before the work") {
@@ -427,10 +457,21 @@ TEST_CASE("help of a command describes each of its options, within 100 columns")
 TEST_CASE("info names version, formats, instructions and devices") {
   const Outcome outcome = call({"info"});
   CHECK(outcome.code == 0);
-  for (const char* words : {"trismooth ", ".off, .obj, .ply, .stl, .vtk, .vtu, .vtp", "SIMD:", "threads:", "CUDA:"}) {
+  for (const char* words : {"trismooth ", ".off, .obj, .ply, .stl, .vtk, .vtu, .vtp",
+                            "SIMD:", "threads:", "CUDA:       not in this build"}) {
     CAPTURE(words);
     CHECK(outcome.shows(words));
   }
+  const fakes::FakeBackend backend;
+  const Outcome with_cuda = call({"info"}, {}, false, cuda_with(backend, "cudaErrorNoDevice"));
+  CHECK(with_cuda.code == 0);
+  CHECK(with_cuda.shows("CUDA:       lines of a test\n"));
+}
+
+TEST_CASE("info never fails on the CUDA that is or is not on this machine") {
+  const Outcome outcome = call({"info"}, {}, false, trismooth::cuda_support());
+  CHECK(outcome.code == 0);
+  CHECK(outcome.shows("CUDA:"));
 }
 
 TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothed in place") {

@@ -84,6 +84,23 @@ TEST_CASE("the report of a smoothing is well-formed and has all its parts") {
   }
 }
 
+TEST_CASE("the report of a run on a device says how it ran, and whether another run gives the same") {
+  auto result = sample::cuda_result();
+  result.smoothing->backend_note = "a <b>note</b>";
+  const Parsed page = parse(html_report(sample::cuda_options(), result));
+  REQUIRE(page.error.empty());
+  for (const char* words : {"cuda", "A <fast> GPU", "cdp", "soa", "unordered", "14 by the host, 120 by the device",
+                            "1.50 MiB", "Not reproducible: ", "a <b>note</b>"}) {
+    CAPTURE(words);
+    CHECK(page.says(words));
+  }
+  const Parsed on_cpu = parse(html_report(sample::options(), sample::result()));
+  for (const char* words : {"Not reproducible", "launches", "why this backend"}) {
+    CAPTURE(words);
+    CHECK_FALSE(on_cpu.says(words));
+  }
+}
+
 TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
   auto options = sample::options();
   options.output.reset();

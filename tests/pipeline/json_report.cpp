@@ -37,8 +37,8 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "region_array", "components", "fixed_vertices", "free_vertices",
                                          "reoriented_triangles"});
   const Keys options = keys_of(report["options"]);
-  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "precision", "threads",
-                          "max_sweeps", "tolerance", "time_limit", "target_quality", "guard"}) {
+  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
+                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
@@ -51,8 +51,9 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
     CHECK(report[side]["histogram"]["shape"].size() == 20);
     CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid"});
   }
-  CHECK(keys_of(report["smoothing"]) == Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices",
-                                             "reverted_vertices", "device", "guard_rounds", "history"});
+  CHECK(keys_of(report["smoothing"]) ==
+        Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device", "backend_note",
+             "reproducible", "kernel_launches", "child_launches", "device_memory_bytes", "guard_rounds", "history"});
   CHECK(keys_of(report["smoothing"]["history"][0]) ==
         Keys{"sweep", "evaluated", "moved", "max_relative_move", "min_shape"});
   CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "smooth",
@@ -84,6 +85,9 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["after"]["worst"][0]["cell"] == 17);
   CHECK(report["after"]["worst"][0]["centroid"] == Json::array({1.5, -2.5}));
   CHECK(report["smoothing"]["stop_reason"] == "fixed_point");
+  CHECK(report["smoothing"]["backend_note"].is_null());
+  CHECK(report["smoothing"]["reproducible"] == true);
+  CHECK(report["smoothing"]["kernel_launches"] == 0);
   CHECK(report["smoothing"]["history"][1]["evaluated"] == 70);
   CHECK(report["smoothing"]["history"][1]["min_shape"] == 0.375);
   CHECK(report["coordinates_hash"] == "0123456789abcdef");
@@ -92,6 +96,23 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["timings_ms"]["write"] == 9.5);
   CHECK(report["timings_ms"]["total"] == 50);
   CHECK(report["peak_memory_bytes"] == 987654321);
+}
+
+TEST_CASE("the JSON report of a run on a device says how it ran") {
+  auto result = sample::cuda_result();
+  result.smoothing->backend_note = "a \"note\"";
+  const Json report = Json::parse(json_report(sample::cuda_options(), result));
+  CHECK(report["options"]["backend"] == "cuda");
+  CHECK(report["options"]["execution"] == "cdp");
+  CHECK(report["options"]["layout"] == "soa");
+  CHECK(report["options"]["order"] == "unordered");
+  CHECK(report["options"]["topology"] == "device");
+  CHECK(report["smoothing"]["device"] == "A <fast> GPU");
+  CHECK(report["smoothing"]["backend_note"] == "a \"note\"");
+  CHECK(report["smoothing"]["reproducible"] == false);
+  CHECK(report["smoothing"]["kernel_launches"] == 14);
+  CHECK(report["smoothing"]["child_launches"] == 120);
+  CHECK(report["smoothing"]["device_memory_bytes"] == 1572864);
 }
 
 TEST_CASE("a run that only checked has no after, no smoothing and no output to hash") {

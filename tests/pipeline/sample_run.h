@@ -54,6 +54,28 @@ inline trismooth::PipelineResult result() {
   return result;
 }
 
+/// The same of a run on a device, in the paper's literal version.
+inline trismooth::PipelineOptions cuda_options() {
+  trismooth::PipelineOptions chosen = options();
+  chosen.smoothing.execution = trismooth::Execution::cdp;
+  chosen.smoothing.layout = trismooth::Layout::soa;
+  chosen.smoothing.order = trismooth::Order::unordered;
+  chosen.smoothing.topology = trismooth::Topology::device;
+  return chosen;
+}
+
+inline trismooth::PipelineResult cuda_result() {
+  trismooth::PipelineResult smoothed = result();
+  smoothed.smoothing->backend = "cuda";
+  smoothed.smoothing->device = "A <fast> GPU";
+  smoothed.smoothing->threads = 0;
+  smoothed.smoothing->kernel_launches = 14;
+  smoothed.smoothing->child_launches = 120;
+  smoothed.smoothing->device_memory_bytes = std::int64_t{3} << 19;
+  smoothed.smoothing->reproducible = false;
+  return smoothed;
+}
+
 /// The same of a run that only checked.
 inline trismooth::PipelineResult quality_result() {
   trismooth::PipelineResult checked = result();

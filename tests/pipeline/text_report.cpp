@@ -29,6 +29,32 @@ TEST_CASE("the result of a smoothing says what was read, done and written") {
   CHECK(text.back() == '\n');
 }
 
+TEST_CASE("the result of a run on a device says how it ran, and whether another run gives the same") {
+  auto result = sample::cuda_result();
+  const std::string text = text_report(sample::cuda_options(), result);
+  CAPTURE(text);
+  CHECK(says(text, "smart, form b, double precision, cuda\n"));
+  CHECK(says(text,
+             "device:     A <fast> GPU, cdp execution, soa layout; launches: 14 by the host, 120 by the device; "
+             "1.50 MiB of its memory\n"));
+  CHECK(says(text, "order:      unordered: "));
+  CHECK(says(text, "another run gives another result"));
+  result.smoothing->reproducible = true;
+  result.smoothing->child_launches = 0;
+  const std::string ordered = text_report(sample::options(), result);
+  CAPTURE(ordered);
+  CHECK(says(ordered, "resident execution, aos layout; launches: 14 by the host; "));
+  CHECK_FALSE(says(ordered, "another run"));
+}
+
+TEST_CASE("why the CPU smoothed stands below who smoothed, where there is something to say") {
+  auto result = sample::result();
+  CHECK_FALSE(says(text_report(sample::options(), result), "device:"));
+  result.smoothing->backend_note = "no CUDA device: cudaErrorNoDevice";
+  CHECK(says(text_report(sample::options(), result),
+             "cpu with 2 threads\n            no CUDA device: cudaErrorNoDevice\nstopped: "));
+}
+
 TEST_CASE("the result of a check speaks of no smoothing") {
   auto options = sample::options();
   options.output.reset();
@@ -72,6 +98,13 @@ TEST_CASE("inverted triangles that remain are told, and those that went, too") {
   CHECK(says(text_report(sample::options(), result), "1 inverted triangle remains (5 before)."));
   result.after->inverted = 2;
   CHECK(says(text_report(sample::options(), result), "2 inverted triangles remain (5 before)."));
+}
+
+TEST_CASE("an amount of memory has the digits that matter") {
+  CHECK(trismooth::bytes_text(0) == "0.00 MiB");
+  CHECK(trismooth::bytes_text(262144) == "0.25 MiB");
+  CHECK(trismooth::bytes_text(std::int64_t{213} << 20) == "213 MiB");
+  CHECK(trismooth::bytes_text((std::int64_t{139} << 30) + (std::int64_t{1} << 29)) == "139.5 GiB");
 }
 
 TEST_CASE("a time has the digits that matter") {

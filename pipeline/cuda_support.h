@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "trismooth/smoothing/backend.h"
+
+namespace trismooth {
+
+/// What the pipeline knows of CUDA, in a build with it or without. Tests hand in one of their own.
+struct CudaSupport {
+  const Backend* backend = nullptr;  ///< null: this build has none, and the rest means nothing
+  bool has_cdp = false;              ///< Execution::cdp is built in
+  /// Why no device can be used, with the CUDA error's name; empty where one can.
+  std::function<std::string()> problem;
+  /// What was found, for `trismooth info`: see cuda_lines().
+  std::function<std::string()> lines;
+};
+
+/// That of this build. Asks no driver before `problem` or `lines` are called.
+CudaSupport cuda_support();
+
+}  // namespace trismooth

@@ -1,0 +1,126 @@
+#include "trismooth/pipeline/auto_backend.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/fake_backend.h"
+#include "support/test_meshes.h"
+
+using fakes::Failure;
+using fakes::FakeBackend;
+using trismooth::AutoBackend;
+using trismooth::CudaSupport;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+
+namespace {
+
+constexpr std::int32_t columns = 12;
+constexpr std::int64_t free_vertices = (columns - 2) * (columns - 2);
+
+CudaSupport support(const FakeBackend& backend, std::string problem = {}) {
+  return {&backend, true, [problem = std::move(problem)] { return problem; }, {}};
+}
+
+struct Smoothed {
+  SmoothingResult result;
+  std::vector<double> xy;
+};
+
+Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topology = trismooth::Topology::halfedge) {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  SmoothingOptions options;
+  options.backend = backend;
+  options.topology = topology;
+  Smoothed smoothed{{}, mesh.xy()};
+  smoothed.result = trismooth::smooth(smoothed.xy, mesh.indices(), {}, options);
+  return smoothed;
+}
+
+}  // namespace
+
+TEST_CASE("from as many free vertices on as it is told, auto takes CUDA") {
+  const FakeBackend cuda;
+  const AutoBackend just_large(support(cuda), trismooth::cpu_backend(), free_vertices);
+  const Smoothed by_cuda = smooth_with(&just_large);
+  CHECK(by_cuda.result.backend == "cuda");
+  CHECK(by_cuda.result.backend_note.empty());
+  CHECK(by_cuda.result.free_vertices == free_vertices);
+  CHECK(cuda.smoothed == 1);
+
+  const AutoBackend too_small(support(cuda), trismooth::cpu_backend(), free_vertices + 1);
+  const Smoothed by_cpu = smooth_with(&too_small);
+  CHECK(by_cpu.result.backend == "cpu");
+  CHECK(by_cpu.result.backend_note.empty());  // as everybody expects
+  CHECK(cuda.prepared == 1);
+  CHECK(by_cpu.xy == by_cuda.xy);
+}
+
+TEST_CASE("a small mesh asks no driver") {
+  const FakeBackend cuda;
+  const AutoBackend automatic({&cuda, true, []() -> std::string { throw std::logic_error("asked"); }, {}});
+  CHECK(smooth_with(&automatic, trismooth::Topology::device).result.backend == "cpu");
+}
+
+TEST_CASE("without a device, or without CUDA in the build, auto smooths on the CPU and says why") {
+  const FakeBackend cuda;
+  const AutoBackend no_device(support(cuda, "cudaErrorNoDevice (no CUDA-capable device is detected)"),
+                              trismooth::cpu_backend(), 1);
+  const Smoothed by_cpu = smooth_with(&no_device);
+  CHECK(by_cpu.result.backend == "cpu");
+  CHECK(by_cpu.result.backend_note == "no CUDA device: cudaErrorNoDevice (no CUDA-capable device is detected)");
+  CHECK(cuda.prepared == 0);
+  CHECK(by_cpu.xy == smooth_with(nullptr).xy);
+
+  const AutoBackend not_built({}, trismooth::cpu_backend(), 1);
+  CHECK(smooth_with(&not_built).result.backend == "cpu");
+}
+
+TEST_CASE("where the device fails, the CPU does the whole work, to the same bits, and the note names the error") {
+  const Failure failure = GENERATE(Failure::prepare, Failure::smooth);
+  const FakeBackend cuda(failure);
+  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
+  const Smoothed fallen_back = smooth_with(&automatic);
+  const Smoothed expected = smooth_with(nullptr);
+  CHECK(fallen_back.result.backend == "cpu");
+  CHECK(fallen_back.result.backend_note == "CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
+  CHECK(fallen_back.result.sweeps == expected.result.sweeps);
+  CHECK(fallen_back.result.moved_vertices == expected.result.moved_vertices);
+  CHECK(fallen_back.xy == expected.xy);
+}
+
+TEST_CASE("a device that failed once is not asked again by the same plan") {
+  const FakeBackend cuda(Failure::smooth);
+  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  SmoothingOptions options;
+  options.backend = &automatic;
+  trismooth::SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
+  for (int step = 0; step < 3; ++step) {
+    std::vector<double> xy = mesh.xy();
+    CHECK_FALSE(plan.smooth(xy).backend_note.empty());
+    CHECK(xy == smooth_with(nullptr).xy);
+  }
+  CHECK(cuda.smoothed == 1);
+}
+
+TEST_CASE("auto has rings found by the device where the mesh is large enough and the device can") {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  SmoothingOptions options;
+  options.topology = trismooth::Topology::device;
+  const auto find = [&](const AutoBackend& automatic) {
+    return automatic.find_rings(mesh.points, mesh.triangles, {}, options);
+  };
+  const FakeBackend cuda;
+  CHECK(find(AutoBackend(support(cuda), trismooth::cpu_backend(), columns * columns)));
+  CHECK_FALSE(find(AutoBackend(support(cuda), trismooth::cpu_backend(), columns * columns + 1)));
+  CHECK_FALSE(find(AutoBackend(support(cuda, "cudaErrorNoDevice"), trismooth::cpu_backend(), 1)));
+  CHECK(cuda.rings_found == 1);
+  const FakeBackend failing(Failure::rings);
+  CHECK_FALSE(find(AutoBackend(support(failing), trismooth::cpu_backend(), 1)));
+  CHECK(failing.rings_found == 1);
+}
