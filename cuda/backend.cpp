@@ -10,6 +10,7 @@
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/find_rings.h"
+#include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/timeline.h"
 #include "trismooth/cuda/uploaded_constraints.h"
 #include "trismooth/smoothing/triangle_topology.h"
@@ -48,7 +49,7 @@ DeviceRings uploaded(Context& context, const OneRings& rings) {
 class RingSmoother final : public PreparedSmoother {
  public:
   RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
-      : stored_(context_, points.size()) {
+      : stored_(context_, with_room_for(rings, options, points.size())) {
     const auto start = std::chrono::steady_clock::now();
     const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
     smoother_ = make_device_smoother(
@@ -67,6 +68,12 @@ class RingSmoother final : public PreparedSmoother {
   }
 
  private:
+  static std::size_t with_room_for(const OneRings& rings, const SmoothingOptions& options, std::size_t vertices) {
+    require_memory(memory_need(
+        {rings.vertex_count(), rings.vertex_count(), static_cast<std::int64_t>(rings.neighbours.size())}, options));
+    return vertices;
+  }
+
   Context context_;
   DeviceBuffer<Point2<double>> stored_;
   std::unique_ptr<DeviceSmoother> smoother_;

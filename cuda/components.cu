@@ -12,13 +12,21 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// Hangs every triangle directly under its root, and notes which ones are roots.
+/// Shortens the paths, so that the walks of FlattenForest are short.
+struct ShortenPaths {
+  ParityForest forest;
+
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const { forest.find(t); }
+};
+
+/// Hangs every triangle directly under its root, and notes which ones are roots. Without halving paths on the way: a
+/// thread that halves one may write to a word what was true some time ago, after the word's own thread has been there.
 struct FlattenForest {
   ParityForest forest;
   std::uint32_t* is_root;
 
   TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
-    const ParityForest::Root root = forest.find(t);
+    const ParityForest::Root root = forest.look_up(t);
     // Others may be on their way through this word; it says the same of them as before.
     store_relaxed(&forest.words[t], (root.element << 1U) | root.parity);
     is_root[t] = root.element == t ? 1 : 0;
@@ -70,6 +78,7 @@ Components number_components(Context& context, DeviceBuffer<std::uint32_t> fores
   std::uint32_t* const words = components.words.data();
   {
     DeviceBuffer<std::uint32_t> numbers(context, triangle_count);
+    for_each(context, triangle_count, ShortenPaths{{words}});
     for_each(context, triangle_count, FlattenForest{{words}, numbers.data()});
     sum_up(context, numbers.data(), triangle_count);
     for_each(context, triangle_count, NumberRoots{words, numbers.data()});

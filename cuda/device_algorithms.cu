@@ -20,16 +20,27 @@ void sum_up(Context& context, std::uint32_t* values, std::int64_t count) {
   TRISMOOTH_CUDA_CHECK(cub::DeviceScan::InclusiveSum(scratch.data(), bytes, values, values, count, context.stream()));
 }
 
-void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<std::uint32_t>& values,
-                 int key_bits) {
+void sum_before(Context& context, std::uint32_t* values, std::int64_t count) {
+  if (count <= 0) {
+    return;
+  }
+  std::size_t bytes = 0;
+  TRISMOOTH_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(nullptr, bytes, values, values, count, context.stream()));
+  bytes = std::max<std::size_t>(bytes, 1);  // no scratch memory would ask for the size again
+  DeviceBuffer<std::byte> scratch(context, bytes);
+  TRISMOOTH_CUDA_CHECK(cub::DeviceScan::ExclusiveSum(scratch.data(), bytes, values, values, count, context.stream()));
+}
+
+template <class Value>
+void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<Value>& values, int key_bits) {
   const auto count = static_cast<std::int64_t>(keys.size());
   if (count == 0) {
     return;
   }
   DeviceBuffer<std::uint64_t> other_keys(context, keys.size());
-  DeviceBuffer<std::uint32_t> other_values(context, values.size());
+  DeviceBuffer<Value> other_values(context, values.size());
   cub::DoubleBuffer<std::uint64_t> both_keys(keys.data(), other_keys.data());
-  cub::DoubleBuffer<std::uint32_t> both_values(values.data(), other_values.data());
+  cub::DoubleBuffer<Value> both_values(values.data(), other_values.data());
   std::size_t bytes = 0;
   TRISMOOTH_CUDA_CHECK(
       cub::DeviceRadixSort::SortPairs(nullptr, bytes, both_keys, both_values, count, 0, key_bits, context.stream()));
@@ -44,5 +55,8 @@ void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuff
     std::swap(values, other_values);
   }
 }
+
+template void sort_by_key(Context&, DeviceBuffer<std::uint64_t>&, DeviceBuffer<std::uint32_t>&, int);
+template void sort_by_key(Context&, DeviceBuffer<std::uint64_t>&, DeviceBuffer<std::int32_t>&, int);
 
 }  // namespace trismooth::cuda

@@ -10,9 +10,14 @@ namespace trismooth::cuda {
 /// Replaces each value by the sum of all up to it, itself included. Queued; in place.
 void sum_up(Context& context, std::uint32_t* values, std::int64_t count);
 
-/// Sorts keys by their lowest `key_bits` bits, and the values with them. Queued. Takes as much memory again as both.
-void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<std::uint32_t>& values,
-                 int key_bits);
+/// Replaces each value by the sum of all before it. Queued; in place. So n counts and one more value become n + 1
+/// offsets.
+void sum_before(Context& context, std::uint32_t* values, std::int64_t count);
+
+/// Sorts keys by their lowest `key_bits` bits, and the values (std::uint32_t or std::int32_t) with them. Queued. Takes
+/// as much memory again as both.
+template <class Value>
+void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<Value>& values, int key_bits);
 
 /// Waits for the device and returns one of its values.
 template <class T>

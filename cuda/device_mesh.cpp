@@ -10,7 +10,9 @@
 #include "trismooth/cuda/coordinates.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/memory_need.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth::cuda {
 
@@ -81,6 +83,9 @@ class Plan::Implementation {
 Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream) {
   options.validate();
   require_device();
+  check_mesh_size(mesh.vertex_count, mesh.triangle_count);
+  const MeshSize size{mesh.vertex_count, mesh.vertex_count, 3 * std::int64_t{mesh.triangle_count}};
+  require_memory(memory_need(size, options) + topology_memory_need(mesh.vertex_count, mesh.triangle_count));
   implementation_ = std::make_unique<Implementation>(mesh, options, stream);
 }
 

@@ -2,13 +2,11 @@
 #include <bit>
 #include <utility>
 
-#include <cub/device/device_radix_sort.cuh>
-
 #include "trismooth/cuda/bounding_box.h"
 #include "trismooth/cuda/colouring.h"
+#include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/packing.h"
-#include "trismooth/cuda/scan.h"
 #include "trismooth/cuda/thread_index.cuh"
 #include "trismooth/smoothing/hilbert_curve.h"
 
@@ -84,25 +82,6 @@ __global__ void copy_rings(RingsView from, const std::int32_t* input_index, cons
   }
 }
 
-/// Sorts `vertices` by `keys`, of which the lowest `bits` count. The keys' memory goes back.
-DeviceBuffer<std::int32_t> sorted_by(Context& context, DeviceBuffer<std::uint64_t> keys,
-                                     DeviceBuffer<std::int32_t> vertices, int bits) {
-  DeviceBuffer<std::uint64_t> other_keys(context, keys.size());
-  DeviceBuffer<std::int32_t> other_vertices(context, vertices.size());
-  cub::DoubleBuffer<std::uint64_t> key_buffers(keys.data(), other_keys.data());
-  cub::DoubleBuffer<std::int32_t> vertex_buffers(vertices.data(), other_vertices.data());
-  std::size_t bytes = 0;
-  const auto run = [&](void* memory) {
-    TRISMOOTH_CUDA_CHECK(cub::DeviceRadixSort::SortPairs(memory, bytes, key_buffers, vertex_buffers,
-                                                         static_cast<std::int64_t>(vertices.size()), 0, bits,
-                                                         context.stream()));
-  };
-  run(nullptr);
-  DeviceBuffer<std::uint8_t> memory(context, bytes);
-  run(memory.data());
-  return vertex_buffers.Current() == vertices.data() ? std::move(vertices) : std::move(other_vertices);
-}
-
 /// Fills input_index and batches.
 void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point2<double>> points,
                     const DeviceBuffer<std::int32_t>& colours, std::int32_t batch_count, PackedDeviceRings& packed) {
@@ -117,7 +96,8 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   points.reset();
   const int batch_bits = std::bit_width(static_cast<unsigned>(batch_count));
-  packed.input_index = sorted_by(context, std::move(keys), std::move(vertices), curve_bits + batch_bits);
+  sort_by_key(context, keys, vertices, curve_bits + batch_bits);
+  packed.input_index = std::move(vertices);
   std::vector<std::uint32_t> sizes(static_cast<std::size_t>(batch_count) + 1);
   batch_sizes.download(sizes);
   packed.batches.assign(1, 0);
@@ -130,7 +110,9 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
 
 PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>> points, bool by_colour) {
   PackedDeviceRings packed;
-  const RingsView from = rings.view();
+  // A parameter lives as long as the caller's expression; the memory is to go back with this function.
+  const DeviceRings source = std::move(rings);
+  const RingsView from = source.view();
   if (from.size == 0) {
     packed.batches = {0, 0};
     return packed;
@@ -153,8 +135,8 @@ PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<P
   number_vertices<<<blocks_for(from.size), block_size, 0, context.stream()>>>(
       packed.input_index.data(), from.size, free_count, from, new_number.data(), to.offsets.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  exclusive_scan(context, to.offsets);
-  to.neighbours = DeviceBuffer<std::int32_t>(context, rings.neighbours.size());
+  sum_before(context, to.offsets.data(), std::int64_t{free_count} + 1);
+  to.neighbours = DeviceBuffer<std::int32_t>(context, source.neighbours.size());
   if (free_count > 0) {
     copy_rings<<<blocks_for(free_count), block_size, 0, context.stream()>>>(
         from, packed.input_index.data(), new_number.data(), free_count, to.offsets.data(), to.neighbours.data());

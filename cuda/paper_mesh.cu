@@ -1,9 +1,9 @@
 #include <cstddef>
 
+#include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/paper_kernels.cuh"
 #include "trismooth/cuda/paper_mesh.h"
-#include "trismooth/cuda/scan.h"
 #include "trismooth/cuda/thread_index.cuh"
 
 namespace trismooth::cuda {
@@ -174,11 +174,8 @@ DeviceElements find_elements(Context& context, const RingsView& rings, std::size
   offsets.fill_bytes(0);
   count_owned<<<blocks, block_size, 0, context.stream()>>>(rings, offsets.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  exclusive_scan(context, offsets);
-  std::uint32_t triangle_count = 0;
-  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&triangle_count, offsets.data() + rings.size, sizeof(triangle_count),
-                                       cudaMemcpyDeviceToHost, context.stream()));
-  context.synchronize();
+  sum_before(context, offsets.data(), std::int64_t{rings.size} + 1);
+  const auto triangle_count = download(context, offsets.data() + rings.size);
   found.triangles = DeviceBuffer<Corners>(context, triangle_count);
   found.elements = DeviceBuffer<std::uint32_t>(context, ring_entries);
   list_owned<<<blocks, block_size, 0, context.stream()>>>(rings, offsets.data(), found.triangles.data(),

@@ -51,6 +51,19 @@ struct ParityForest {
     }
   }
 
+  /// The same without shortening the path: writes nothing.
+  TRISMOOTH_HOST_DEVICE Root look_up(std::uint32_t element) const {
+    std::uint32_t parity = 0;
+    for (;;) {
+      const std::uint32_t up = load_relaxed(&words[element]);
+      if (up >> 1U == element) {
+        return {element, parity};
+      }
+      parity ^= up & 1U;
+      element = up >> 1U;
+    }
+  }
+
   /// Says that two elements belong together and are of the same kind (parity 0) or not (1).
   TRISMOOTH_HOST_DEVICE Join join(std::uint32_t a, std::uint32_t b, std::uint32_t parity) const {
     Root high = find(a);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth::cuda {
+
+/// How large a mesh is, for what it takes on the device.
+struct MeshSize {
+  std::int64_t vertices = 0;
+  std::int64_t free_vertices = 0;
+  std::int64_t ring_entries = 0;  ///< the sizes of all rings together
+};
+
+/// Bytes of device memory that it takes to pack rings and smooth them, coordinates included; the larger of both peaks.
+/// Within a few percent for the resident execution, an upper estimate for the others.
+std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options);
+
+/// Bytes that a DeviceTopology keeps, the caller's triangles apart.
+std::size_t topology_memory_need(std::int64_t vertices, std::int64_t triangles);
+
+/// Throws DeviceError, which says how much is needed and how much is there, where the current device has less than
+/// `bytes` free.
+void require_memory(std::size_t bytes);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,479 @@
+// The CUDA backend against the CPU's, in everything that callers see: bits, stop reasons, histories, commits, plans,
+// device pointers, errors.
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <cuda_runtime_api.h>
+
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using namespace trismooth;
+using test_meshes::Mesh;
+
+namespace {
+
+constexpr auto layouts = {Layout::aos, Layout::soa};
+constexpr auto methods = {Method::smart, Method::laplacian, Method::weighted};
+constexpr auto forms = {Form::swap, Form::in_place};
+constexpr auto precisions = {Precision::double_precision, Precision::single_precision};
+
+std::vector<Execution> built_executions() {
+  std::vector<Execution> built{Execution::resident, Execution::single_block};
+  if (cuda::has_cdp()) {
+    built.push_back(Execution::cdp);
+  }
+  return built;
+}
+
+struct Run {
+  std::vector<double> xy;
+  SmoothingResult result;
+};
+
+Run run(const Mesh& mesh, const SmoothingOptions& options, const Constraints& constraints = {},
+        Storage storage = Storage::float64) {
+  Run run{mesh.xy(), {}};
+  run.result = plan(mesh.vertex_count(), mesh.indices(), constraints, options).smooth(run.xy, storage);
+  return run;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+bool same_number(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+void require_same(const Run& found, const Run& expected) {
+  REQUIRE(same_bits(found.xy, expected.xy));
+  REQUIRE(found.result.sweeps == expected.result.sweeps);
+  REQUIRE(found.result.stop_reason == expected.result.stop_reason);
+  REQUIRE(found.result.moved_vertices == expected.result.moved_vertices);
+  REQUIRE(found.result.guard_rounds == expected.result.guard_rounds);
+  REQUIRE(found.result.free_vertices == expected.result.free_vertices);
+  REQUIRE(found.result.reverted.size() == expected.result.reverted.size());
+  for (std::size_t i = 0; i < found.result.reverted.size(); ++i) {
+    REQUIRE(found.result.reverted[i].vertex == expected.result.reverted[i].vertex);
+    REQUIRE(found.result.reverted[i].position == expected.result.reverted[i].position);
+  }
+  REQUIRE(found.result.history.size() == expected.result.history.size());
+  for (std::size_t i = 0; i < found.result.history.size(); ++i) {
+    CAPTURE(i);
+    REQUIRE(found.result.history[i].sweep == expected.result.history[i].sweep);
+    REQUIRE(found.result.history[i].moved == expected.result.history[i].moved);
+    REQUIRE(found.result.history[i].max_relative_move == expected.result.history[i].max_relative_move);
+    REQUIRE(same_number(found.result.history[i].min_shape, expected.result.history[i].min_shape));
+  }
+}
+
+/// Every execution in both layouts against the CPU, which the options name first.
+void require_cpu_results(const Mesh& mesh, SmoothingOptions options, const Constraints& constraints = {},
+                         Storage storage = Storage::float64) {
+  const Run expected = run(mesh, options, constraints, storage);
+  options.backend = &cuda::backend();
+  for (const Execution execution : built_executions()) {
+    for (const Layout layout : layouts) {
+      for (const Topology topology : {Topology::halfedge, Topology::device}) {
+        options.execution = execution;
+        options.layout = layout;
+        options.topology = topology;
+        CAPTURE(to_string(execution), to_string(layout), to_string(topology));
+        require_same(run(mesh, options, constraints, storage), expected);
+      }
+    }
+  }
+}
+
+SmoothingOptions on_cuda(Execution execution = Execution::resident) {
+  SmoothingOptions options;
+  options.backend = &cuda::backend();
+  options.execution = execution;
+  return options;
+}
+
+/// Occupies device memory until only `left` bytes or less are free.
+class Hoard {
+ public:
+  explicit Hoard(std::size_t left) {
+    for (std::size_t piece = std::size_t{1} << 36U; piece >= (std::size_t{1} << 21U);) {
+      std::size_t free = 0;
+      std::size_t total = 0;
+      cudaMemGetInfo(&free, &total);
+      void* memory = nullptr;
+      if (free > left + piece && cudaMalloc(&memory, piece) == cudaSuccess) {
+        pieces_.push_back(memory);
+      } else {
+        cudaGetLastError();
+        piece /= 2;
+      }
+    }
+  }
+  Hoard(const Hoard&) = delete;
+  Hoard& operator=(const Hoard&) = delete;
+  ~Hoard() {
+    for (void* memory : pieces_) {
+      cudaFree(memory);
+    }
+  }
+
+ private:
+  std::vector<void*> pieces_;
+};
+
+}  // namespace
+
+TEST_CASE("every kind of mesh has the CPU's bits, history and commit in every execution and layout") {
+  for (const auto& [name, mesh] : test_meshes::zoo()) {
+    CAPTURE(name);
+    for (const Method method : methods) {
+      for (const Form form : forms) {
+        for (const Precision precision : precisions) {
+          CAPTURE(to_string(method), to_string(form), to_string(precision));
+          SmoothingOptions options;
+          options.method = method;
+          options.form = form;
+          options.precision = precision;
+          options.max_sweeps = 60;
+          options.record_min_shape = true;
+          require_cpu_results(mesh, options);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the resident execution evaluates the vertices that the CPU evaluates, and those alone") {
+  const Mesh mesh = test_meshes::jittered_grid(40, 30, 0.45, 3);
+  for (const Form form : forms) {
+    for (const Evaluation evaluation : {Evaluation::changed, Evaluation::all}) {
+      SmoothingOptions options;
+      options.form = form;
+      options.evaluation = evaluation;
+      const Run expected = run(mesh, options);
+      options.backend = &cuda::backend();
+      const Run found = run(mesh, options);
+      require_same(found, expected);
+      CHECK(found.result.vertex_updates == expected.result.vertex_updates);
+      for (std::size_t i = 0; i < found.result.history.size(); ++i) {
+        CHECK(found.result.history[i].evaluated == expected.result.history[i].evaluated);
+      }
+    }
+  }
+}
+
+TEST_CASE("constraints hold the same vertices") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::tangled(20, 7), 2);
+  std::vector<std::uint8_t> fixed(mesh.points.size());
+  std::vector<std::uint8_t> other_cells(mesh.points.size());
+  std::vector<std::int32_t> regions(mesh.triangles.size());
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    fixed[v] = v % 17 == 0 ? 1 : 0;
+    other_cells[v] = v % 23 == 1 ? 1 : 0;
+  }
+  for (std::size_t t = 0; t < regions.size(); ++t) {
+    regions[t] = static_cast<std::int32_t>(t % 9 / 8);
+  }
+  const std::vector<std::int32_t> ids{40, 41, 3};
+  for (const Form form : forms) {
+    SmoothingOptions options;
+    options.form = form;
+    options.method = Method::laplacian;
+    require_cpu_results(mesh, options,
+                        {.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions});
+  }
+}
+
+TEST_CASE("mixed orientation, far offsets and extreme scales have the CPU's bits") {
+  for (const double scale : {1.0, 1e-9, 1e200}) {
+    for (const double offset : {0.0, 4e7}) {
+      Mesh mesh = test_meshes::partly_reversed(test_meshes::jittered_grid(9, 11, 0.4, 8), 3);
+      for (auto& p : mesh.points) {
+        p = {(p.x + offset) * scale, (p.y - offset) * scale};
+      }
+      CAPTURE(scale, offset);
+      require_cpu_results(mesh, {});
+    }
+  }
+}
+
+TEST_CASE("results stored as float32 are rounded before they are judged") {
+  Mesh mesh = test_meshes::shuffled(test_meshes::tangled(16, 4), 5);
+  for (auto& p : mesh.points) {
+    p = {rounded_to_float32(p.x + 100), rounded_to_float32(p.y + 100)};
+  }
+  require_cpu_results(mesh, {}, {}, Storage::float32);
+}
+
+TEST_CASE("every reason to stop is the CPU's, at the same sweep") {
+  const Mesh mesh = test_meshes::jittered_grid(20, 20, 0.45, 6);
+  SECTION("sweep limits, beyond what one launch records too") {
+    for (const std::int64_t limit : {1, 2, 7, 256, 257, 600}) {
+      SmoothingOptions options;
+      options.method = Method::laplacian;
+      options.tolerance = 0;
+      options.max_sweeps = limit;
+      const Run expected = run(mesh, options);
+      options.backend = &cuda::backend();
+      for (const Execution execution : built_executions()) {
+        options.execution = execution;
+        require_same(run(mesh, options), expected);
+      }
+    }
+  }
+  SECTION("tolerances") {
+    for (const double tolerance : {1e-1, 1e-3, 0.0}) {
+      SmoothingOptions options;
+      options.tolerance = tolerance;
+      require_cpu_results(mesh, options);
+    }
+  }
+  SECTION("a quality target: met at once, met on the way, never met") {
+    for (const double target : {-1.0, 0.05, 0.3, 1.0}) {
+      for (const Form form : forms) {
+        SmoothingOptions options;
+        options.form = form;
+        options.target_quality = target;
+        CAPTURE(target);
+        require_cpu_results(mesh, options);
+      }
+    }
+  }
+  SECTION("no time") {
+    SmoothingOptions options;
+    options.time_limit_seconds = 0;
+    require_cpu_results(mesh, options);
+  }
+  SECTION("cancelled by the caller") {
+    SmoothingOptions options;
+    options.progress = [](const SweepRecord& record) { return record.sweep == 3 ? Progress::stop : Progress::proceed; };
+    require_cpu_results(mesh, options);
+  }
+}
+
+TEST_CASE("the callback hears of every sweep in order") {
+  const Mesh mesh = test_meshes::jittered_grid(15, 15, 0.45, 6);
+  for (const Execution execution : built_executions()) {
+    SmoothingOptions options = on_cuda(execution);
+    std::vector<std::int64_t> heard;
+    options.progress = [&heard](const SweepRecord& record) {
+      heard.push_back(record.sweep);
+      return Progress::proceed;
+    };
+    const Run found = run(mesh, options);
+    REQUIRE(static_cast<std::int64_t>(heard.size()) == found.result.sweeps);
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+      CHECK(heard[i] == static_cast<std::int64_t>(i) + 1);
+    }
+  }
+}
+
+TEST_CASE("without the guard nothing is taken back") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::annulus(11, 6, 0.5), 8);
+  SmoothingOptions options;
+  options.method = Method::laplacian;
+  options.guard = false;
+  require_cpu_results(mesh, options);
+}
+
+TEST_CASE("the report names the device and counts launches, those of the device apart") {
+  const Mesh mesh = test_meshes::jittered_grid(20, 20, 0.45, 6);
+  for (const Execution execution : built_executions()) {
+    for (const Form form : forms) {
+      SmoothingOptions options = on_cuda(execution);
+      options.form = form;
+      const SmoothingResult result = run(mesh, options).result;
+      CHECK(result.backend == "cuda");
+      CHECK(result.device == cuda::survey_devices().devices.front().name);
+      CHECK(result.kernel_launches > 0);
+      CHECK(result.device_memory_bytes > 0);
+      CHECK(result.reproducible);
+      const std::int64_t passes = form == Form::swap ? result.sweeps : result.sweeps * result.colours;
+      CHECK(result.child_launches == (execution == Execution::cdp ? 2 * passes : 0));
+    }
+  }
+}
+
+TEST_CASE("unordered updates keep the contract and say that they are not reproducible") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(30, 30, 0.45, 6), 3);
+  const std::vector<double> before = mesh.xy();
+  for (const Execution execution : built_executions()) {
+    if (execution == Execution::resident) {
+      continue;
+    }
+    for (const Layout layout : layouts) {
+      SmoothingOptions options = on_cuda(execution);
+      options.order = Order::unordered;
+      options.layout = layout;
+      const Run found = run(mesh, options);
+      CHECK_FALSE(found.result.reproducible);
+      CHECK(found.result.colours == 0);
+      CHECK(found.result.moved_vertices > 0);
+      for (const double x : found.xy) {
+        REQUIRE(std::isfinite(x));
+      }
+      double worst_before = 1;
+      double worst_after = 1;
+      for (const Triangle& t : mesh.triangles) {
+        const auto shape_in = [&](const std::vector<double>& xy) {
+          const auto at = [&](std::int32_t v) { return Point2<double>{xy[2 * v], xy[2 * v + 1]}; };
+          return shape(at(t[0]), at(t[1]), at(t[2]));
+        };
+        worst_before = std::min(worst_before, shape_in(before));
+        worst_after = std::min(worst_after, shape_in(found.xy));
+      }
+      CHECK(worst_after >= worst_before);
+    }
+  }
+  SmoothingOptions options = on_cuda();
+  options.order = Order::unordered;
+  CHECK_THROWS_AS(run(mesh, options), std::invalid_argument);
+}
+
+TEST_CASE("a plan smooths new coordinates, and a mirrored mesh, as the CPU's plan does") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(15, 12, 0.45, 6), 3);
+  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+    SmoothingOptions options;
+    SmoothingPlan expected = plan(mesh.vertex_count(), mesh.indices(), {}, options);
+    options.backend = &cuda::backend();
+    options.topology = topology;
+    SmoothingPlan found = plan(mesh.vertex_count(), mesh.indices(), {}, options);
+    for (const double factor : {1.0, 0.5, -1.0, -3.0, 2.0}) {
+      std::vector<double> xy = mesh.xy();
+      for (std::size_t i = 0; i < xy.size(); i += 2) {
+        xy[i] *= factor;
+      }
+      Run by_cpu{xy, {}};
+      Run by_cuda{xy, {}};
+      by_cpu.result = expected.smooth(by_cpu.xy);
+      by_cuda.result = found.smooth(by_cuda.xy);
+      CAPTURE(factor);
+      require_same(by_cuda, by_cpu);
+    }
+  }
+}
+
+TEST_CASE("meshes in device memory are smoothed on the caller's stream") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(25, 20, 0.45, 6), 3);
+  const Run expected = run(mesh, {});
+  cuda::Context context;
+  cuda::DeviceBuffer<std::int32_t> triangles(context, mesh.indices());
+  cuda::DeviceBuffer<double> xy(context, mesh.xy());
+  std::vector<std::uint8_t> fixed(mesh.points.size());
+  fixed[200] = 1;
+  cuda::DeviceBuffer<std::uint8_t> device_fixed(context, fixed);
+  cuda::DeviceMesh device_mesh{
+      mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}};
+  for (const Execution execution : built_executions()) {
+    SmoothingOptions options;
+    options.execution = execution;
+    xy.upload(mesh.xy());
+    Run found{mesh.xy(), {}};
+    found.result = cuda::smooth(device_mesh, xy.data(), options, context.stream());
+    xy.download(found.xy);
+    require_same(found, expected);
+  }
+  SECTION("with constraints, again and again") {
+    device_mesh.constraints.fixed = device_fixed.data();
+    const Run held = run(mesh, {}, {.fixed = fixed});
+    cuda::Plan plan(device_mesh, {}, context.stream());
+    for (int i = 0; i < 3; ++i) {
+      xy.upload(mesh.xy());
+      Run found{mesh.xy(), {}};
+      found.result = plan.smooth(xy.data());
+      xy.download(found.xy);
+      require_same(found, held);
+    }
+  }
+  SECTION("in float") {
+    std::vector<float> floats;
+    Mesh rounded = mesh;
+    for (auto& p : rounded.points) {
+      floats.insert(floats.end(), {static_cast<float>(p.x), static_cast<float>(p.y)});
+      p = {rounded_to_float32(p.x), rounded_to_float32(p.y)};
+    }
+    const Run stored = run(rounded, {}, {}, Storage::float32);
+    cuda::DeviceBuffer<float> device_floats(context, floats);
+    cuda::smooth(device_mesh, device_floats.data(), {}, context.stream());
+    device_floats.download(floats);
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+      CAPTURE(i);
+      REQUIRE(static_cast<double>(floats[i]) == stored.xy[i]);
+    }
+  }
+}
+
+TEST_CASE("empty meshes, isolated vertices and hubs are smoothed like any other") {
+  require_cpu_results({}, {});
+  require_cpu_results({{{0, 0}, {1, 1}, {2, 0}}, {}}, {});
+  require_cpu_results(test_meshes::bow_tie(), {});
+  require_cpu_results(test_meshes::star(5000), {});
+  SmoothingOptions swap;
+  swap.form = Form::swap;
+  require_cpu_results(test_meshes::star(5000), swap);
+}
+
+TEST_CASE("a mesh that is none is refused with the host's message, and nothing changes") {
+  const Mesh mesh = test_meshes::jittered_grid(5, 5, 0.2, 1);
+  const auto message = [](const auto& function) -> std::string {
+    try {
+      function();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  SmoothingOptions options;
+  SmoothingOptions device = on_cuda();
+  device.topology = Topology::device;
+  Mesh out_of_range = mesh;
+  out_of_range.triangles[3][1] = 25;
+  CHECK(message([&] { run(out_of_range, device); }) == message([&] { run(out_of_range, options); }));
+  Mesh infinite = mesh;
+  infinite.points[7].y = std::numeric_limits<double>::infinity();
+  CHECK(message([&] { run(infinite, device); }) == message([&] { run(infinite, options); }));
+  std::vector<double> too_short(48);
+  CHECK(message([&] { plan(25, mesh.indices(), {}, device).smooth(too_short); }) ==
+        message([&] { plan(25, mesh.indices(), {}, options).smooth(too_short); }));
+  const std::vector<std::int32_t> no_vertex{99};
+  CHECK(message([&] { run(mesh, device, {.fixed_ids = no_vertex}); }) ==
+        message([&] { run(mesh, options, {.fixed_ids = no_vertex}); }));
+}
+
+TEST_CASE("too little device memory is an error that says how much is needed, and the next mesh is smoothed") {
+  const Mesh large = test_meshes::jittered_grid(2000, 1000, 0.3, 1);
+  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+    SmoothingOptions options = on_cuda();
+    options.topology = topology;
+    std::vector<double> xy = large.xy();
+    {
+      const Hoard hoard(std::size_t{40} << 20U);
+      std::string message;
+      try {
+        smooth(xy, large.indices(), {}, options);
+      } catch (const DeviceError& error) {
+        message = error.what();
+      }
+      CHECK(message.find("cudaErrorMemoryAllocation") != std::string::npos);
+      CHECK(message.find("MiB") != std::string::npos);
+      CHECK(same_bits(xy, large.xy()));
+    }
+    require_cpu_results(test_meshes::star(20), {});
+  }
+}
