@@ -9,6 +9,7 @@
 #include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/topology.h"
+#include "trismooth/cuda/uploaded_constraints.h"
 #include "trismooth/quality/workers.h"
 #include "trismooth/smoothing/triangle_topology.h"
 
@@ -58,15 +59,10 @@ MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span
   Context context;
   const DeviceBuffer<Triangle> device_triangles(context, triangles);
   const DeviceBuffer<Point2<double>> device_points(context, points);
-  const DeviceBuffer<std::uint8_t> fixed(context, constraints.fixed);
-  const DeviceBuffer<std::uint8_t> other_cells(context, constraints.other_cells);
-  const DeviceBuffer<std::int32_t> fixed_ids(context, constraints.fixed_ids);
-  const DeviceBuffer<std::int32_t> regions(context, constraints.regions);
-  const DeviceConstraints device_constraints{fixed.data(), other_cells.data(), fixed_ids.data(),
-                                             static_cast<std::int32_t>(fixed_ids.size()), regions.data()};
+  const UploadedConstraints uploaded(context, constraints);
   static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
   DeviceTopology topology(context, vertex_count, static_cast<std::int32_t>(triangles.size()),
-                          reinterpret_cast<const std::int32_t*>(device_triangles.data()), device_constraints, way);
+                          reinterpret_cast<const std::int32_t*>(device_triangles.data()), uploaded.view(), way);
   topology.orient(device_points.data());
 
   MeshRings found;
