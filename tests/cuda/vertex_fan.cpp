@@ -59,7 +59,7 @@ void require_linked(const TriangleTopology& topology, const TriangleList& triang
     // The edge to the neighbour before the vertex is the halfedge that starts at that neighbour.
     const std::int32_t halfedge = r % 2 == 0 ? corner : corner - corner % 3 + (corner % 3 + 2) % 3;
     const std::int32_t twin = topology.twins[halfedge];
-    const int partner = links.partners[r];
+    const std::int8_t partner = links.partners[r];
     if (twin < 0) {
       REQUIRE(partner == (twin == TriangleTopology::no_twin ? FanLinks::none : FanLinks::many));
     } else {
