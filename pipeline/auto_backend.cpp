@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/auto_backend.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -38,16 +39,22 @@ class NotedSmoother final : public PreparedSmoother {
 /// The device's smoother until it fails, the CPU's from then on.
 class FallingBackSmoother final : public PreparedSmoother {
  public:
-  FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, const Backend& cpu, const OneRings& rings,
-                      const SmoothingOptions& options)
-      : smoother_(std::move(device)), cpu_(cpu), rings_(rings), options_(options) {}
+  FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, double device_start_ms, const Backend& cpu,
+                      OneRings rings, SmoothingOptions options)
+      : smoother_(std::move(device)),
+        device_start_ms_(device_start_ms),
+        cpu_(cpu),
+        rings_(std::move(rings)),
+        options_(std::move(options)) {}
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
     if (!fell_back_) {
       // A device that fails on the way back has written some of them.
       const std::vector<Point2<double>> before(points.begin(), points.end());
       try {
-        return smoother_->smooth(points, storage, fixed_quotient);
+        SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
+        result.timings.prepare += device_start_ms_;
+        return result;
       } catch (const DeviceError& error) {
         std::ranges::copy(before, points.begin());
         fall_back(before, failure_note(error));
@@ -67,6 +74,7 @@ class FallingBackSmoother final : public PreparedSmoother {
   }
 
   std::unique_ptr<PreparedSmoother> smoother_;
+  double device_start_ms_;
   const Backend& cpu_;
   OneRings rings_;
   SmoothingOptions options_;
@@ -91,11 +99,14 @@ std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, st
   if (!is_large(count_free(rings))) {
     return cpu_.prepare(rings, points, options);
   }
+  // The first to ask starts CUDA, which can take longer than the smoothing.
+  const auto start = std::chrono::steady_clock::now();
   std::string note = cuda_.problem();
+  const double start_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (note.empty()) {
     try {
-      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), cpu_, rings,
-                                                   options);
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms, cpu_,
+                                                   rings, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }

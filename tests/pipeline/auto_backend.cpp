@@ -20,7 +20,8 @@ using trismooth::SmoothingResult;
 namespace {
 
 constexpr std::int32_t columns = 12;
-constexpr std::int64_t free_vertices = (columns - 2) * (columns - 2);
+constexpr std::int64_t vertices = 144;
+constexpr std::int64_t free_vertices = 100;
 
 CudaSupport support(const FakeBackend& backend, std::string problem = {}) {
   return {&backend, true, [problem = std::move(problem)] { return problem; }, {}};
@@ -116,8 +117,8 @@ TEST_CASE("auto has rings found by the device where the mesh is large enough and
     return automatic.find_rings(mesh.points, mesh.triangles, {}, options);
   };
   const FakeBackend cuda;
-  CHECK(find(AutoBackend(support(cuda), trismooth::cpu_backend(), columns * columns)));
-  CHECK_FALSE(find(AutoBackend(support(cuda), trismooth::cpu_backend(), columns * columns + 1)));
+  CHECK(find(AutoBackend(support(cuda), trismooth::cpu_backend(), vertices)));
+  CHECK_FALSE(find(AutoBackend(support(cuda), trismooth::cpu_backend(), vertices + 1)));
   CHECK_FALSE(find(AutoBackend(support(cuda, "cudaErrorNoDevice"), trismooth::cpu_backend(), 1)));
   CHECK(cuda.rings_found == 1);
   const FakeBackend failing(Failure::rings);
