@@ -7,8 +7,8 @@
 namespace trismooth {
 
 /// From this many free vertices on, smoothing on a GPU pays for starting CUDA and for the transfers there and back:
-/// measured on an H200 beside 16 cores, where a start takes a third of a second (benchmarks/results). With fewer cores it
-/// pays earlier.
+/// measured on an H200 beside 16 cores, where a start takes a third of a second (benchmarks/results). With fewer cores
+/// it pays earlier.
 inline constexpr std::int64_t free_vertices_for_cuda = 1'000'000;
 
 /// Takes CUDA where a device can be used and the mesh is large enough, else the CPU. Where CUDA fails, also in the

@@ -45,7 +45,9 @@ struct LocalFrame {
     return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(power) + 1023) << 52U);
   }
   /// value + centre that keeps the sign of a zero where there is no translation.
-  static TRISMOOTH_HOST_DEVICE double translated(double value, double centre) { return centre == 0 ? value : value + centre; }
+  static TRISMOOTH_HOST_DEVICE double translated(double value, double centre) {
+    return centre == 0 ? value : value + centre;
+  }
 };
 
 /// The local frame of the points, which are finite. A mesh scaled by a power of two enters its own frame with the same
