@@ -16,6 +16,8 @@ namespace {
 
 constexpr int curve_order = 16;  // 32 bits of curve under 32 bits of batch
 constexpr int curve_bits = 2 * curve_order;
+constexpr std::int32_t window_size = 1024;
+constexpr int size_bits = 5;
 
 __device__ const detail::HilbertTable hilbert_table_on_device = detail::make_hilbert_table();
 
@@ -56,6 +58,29 @@ __global__ void make_keys(RingsView rings, const Point2<double>* points, CurveGr
   vertices[v] = v;
 }
 
+/// Sorting by these keys puts vertices with rings of like size together within windows of each batch, so that the
+/// threads of a warp do the same. Fixed vertices stay last.
+__global__ void make_window_keys(RingsView rings, const std::int32_t* order, const std::int32_t* batches,
+                                 std::int32_t batch_count, std::uint64_t* keys) {
+  const std::int64_t i = thread_index();
+  if (i >= rings.size) {
+    return;
+  }
+  const auto place = static_cast<std::int32_t>(i);
+  if (place >= batches[batch_count]) {
+    keys[place] = ~std::uint64_t{0};
+    return;
+  }
+  std::int32_t batch = 0;
+  while (place >= batches[batch + 1]) {
+    ++batch;
+  }
+  // Windows are numbered on, one more for each batch: a batch ends with a window that is not full.
+  const std::int32_t window = batches[batch] / window_size + batch + (place - batches[batch]) / window_size;
+  const std::int32_t size = min(rings.ring_size(order[place]), (1 << size_bits) - 1);
+  keys[place] = static_cast<std::uint64_t>(window) << size_bits | static_cast<std::uint64_t>(size);
+}
+
 __global__ void number_vertices(const std::int32_t* input_index, std::int32_t vertex_count, std::int32_t free_count,
                                 RingsView rings, std::int32_t* new_number, std::uint32_t* ring_sizes) {
   const std::int64_t i = thread_index();
@@ -82,7 +107,7 @@ __global__ void copy_rings(RingsView from, const std::int32_t* input_index, cons
   }
 }
 
-/// Fills input_index and batches.
+/// Fills input_index, batches and batch_begins.
 void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point2<double>> points,
                     const DeviceBuffer<std::int32_t>& colours, std::int32_t batch_count, PackedDeviceRings& packed) {
   const auto count = static_cast<std::size_t>(rings.size);
@@ -97,13 +122,20 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
   points.reset();
   const int batch_bits = std::bit_width(static_cast<unsigned>(batch_count));
   sort_by_key(context, keys, vertices, curve_bits + batch_bits);
-  packed.input_index = std::move(vertices);
   std::vector<std::uint32_t> sizes(static_cast<std::size_t>(batch_count) + 1);
   batch_sizes.download(sizes);
   packed.batches.assign(1, 0);
   for (std::int32_t batch = 0; batch < batch_count; ++batch) {
     packed.batches.push_back(packed.batches.back() + static_cast<std::int32_t>(sizes[batch]));
   }
+  packed.batch_begins = DeviceBuffer<std::int32_t>(context, packed.batches);
+  make_window_keys<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(
+      rings, vertices.data(), packed.batch_begins.data(), batch_count, keys.data());
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  const auto windows = static_cast<unsigned>(rings.size / window_size + batch_count + 1);
+  // One bit more than windows need, for the fixed vertices.
+  sort_by_key(context, keys, vertices, size_bits + std::bit_width(windows) + 1);
+  packed.input_index = std::move(vertices);
 }
 
 }  // namespace
@@ -125,7 +157,6 @@ PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<P
   const std::int32_t batch_count = std::max(1, packed.colours);
   order_vertices(context, from, std::move(points), colouring.colours, batch_count, packed);
   colouring.colours.reset();
-  packed.batch_begins = DeviceBuffer<std::int32_t>(context, packed.batches);
 
   const std::int32_t free_count = packed.free_count();
   DeviceBuffer<std::int32_t> new_number(context, static_cast<std::size_t>(from.size));

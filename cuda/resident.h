@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <cuda_runtime_api.h>
@@ -11,21 +12,32 @@
 
 namespace trismooth::cuda {
 
-/// What the resident execution works on, in packed numbering: free vertices first, batch after batch.
+/// Positions of all vertices, and which free ones are to be evaluated.
 template <class T, Layout layout>
-struct ResidentMesh {
-  RingsView rings;                   ///< of the free vertices
-  PointArrays<T, layout> points[2];  ///< all vertices; Form B uses the first alone
-  /// Free vertices whose closed neighbourhood changed since their last evaluation: a byte each. Form B uses the first
-  /// alone.
-  std::uint8_t* marked[2];
+struct ResidentBuffer {
+  PointArrays<T, layout> points;
+  std::uint8_t* marked;  ///< a byte each: the closed neighbourhood changed since the last evaluation
 };
 
-/// Queues the resident execution: one launch of the whole GPU, with a barrier after each batch, that sweeps until the
-/// rules say stop or rules.sweeps are done. Sweep i of the launch adds to sums[i], which are zero before.
+/// What the resident execution works on, in packed numbering: free vertices first, batch after batch. Form B uses one
+/// buffer for both.
 template <class T, Layout layout>
-void launch_resident(Method method, const ResidentMesh<T, layout>& mesh, const LoopRules& rules, LoopState* state,
-                     SweepSums* sums, cudaStream_t stream);
+struct ResidentMesh {
+  RingsView rings;  ///< of the free vertices
+  ResidentBuffer<T, layout> first;
+  ResidentBuffer<T, layout> second;
+};
+
+/// Words for the barriers of a launch by these rules.
+std::size_t resident_barriers(const LoopRules& rules);
+
+/// Queues the resident execution: one launch of the whole GPU, with a barrier after each batch, that sweeps until the
+/// rules say stop or rules.sweeps are done. Sweep i of the launch adds to sums[i]. These and the resident_barriers()
+/// words of `barriers` are zero before. `largest_batch`: vertices of the largest batch.
+template <class T, Layout layout>
+void launch_resident(Method method, const ResidentMesh<T, layout>& mesh, const LoopRules& rules,
+                     std::int32_t largest_batch, LoopState* state, SweepSums* sums, unsigned long long* barriers,
+                     cudaStream_t stream);
 
 /// Queues the measuring of the smallest quotient of the triangles with a free vertex into sums->min_quotient.
 template <class T, Layout layout>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -43,6 +44,9 @@ class ResidentEngine final : public SweepEngine<T, layout> {
 
   ResidentEngine(Context& context, const PackedDeviceRings& rings, const SmoothingOptions& options)
       : context_(context), method_(options.method) {
+    for (std::size_t batch = 0; batch + 1 < rings.batches.size(); ++batch) {
+      largest_batch_ = std::max(largest_batch_, rings.batches[batch + 1] - rings.batches[batch]);
+    }
     const bool swaps = options.form == Form::swap;
     const auto count = static_cast<std::size_t>(rings.vertex_count());
     const auto free_count = static_cast<std::size_t>(rings.free_count());
@@ -52,21 +56,24 @@ class ResidentEngine final : public SweepEngine<T, layout> {
     }
     const std::size_t second = swaps ? 1 : 0;
     mesh_.rings = rings.rings.view();
-    mesh_.points[0] = Points(points_[0].data(), rings.vertex_count());
-    mesh_.points[1] = Points(points_[second].data(), rings.vertex_count());
-    mesh_.marked[0] = marked_[0].data();
-    mesh_.marked[1] = marked_[second].data();
+    mesh_.first = {Points(points_[0].data(), rings.vertex_count()), marked_[0].data()};
+    mesh_.second = {Points(points_[second].data(), rings.vertex_count()), marked_[second].data()};
   }
 
-  std::pair<Points, Points> input() override { return {mesh_.points[0], mesh_.points[1]}; }
+  std::pair<Points, Points> input() override { return {mesh_.first.points, mesh_.second.points}; }
   void begin() override {
     marked_[0].fill_bytes(1);
     marked_[1].fill_bytes(0);
   }
   void sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) override {
-    launch_resident(method_, mesh_, rules, state, sums, context_.stream());
+    const std::size_t barriers = resident_barriers(rules);
+    if (barriers_.size() < barriers) {
+      barriers_ = DeviceBuffer<unsigned long long>(context_, barriers);
+    }
+    barriers_.fill_bytes(0);
+    launch_resident(method_, mesh_, rules, largest_batch_, state, sums, barriers_.data(), context_.stream());
   }
-  Points output(std::int32_t current) override { return mesh_.points[current]; }
+  Points output(std::int32_t current) override { return current == 0 ? mesh_.first.points : mesh_.second.points; }
 
  private:
   Context& context_;
@@ -74,6 +81,8 @@ class ResidentEngine final : public SweepEngine<T, layout> {
   DeviceBuffer<T> points_[2];
   DeviceBuffer<std::uint8_t> marked_[2];
   ResidentMesh<T, layout> mesh_{};
+  std::int32_t largest_batch_ = 0;
+  DeviceBuffer<unsigned long long> barriers_;
 };
 
 /// Execution::single_block and Execution::cdp on the paper's mesh structure.

@@ -6,15 +6,15 @@
 
 namespace trismooth::cuda {
 
-/// The positions of a ring as an update reads them, straight from memory.
+/// The positions of a ring of any size as an update reads them, straight from memory.
 template <class T, Layout layout>
-struct RingPositions {
+struct RingInMemory {
   PointArrays<T, layout> points;
   const std::int32_t* ring;
   std::int32_t count;
 
   __device__ int size() const { return count; }
-  __device__ Point2<T> operator[](int i) const { return points.load(ring[i]); }
+  __device__ Point2<T> operator[](int i) const { return points.load(__ldg(ring + i)); }
 };
 
 }  // namespace trismooth::cuda
