@@ -43,7 +43,8 @@ enum class Topology : std::uint8_t {
 /// The working precision of the sweeps. The commit is always evaluated in double.
 enum class Precision : std::uint8_t { double_precision, single_precision };
 
-/// Which vertices a sweep evaluates. The result is the same bit for bit.
+/// Which vertices a sweep evaluates. The result is the same bit for bit. The CUDA executions single_block and cdp
+/// evaluate all, as the paper does, whatever is asked for.
 enum class Evaluation : std::uint8_t {
   changed,  ///< those whose closed neighbourhood changed since their last evaluation
   all,      ///< every free vertex in every sweep, as in the paper: for comparison
@@ -115,7 +116,8 @@ struct SmoothingOptions {
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
   int threads = 0;                         ///< 0: one for each core. The result does not depend on it
   bool record_min_shape = false;           ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
-  /// Called after every sweep, from the thread that called; `stop` ends the smoothing with a valid mesh.
+  /// Called after every sweep, from the thread that called; `stop` ends the smoothing with a valid mesh. With it, and
+  /// with a time limit, a device waits for the host after every sweep.
   std::function<Progress(const SweepRecord&)> progress{};
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
   const Backend* backend = nullptr;
