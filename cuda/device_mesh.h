@@ -37,8 +37,8 @@ class Plan {
   /// Smooths `xy` (x and y of every vertex, in device memory, aligned to 16 bytes as device allocations are) in place.
   /// Vertices that do not move keep their bits, the others are rounded to `storage`, or to float. The first call also
   /// finds orientation and rings and orders the mesh in memory; a later one repeats that only if the majority
-  /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite (`xy` is untouched
-  /// then), DeviceError.
+  /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite, DeviceError; `xy` is
+  /// untouched then, unless the device failed in the very last step, which writes it.
   SmoothingResult smooth(double* xy, Storage storage = Storage::float64);
   SmoothingResult smooth(float* xy);
 

@@ -14,8 +14,9 @@ struct MeshSize {
   std::int64_t ring_entries = 0;  ///< the sizes of all rings together
 };
 
-/// Bytes of device memory that it takes to pack rings and smooth them, coordinates included; the larger of both peaks.
-/// Within a few percent for the resident execution, an upper estimate for the others.
+/// An estimate of the device memory in bytes that it takes to pack rings and smooth them, coordinates included; the
+/// larger of both peaks. The list of what the commit takes back is not in it; for single_block and cdp it is a fifth
+/// too large on ordinary meshes.
 std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options);
 
 /// Bytes that a DeviceTopology keeps, the caller's triangles apart.

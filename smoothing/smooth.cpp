@@ -82,6 +82,8 @@ SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
   std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
   Orientation orientation = orient(topology_, triangles_, local);
   if (smoother_ == nullptr || orientation.reversed != reversed_) {
+    // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for it.
+    smoother_.reset();
     reversed_ = std::move(orientation.reversed);
     Workers workers(options_.threads);
     smoother_ =

@@ -13,7 +13,8 @@
 namespace trismooth {
 
 /// A mesh whose connectivity is analysed once and whose coordinates are smoothed as often as they change (moving
-/// meshes). Owns copies of all it needs; the caller's arrays may go.
+/// meshes). Owns copies of all it needs; the caller's arrays may go. One thread at a time may use a plan; several plans
+/// may be used at the same time. With a backend that runs on a device: from threads that have the same device current.
 class SmoothingPlan {
  public:
   /// `triangles`: 3 m vertex indices from 0, listed in either direction; orientation is made consistent per component.
@@ -25,7 +26,7 @@ class SmoothingPlan {
   /// Smooths `xy` (x and y of every vertex: 2 n numbers) in place. Vertices that do not move keep their bits, the
   /// others are rounded to `storage`. The first call also orders the mesh in memory; a later one repeats that only if
   /// the majority orientation of a component has changed. Throws std::invalid_argument for a wrong length, MeshError
-  /// for a coordinate that is not finite; `xy` is untouched then.
+  /// for a coordinate that is not finite, DeviceError; `xy` is untouched then.
   SmoothingResult smooth(std::span<double> xy, Storage storage = Storage::float64);
 
  private:

@@ -235,6 +235,9 @@ void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
   if (vertex_count < 0) {
     throw MeshError("the number of vertices is negative");
   }
+  if (triangle_count < 0) {
+    throw MeshError("the number of triangles is negative");
+  }
   if (triangle_count > std::numeric_limits<std::int32_t>::max() / 3) {
     throw MeshError("more than 715827882 triangles");
   }

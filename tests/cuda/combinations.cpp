@@ -34,6 +34,15 @@ using namespace trismooth;
 
 constexpr int skipped = 77;
 
+/// The executions of this build.
+std::vector<Execution> paper_executions() {
+  std::vector<Execution> built{Execution::single_block};
+  if (cuda::has_cdp()) {
+    built.push_back(Execution::cdp);
+  }
+  return built;
+}
+
 /// What a run is known by.
 struct Outcome {
   std::uint64_t committed = 0;
@@ -214,7 +223,9 @@ class Table {
     const Outcome expected = mesh.smooth(options);
     row(mesh.name(), options, expected, "cpu", "reference");
     options.backend = &cuda::backend();
-    for (const Execution execution : {Execution::single_block, Execution::cdp, Execution::resident}) {
+    std::vector<Execution> executions = paper_executions();
+    executions.push_back(Execution::resident);
+    for (const Execution execution : executions) {
       for (const Layout layout : {Layout::aos, Layout::soa}) {
         for (const Topology topology : {Topology::halfedge, Topology::device}) {
           options.execution = execution;
@@ -240,7 +251,7 @@ class Table {
     options.backend = &cuda::backend();
     options.form = Form::in_place;
     options.order = Order::unordered;
-    for (const Execution execution : {Execution::single_block, Execution::cdp}) {
+    for (const Execution execution : paper_executions()) {
       for (const Layout layout : {Layout::aos, Layout::soa}) {
         options.execution = execution;
         options.layout = layout;

@@ -13,6 +13,7 @@
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
+#include "support/fake_backend.h"
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
 
@@ -389,4 +390,28 @@ TEST_CASE("without a backend in the options it is the CPU's") {
   options.backend = &trismooth::cpu_backend();
   CHECK(&trismooth::backend_of(options) == &trismooth::cpu_backend());
   CHECK(trismooth::cpu_backend().name() == "cpu");
+}
+
+TEST_CASE("a plan that could not be prepared anew does not go on with what it had for another orientation") {
+  const Mesh mesh = test_meshes::jittered_grid(8, 7, 0.4, 3);
+  std::vector<double> mirrored = mesh.xy();
+  for (std::size_t i = 0; i < mirrored.size(); i += 2) {
+    mirrored[i] = -mirrored[i];
+  }
+  std::vector<double> expected = mirrored;
+  smooth(expected, mesh.indices());
+
+  fakes::FakeBackend device;
+  SmoothingOptions options;
+  options.backend = &device;
+  SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
+  std::vector<double> xy = mesh.xy();
+  plan.smooth(xy);
+  device.fail_next_at(fakes::Failure::prepare);
+  xy = mirrored;
+  CHECK_THROWS_AS(plan.smooth(xy), trismooth::DeviceError);
+  CHECK(xy == mirrored);
+  device.fail_next_at(fakes::Failure::none);
+  plan.smooth(xy);
+  CHECK(xy == expected);
 }

@@ -39,6 +39,9 @@ class FakeBackend final : public trismooth::Backend {
     return trismooth::find_mesh_rings(points, triangles, constraints, workers);
   }
 
+  /// From now on it fails there.
+  void fail_next_at(Failure failure) { failure_ = failure; }
+
   mutable int prepared = 0;     ///< calls of prepare()
   mutable int smoothed = 0;     ///< of smooth()
   mutable int rings_found = 0;  ///< of find_rings()
