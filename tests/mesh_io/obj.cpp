@@ -12,8 +12,8 @@
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
-#include "mesh_io/scratch_folder.h"
 #include "mesh_io/text_template.h"
+#include "support/scratch_folder.h"
 
 using trismooth::DataArray;
 using trismooth::FileFormat;

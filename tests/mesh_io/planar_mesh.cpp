@@ -12,7 +12,7 @@
 #include "trismooth/mesh_io/errors.h"
 
 #include "catch.h"
-#include "mesh_io/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 using trismooth::find_regions;
 using trismooth::fixed_by_array;

@@ -8,8 +8,8 @@
 #include "trismooth/mesh_io/errors.h"
 
 #include "catch.h"
-#include "mesh_io/scratch_folder.h"
 #include "mesh_io/text_template.h"
+#include "support/scratch_folder.h"
 
 using trismooth::ReadError;
 using trismooth::TextScanner;

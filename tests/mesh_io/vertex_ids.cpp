@@ -6,7 +6,7 @@
 #include "trismooth/mesh_io/planar_mesh.h"
 
 #include "catch.h"
-#include "mesh_io/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 using trismooth::read_vertex_ids;
 using trismooth::ReadError;

@@ -2,8 +2,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -12,7 +10,6 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/backend_choice.h"
@@ -22,6 +19,7 @@
 #include "catch.h"
 #include "sample_run.h"
 #include "support/fake_backend.h"
+#include "support/scratch_folder.h"
 
 using trismooth::CudaSupport;
 using trismooth::PipelineOptions;
@@ -85,29 +83,6 @@ CudaSupport cuda_with(const fakes::FakeBackend& backend, const std::string& prob
 template <class Error>
 Outcome call_failing_with(const Error& error) {
   return call({"smooth", "plate.vtk", "out.vtk"}, [&](const PipelineOptions&) -> PipelineResult { throw error; });
-}
-
-/// A folder that lasts as long as the test.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "trismooth_cli_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -298,13 +273,13 @@ TEST_CASE("each kind of failure has its exit code and one line of message") {
 TEST_CASE("failed gates are told one by one and answered with 1, after everything is written") {
   const ScratchFolder folder;
   const Outcome outcome = smooth({"--require", "min_shape>=0.5", "--require", "inverted==0", "--require",
-                                  "triangles>1000", "--report", folder.file("r.json")});
+                                  "triangles>1000", "--report", (folder / "r.json").string()});
   CHECK(outcome.code == 1);
   CHECK(outcome.says("gate failed: min_shape >= 0.5, is 0.35\n"));
   CHECK(outcome.says("gate failed: triangles > 1000, is 210\n"));
   CHECK_FALSE(outcome.says("inverted"));
   CHECK(outcome.shows("written:    out.vtk"));
-  CHECK_FALSE(contents(folder.file("r.json")).empty());
+  CHECK_FALSE(bytes_of(folder / "r.json").empty());
 }
 
 TEST_CASE("gates of smooth look at the result, those of quality at the mesh") {
@@ -314,21 +289,21 @@ TEST_CASE("gates of smooth look at the result, those of quality at the mesh") {
 
 TEST_CASE("reports of both kinds are written, as often as asked for") {
   const ScratchFolder folder;
-  const Outcome outcome =
-      smooth({"--report", folder.file("a.json"), "--report", folder.file("b.HTML"), "--report", folder.file("c.json")});
+  const Outcome outcome = smooth({"--report", (folder / "a.json").string(), "--report", (folder / "b.HTML").string(),
+                                  "--report", (folder / "c.json").string()});
   REQUIRE(outcome.code == 0);
-  CHECK(nlohmann::json::parse(contents(folder.file("a.json")))["input"]["vertices"] == 120);
-  CHECK(contents(folder.file("b.HTML")).starts_with("<!DOCTYPE html>"));
-  CHECK(contents(folder.file("c.json")) == contents(folder.file("a.json")));
-  CHECK(outcome.shows(folder.file("a.json")));
-  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 3);
+  CHECK(nlohmann::json::parse(bytes_of(folder / "a.json"))["input"]["vertices"] == 120);
+  CHECK(bytes_of(folder / "b.HTML").starts_with("<!DOCTYPE html>"));
+  CHECK(bytes_of(folder / "c.json") == bytes_of(folder / "a.json"));
+  CHECK(outcome.shows((folder / "a.json").string()));
+  CHECK(folder.size() == 3);
 }
 
 TEST_CASE("a report that cannot be written is answered with 4") {
   const ScratchFolder folder;
-  const Outcome outcome = smooth({"--report", folder.file("missing/a.json")});
+  const Outcome outcome = smooth({"--report", (folder / "missing/a.json").string()});
   CHECK(outcome.code == 4);
-  CHECK(outcome.says(folder.file("missing/a.json") + ": "));
+  CHECK(outcome.says((folder / "missing/a.json").string() + ": "));
 }
 
 TEST_CASE("quiet leaves errors and failed gates only") {
@@ -476,7 +451,7 @@ TEST_CASE("info never fails on the CUDA that is or is not on this machine") {
 
 TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothed in place") {
   const ScratchFolder folder;
-  const std::string mesh = folder.file("mesh.off");
+  const std::string mesh = (folder / "mesh.off").string();
   const Outcome made = call({"generate", mesh, "--vertices", "500", "--seed", "7"});
   REQUIRE(made.code == 0);
   CHECK(made.shows("500 vertices"));
@@ -485,25 +460,25 @@ TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothe
   CAPTURE(smoothed.err);
   CHECK(smoothed.code == 0);
   CHECK(smoothed.shows("500 vertices"));
-  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  CHECK(folder.size() == 1);
 }
 
 TEST_CASE("the same seed makes the same file, another seed another") {
   const ScratchFolder folder;
   const auto made_with = [&](const std::string& seed) {
-    REQUIRE(call({"generate", folder.file(seed + ".off"), "--vertices", "300", "--seed", seed}).code == 0);
-    return contents(folder.file(seed + ".off"));
+    REQUIRE(call({"generate", (folder / (seed + ".off")).string(), "--vertices", "300", "--seed", seed}).code == 0);
+    return bytes_of(folder / (seed + ".off"));
   };
   const std::string first = made_with("1");
-  REQUIRE(call({"generate", folder.file("again.off"), "--vertices", "300"}).code == 0);
-  CHECK(contents(folder.file("again.off")) == first);
+  REQUIRE(call({"generate", (folder / "again.off").string(), "--vertices", "300"}).code == 0);
+  CHECK(bytes_of(folder / "again.off") == first);
   CHECK(made_with("18446744073709551615") != first);
 }
 
 TEST_CASE("generate cannot write where there is no folder or no format") {
   const ScratchFolder folder;
-  CHECK(call({"generate", folder.file("mesh.xyz"), "--vertices", "10"}).code == 4);
-  CHECK(call({"generate", folder.file("missing/mesh.off"), "--vertices", "10"}).code == 4);
+  CHECK(call({"generate", (folder / "mesh.xyz").string(), "--vertices", "10"}).code == 4);
+  CHECK(call({"generate", (folder / "missing/mesh.off").string(), "--vertices", "10"}).code == 4);
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 

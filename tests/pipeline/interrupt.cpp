@@ -11,6 +11,7 @@
 #include "trismooth/mesh_io/output_file.h"
 
 #include "catch.h"
+#include "support/scratch_folder.h"
 
 using trismooth::interrupt_requested;
 using trismooth::InterruptGuard;
@@ -28,11 +29,6 @@ int outcome_of(const std::function<void()>& body) {
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-}
-
-std::filesystem::path scratch_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "trismooth_interrupt_XXXXXX").string();
-  return ::mkdtemp(name.data());
 }
 
 }  // namespace
@@ -57,7 +53,7 @@ TEST_CASE("a new guard forgets the signals of the last one") {
 }
 
 TEST_CASE("the second signal removes unfinished files and ends the process with 130") {
-  const auto folder = scratch_folder();
+  const ScratchFolder folder;
   const int outcome = outcome_of([&] {
     const InterruptGuard guard(OnInterrupt::ask);
     const trismooth::OutputFile unfinished(folder / "mesh.off");
@@ -65,20 +61,18 @@ TEST_CASE("the second signal removes unfinished files and ends the process with 
     std::raise(SIGTERM);
   });
   CHECK(outcome == 130);
-  CHECK(std::filesystem::is_empty(folder));
-  std::filesystem::remove_all(folder);
+  CHECK(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_CASE("where the guard is to exit, the first signal does that") {
-  const auto folder = scratch_folder();
+  const ScratchFolder folder;
   const int outcome = outcome_of([&] {
     const InterruptGuard guard(OnInterrupt::exit);
     const trismooth::OutputFile unfinished(folder / "mesh.off");
     std::raise(SIGINT);
   });
   CHECK(outcome == 130);
-  CHECK(std::filesystem::is_empty(folder));
-  std::filesystem::remove_all(folder);
+  CHECK(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_CASE("without a guard, signals do what they did before") {

@@ -3,16 +3,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <iterator>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 #include "trismooth/mesh_io/errors.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
+#include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
 using trismooth::PipelineOptions;
@@ -24,8 +22,6 @@ namespace {
 class Files {
  public:
   explicit Files(const test_meshes::Mesh& mesh) {
-    std::string name = (std::filesystem::temp_directory_path() / "trismooth_run_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
     std::ofstream file(folder_ / "in.off");
     file << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() << " 0\n" << std::setprecision(17);
     for (const auto& [x, y] : mesh.points) {
@@ -35,9 +31,6 @@ class Files {
       file << "3 " << a << ' ' << b << ' ' << c << '\n';
     }
   }
-  Files(const Files&) = delete;
-  Files& operator=(const Files&) = delete;
-  ~Files() { std::filesystem::remove_all(folder_); }
 
   PipelineOptions options() const {
     PipelineOptions options;
@@ -45,13 +38,10 @@ class Files {
     options.output = folder_ / "out.off";
     return options;
   }
-  std::string output() const {
-    std::ifstream file(folder_ / "out.off", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string output() const { return bytes_of(folder_ / "out.off"); }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 /// A mesh with much that topology has to find: two components of opposite orientation, an edge with three triangles,
