@@ -1,0 +1,155 @@
+#include <cstdio>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/topology.h"
+
+#include "gpu_smoothing_experiments.h"
+
+namespace benchmarks {
+
+using namespace trismooth;
+
+namespace {
+
+void measure_rings(Session& session, const RandomMesh& mesh) {
+  cuda::Context context;
+  const double upload = milliseconds_of([&] {
+    const cuda::DeviceBuffer<std::int32_t> copy(context, indices_of(mesh));
+    context.synchronize();
+  });
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, indices_of(mesh));
+  // The unit square is a local frame.
+  const cuda::DeviceBuffer<Point2<double>> points(context, mesh.points);
+  context.synchronize();
+  const std::size_t there = context.bytes_in_use();
+  std::vector<double> topology_ms;
+  std::vector<double> orient_ms;
+  std::vector<double> rings_ms;
+  std::vector<double> total;
+  for (int run = -1; run < session.settings().runs; ++run) {
+    std::optional<cuda::DeviceTopology> topology;
+    cuda::DeviceRings rings;
+    const double connect = milliseconds_of([&] {
+      topology.emplace(context, vertex_count_of(mesh), static_cast<std::int32_t>(mesh.triangles.size()),
+                       triangles.data(), cuda::DeviceConstraints{}, cuda::NeighbourFinding::parallel);
+      context.synchronize();
+    });
+    const double orient = milliseconds_of([&] {
+      topology->orient(points.data());
+      context.synchronize();
+    });
+    const double build = milliseconds_of([&] {
+      rings = topology->rings();
+      context.synchronize();
+    });
+    if (run >= 0) {  // the first warms up
+      topology_ms.push_back(connect);
+      orient_ms.push_back(orient);
+      rings_ms.push_back(build);
+      total.push_back(connect + orient + build);
+    }
+  }
+  const double bytes = static_cast<double>(context.peak_bytes() - there) / vertex_count_of(mesh);
+  fmt::print(" {:>9} {:>9} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.1f}\n", vertex_count_of(mesh),
+             mesh.triangles.size(), Spread(total).text(), Spread(topology_ms).median, Spread(orient_ms).median,
+             Spread(rings_ms).median, upload, bytes);
+  std::fflush(stdout);
+  session.report()["rings"].push_back({{"vertices", vertex_count_of(mesh)},
+                                       {"triangles", mesh.triangles.size()},
+                                       {"runs", session.settings().runs},
+                                       {"total_ms", Spread(total).json()},
+                                       {"topology_ms", Spread(topology_ms).json()},
+                                       {"orient_ms", Spread(orient_ms).json()},
+                                       {"rings_ms", Spread(rings_ms).json()},
+                                       {"upload_of_triangles_ms", upload},
+                                       {"device_bytes_per_vertex", bytes}});
+}
+
+void measure_plan(Session& session, const RandomMesh& mesh, const std::string& layout, const std::string& form,
+                  const std::string& precision) {
+  cuda::Context context;
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, indices_of(mesh));
+  const cuda::DeviceBuffer<double> original(context, coordinates_of(mesh));
+  cuda::DeviceBuffer<double> xy(context, original.size());
+  cuda::Plan plan({vertex_count_of(mesh), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}},
+                  session.options("resident", layout, form, precision, mesh), context.stream());
+  SameBits bits(session);
+  std::vector<double> calls;
+  std::vector<double> prepare;
+  std::vector<double> sweeps;
+  std::vector<double> commit;
+  SmoothingResult result;
+  double first = 0;
+  for (int run = -1; run < session.settings().runs; ++run) {
+    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(xy.data(), original.data(), original.size() * sizeof(double),
+                                         cudaMemcpyDeviceToDevice, context.stream()));
+    context.synchronize();
+    const double call = milliseconds_of([&] {
+      result = plan.smooth(xy.data());
+      context.synchronize();
+    });
+    std::vector<double> found(xy.size());
+    xy.download(found);
+    bits.compare(found);
+    if (run < 0) {  // it also finds and packs the rings
+      first = call;
+      continue;
+    }
+    calls.push_back(call);
+    prepare.push_back(result.timings.prepare);
+    sweeps.push_back(result.timings.smooth);
+    commit.push_back(result.timings.commit);
+  }
+  fmt::print(" {:>9} {:<4} {:<4} {:<6} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>6}\n", vertex_count_of(mesh),
+             layout, form, precision, Spread(calls).text(), Spread(prepare).median, Spread(sweeps).median,
+             Spread(commit).median, first, result.sweeps);
+  std::fflush(stdout);
+  session.report()["plan"].push_back({{"vertices", vertex_count_of(mesh)},
+                                      {"layout", layout},
+                                      {"form", form},
+                                      {"precision", precision},
+                                      {"method", session.settings().method},
+                                      {"runs", session.settings().runs},
+                                      {"sweeps", result.sweeps},
+                                      {"call_ms", Spread(calls).json()},
+                                      {"prepare_ms", Spread(prepare).json()},
+                                      {"sweeps_ms", Spread(sweeps).json()},
+                                      {"commit_ms", Spread(commit).json()},
+                                      {"first_call_ms", first},
+                                      {"coordinates_hash", bits.hash()}});
+}
+
+}  // namespace
+
+void find_rings(Session& session) {
+  session.require_device();
+  fmt::print(
+      "\none-rings from triangles on the device: milliseconds by the host's clock, median (least-most)\n"
+      " {:>9} {:>9} {:>24} {:>9} {:>9} {:>9} {:>9} {:>7}\n",
+      "vertices", "triangles", "all", "topology", "orient", "rings", "upload", "B/vtx");
+  for (const std::int64_t vertices : session.sizes({1'000'000, 10'000'000})) {
+    measure_rings(session, session.mesh(vertices));
+  }
+}
+
+void call_plan_again(Session& session) {
+  session.require_device();
+  fmt::print(
+      "\na plan called again, coordinates on the device: milliseconds by the host's clock, median (least-most)\n"
+      " {:>9} {:<4} {:<4} {:<6} {:>24} {:>9} {:>9} {:>9} {:>9} {:>6}\n",
+      "vertices", "lay.", "form", "prec.", "a call", "prepare", "sweeps", "commit", "first", "sweeps");
+  for (const std::int64_t vertices : session.sizes({100'000})) {
+    for (const std::string& precision : session.settings().precisions) {
+      for (const std::string& form : session.settings().forms) {
+        for (const std::string& layout : session.settings().layouts) {
+          measure_plan(session, session.mesh(vertices), layout, form, precision);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,162 @@
+#include "gpu_smoothing_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include <cuda_runtime_api.h>
+#include <fmt/format.h>
+
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/error.h"
+#include "trismooth/pipeline/coordinates_hash.h"
+
+namespace benchmarks {
+
+using namespace trismooth;
+
+namespace {
+
+/// From this many vertices on the device finds the topology, unless the command line says otherwise: the host would
+/// take longer than everything that is measured.
+constexpr std::int64_t vertices_for_device_topology = 4'000'000;
+
+double copy_bandwidth() {
+  constexpr std::size_t bytes = std::size_t{1} << 30U;
+  constexpr int runs = 9;
+  void* from = nullptr;
+  void* to = nullptr;
+  TRISMOOTH_CUDA_CHECK(cudaMalloc(&from, bytes));
+  TRISMOOTH_CUDA_CHECK(cudaMalloc(&to, bytes));
+  TRISMOOTH_CUDA_CHECK(cudaMemset(from, 1, bytes));
+  cudaEvent_t start = nullptr;
+  cudaEvent_t stop = nullptr;
+  TRISMOOTH_CUDA_CHECK(cudaEventCreate(&start));
+  TRISMOOTH_CUDA_CHECK(cudaEventCreate(&stop));
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    TRISMOOTH_CUDA_CHECK(cudaEventRecord(start));
+    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice));
+    TRISMOOTH_CUDA_CHECK(cudaEventRecord(stop));
+    TRISMOOTH_CUDA_CHECK(cudaEventSynchronize(stop));
+    float elapsed = 0;
+    TRISMOOTH_CUDA_CHECK(cudaEventElapsedTime(&elapsed, start, stop));
+    seconds.push_back(static_cast<double>(elapsed) / 1000);
+  }
+  TRISMOOTH_CUDA_CHECK(cudaEventDestroy(start));
+  TRISMOOTH_CUDA_CHECK(cudaEventDestroy(stop));
+  TRISMOOTH_CUDA_CHECK(cudaFree(from));
+  TRISMOOTH_CUDA_CHECK(cudaFree(to));
+  return 2 * static_cast<double>(bytes) / Spread(seconds).median;
+}
+
+}  // namespace
+
+Spread::Spread(std::vector<double> values) {
+  std::ranges::sort(values);
+  median = values[values.size() / 2];
+  least = values.front();
+  most = values.back();
+}
+
+std::string Spread::text() const {
+  const int digits = median < 10 ? 3 : median < 1000 ? 2 : 0;
+  return fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", median, digits, least, digits, most, digits);
+}
+
+Session::Session(const Settings& settings) : settings_(settings) {
+  const cuda::DeviceSurvey survey = cuda::survey_devices();
+  has_device_ = !survey.devices.empty();
+  report_["device"] = has_device_ ? survey.devices.front().name : survey.problem;
+  if (has_device_) {
+    bandwidth_ = copy_bandwidth();
+    report_["copy_bandwidth_bytes_per_second"] = bandwidth_;
+  }
+  fmt::print("device: {}; a copy in device memory: {:.2f} TB/s\n", report_["device"].get<std::string>(),
+             bandwidth_ / 1e12);
+}
+
+void Session::require_device() const {
+  cuda::require_device();
+}
+
+std::vector<std::int64_t> Session::sizes(std::initializer_list<std::int64_t> of_experiment) const {
+  return settings_.vertices.empty() ? std::vector(of_experiment) : settings_.vertices;
+}
+
+const RandomMesh& Session::mesh(std::int64_t vertices) {
+  const auto found = meshes_.find(vertices);
+  return found != meshes_.end() ? found->second
+                                : meshes_.emplace(vertices, random_delaunay_mesh(vertices, 1)).first->second;
+}
+
+SmoothingOptions Session::options(const std::string& execution, const std::string& layout, const std::string& form,
+                                  const std::string& precision, const RandomMesh& mesh) const {
+  SmoothingOptions options;
+  options.method = parse_enum<Method>(settings_.method);
+  options.form = parse_enum<Form>(form);
+  options.precision = parse_enum<Precision>(precision);
+  options.evaluation = settings_.evaluation == "all" ? Evaluation::all : Evaluation::changed;
+  options.max_sweeps = settings_.max_sweeps;
+  options.threads = settings_.threads;
+  if (execution != "cpu") {
+    options.backend = &cuda::backend();
+    options.execution = parse_enum<Execution>(execution);
+    options.layout = parse_enum<Layout>(layout);
+    if (settings_.topology != "auto") {
+      options.topology = parse_enum<Topology>(settings_.topology);
+    } else if (vertex_count_of(mesh) >= vertices_for_device_topology) {
+      options.topology = Topology::device;
+    }
+  }
+  return options;
+}
+
+void SameBits::compare(std::span<const double> xy) {
+  if (first_.empty()) {
+    first_.assign(xy.begin(), xy.end());
+  } else if (xy.size() != first_.size() || std::memcmp(xy.data(), first_.data(), xy.size_bytes()) != 0) {
+    session_.note_different_bits();
+    fmt::print("   DIFFERENT BITS\n");
+  }
+}
+
+std::string SameBits::hash() const {
+  std::vector<double> xyz;
+  xyz.reserve(first_.size() / 2 * 3);
+  for (std::size_t i = 0; i < first_.size(); i += 2) {
+    xyz.insert(xyz.end(), {first_[i], first_[i + 1], 0.0});
+  }
+  return hash_text(coordinates_hash(xyz));
+}
+
+std::span<const std::int32_t> indices_of(const RandomMesh& mesh) {
+  return {mesh.triangles.front().data(), 3 * mesh.triangles.size()};
+}
+
+std::span<const double> coordinates_of(const RandomMesh& mesh) {
+  return {&mesh.points.front().x, 2 * mesh.points.size()};
+}
+
+std::int32_t vertex_count_of(const RandomMesh& mesh) {
+  return static_cast<std::int32_t>(mesh.points.size());
+}
+
+double milliseconds_of(const std::function<void()>& function) {
+  const auto start = std::chrono::steady_clock::now();
+  function();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::uint64_t most_memory_used() {
+  cudaMemPool_t pool = nullptr;
+  TRISMOOTH_CUDA_CHECK(cudaDeviceGetDefaultMemPool(&pool, 0));
+  std::uint64_t used = 0;
+  TRISMOOTH_CUDA_CHECK(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrUsedMemHigh, &used));
+  std::uint64_t zero = 0;
+  TRISMOOTH_CUDA_CHECK(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrUsedMemHigh, &zero));
+  return used;
+}
+
+}  // namespace benchmarks
