@@ -3,11 +3,74 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "trismooth/quality/point2.h"
 
 namespace trismooth {
+
+/// What the local frame is made of: powers of two from their bits, which give the same on the host and on the device
+/// and are cheap enough to recompute for every point.
+namespace local_frame_details {
+
+/// 2^power for |power| <= 1022.
+inline TRISMOOTH_HOST_DEVICE double power_of_two(int power) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(power) + 1023) << 52U);
+}
+
+/// value * 2^power for |power| <= 2044, in two steps since 2^power alone may be out of range.
+inline TRISMOOTH_HOST_DEVICE double scaled(double value, int power) {
+  const int half = power / 2;
+  return value * power_of_two(half) * power_of_two(power - half);
+}
+
+/// The largest e with 2^e <= |value|, for a normal number.
+inline TRISMOOTH_HOST_DEVICE int normal_exponent(double value) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52U & 0x7FFU) - 1023;
+}
+
+/// The same for any finite number but 0: a subnormal one is made normal first.
+inline TRISMOOTH_HOST_DEVICE int exponent_of(double value) {
+  return std::abs(value) < std::numeric_limits<double>::min() ? normal_exponent(value * 0x1p54) - 54
+                                                              : normal_exponent(value);
+}
+
+struct Axis {
+  static constexpr int no_extent = std::numeric_limits<int>::min();
+
+  double centre = 0;
+  int exponent = no_extent;  ///< the extent is within [2^(exponent - 1), 2^exponent]
+};
+
+inline TRISMOOTH_HOST_DEVICE Axis fit_axis(double low, double high) {
+  Axis axis;
+  if (low == high) {
+    // Added to, a zero has lost its sign: which of two zeros is the lowest depends on who looks first.
+    axis.centre = low + 0.0;
+    return axis;
+  }
+  // In units of the largest coordinate neither sum nor difference overflows, and subnormals have room below them.
+  const double largest = std::abs(low) > std::abs(high) ? low : high;
+  const int unit = exponent_of(largest);
+  const double low_in_units = scaled(low, -unit);
+  const double high_in_units = scaled(high, -unit);
+  const double extent = high_in_units - low_in_units;
+  const double middle = (low_in_units + high_in_units) / 2;
+
+  const int extent_exponent = exponent_of(extent);
+  axis.exponent = extent_exponent + unit + 1;
+  // Beyond this distance every coordinate is between half and twice the centre, so the subtraction is exact.
+  if (std::abs(middle) >= 1.5 * extent) {
+    // A centre of few digits is representable where the coordinates are, in the subnormal range too: the frame of a
+    // mesh scaled by a power of two is then scaled exactly.
+    const int grid = extent_exponent - 3;
+    axis.centre = scaled(std::round(scaled(middle, -grid)), grid + unit);
+  }
+  return axis;
+}
+
+}  // namespace local_frame_details
 
 /// The coordinates in which a mesh is smoothed and evaluated: a translation per axis, made only where it is exact,
 /// and a scale that is a power of two. Coordinates of the local frame lie within [-2, 2], the larger extent of the
@@ -22,11 +85,13 @@ struct LocalFrame {
 
   /// From the coordinates of the file to the local frame.
   TRISMOOTH_HOST_DEVICE Point2<double> enter(Point2<double> stored) const {
+    using local_frame_details::scaled;
     return {scaled(stored.x - centre_x, -exponent), scaled(stored.y - centre_y, -exponent)};
   }
 
   /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated.
   TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local) const {
+    using local_frame_details::scaled;
     return {translated(scaled(local.x, exponent), centre_x), translated(scaled(local.y, exponent), centre_y)};
   }
 
@@ -35,15 +100,6 @@ struct LocalFrame {
   double length_scale() const { return std::ldexp(1.0, exponent); }
 
  private:
-  /// value * 2^power for |power| <= 2044, in two steps since 2^power alone may be out of range.
-  static TRISMOOTH_HOST_DEVICE double scaled(double value, int power) {
-    const int half = power / 2;
-    return value * power_of_two(half) * power_of_two(power - half);
-  }
-  /// 2^power for |power| <= 1022, from its bits: cheap enough to recompute for every point.
-  static TRISMOOTH_HOST_DEVICE double power_of_two(int power) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(power) + 1023) << 52U);
-  }
   /// value + centre that keeps the sign of a zero where there is no translation.
   static TRISMOOTH_HOST_DEVICE double translated(double value, double centre) {
     return centre == 0 ? value : value + centre;
@@ -54,7 +110,13 @@ struct LocalFrame {
 /// bits. An axis along which all points are equal is translated to 0. No points: the identity. Complexity: linear.
 LocalFrame local_frame(std::span<const Point2<double>> stored);
 
-/// The same from the corners of the points' bounding box.
-LocalFrame local_frame(Point2<double> low, Point2<double> high);
+/// The same from the corners of the points' bounding box, on the host or on the device.
+inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<double> high) {
+  using local_frame_details::Axis;
+  const Axis x = local_frame_details::fit_axis(low.x, high.x);
+  const Axis y = local_frame_details::fit_axis(low.y, high.y);
+  const int exponent = x.exponent > y.exponent ? x.exponent : y.exponent;
+  return {x.centre, y.centre, exponent == Axis::no_extent ? 0 : exponent};
+}
 
 }  // namespace trismooth

@@ -1,5 +1,6 @@
 #include "trismooth/quality/local_frame.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -38,6 +39,37 @@ Points random_points(Point centre, Point extent, std::uint64_t seed = 1) {
     points.push_back({centre.x + x * extent.x, centre.y + part(random) * extent.y});
   }
   return points;
+}
+
+/// One axis of the frame by the C library's means.
+struct ReferenceAxis {
+  double centre;
+  int exponent;
+};
+
+ReferenceAxis reference_axis(double low, double high) {
+  const int unit = std::ilogb(std::max(std::abs(low), std::abs(high)));
+  const double low_in_units = std::ldexp(low, -unit);
+  const double high_in_units = std::ldexp(high, -unit);
+  const double extent = high_in_units - low_in_units;
+  const double middle = (low_in_units + high_in_units) / 2;
+  const int exponent = std::ilogb(extent) + unit + 1;
+  if (std::abs(middle) < 1.5 * extent) {
+    return {0, exponent};
+  }
+  const int grid = std::ilogb(extent) - 3;
+  return {std::ldexp(std::round(std::ldexp(middle, -grid)), grid + unit), exponent};
+}
+
+/// The frame of a box that has an extent along both axes.
+void require_reference_frame(Point low, Point high) {
+  CAPTURE(low.x, low.y, high.x, high.y);
+  const ReferenceAxis x = reference_axis(low.x, high.x);
+  const ReferenceAxis y = reference_axis(low.y, high.y);
+  const LocalFrame frame = local_frame(low, high);
+  REQUIRE(same_bits(frame.centre_x, x.centre));
+  REQUIRE(same_bits(frame.centre_y, y.centre));
+  REQUIRE(frame.exponent == std::max(x.exponent, y.exponent));
 }
 
 Points entered(const Points& stored) {
@@ -216,6 +248,51 @@ TEST_CASE("meshes without extent along an axis") {
     CHECK(frame.enter({10, 5}) == Point{0.625, 0});
     CHECK(frame.leave({0.625, 0}) == Point{10, 5});
   }
+}
+
+TEST_CASE("exponents and scales have the C library's bits for boxes of every size and place") {
+  std::mt19937_64 random(11);
+  // Any bits but those of infinities and what is no number: every exponent, subnormals among them.
+  const auto any_number = [&random] {
+    double number = 0;
+    do {
+      number = std::bit_cast<double>(random());
+    } while (!std::isfinite(number));
+    return number;
+  };
+  const auto subnormal = [&random] { return std::bit_cast<double>(random() >> (12 + random() % 52)); };
+  const auto check = [](Point a, Point b) {
+    if (a.x != b.x && a.y != b.y) {
+      require_reference_frame({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
+    }
+  };
+  for (int i = 0; i < 20000; ++i) {
+    check({any_number(), any_number()}, {any_number(), any_number()});
+    check({subnormal(), -subnormal()}, {subnormal(), subnormal()});
+    check({any_number(), 0}, {0, subnormal()});
+    // Close together: from the next number on, to far enough apart not to be translated.
+    const Point low{any_number(), std::abs(subnormal()) + std::numeric_limits<double>::min()};
+    const auto further = [&random](double from) {
+      return std::bit_cast<double>(std::bit_cast<std::uint64_t>(from) + (random() >> (8 + random() % 56)));
+    };
+    const Point high{further(low.x), further(low.y)};
+    if (std::isfinite(high.x)) {
+      check(low, high);
+    }
+  }
+  const double most = std::numeric_limits<double>::max();
+  const double least = std::numeric_limits<double>::denorm_min();
+  for (const double a : {-most, -1.0, -least, 0.0, least, 1.0, most}) {
+    for (const double b : {-most, -1.0, -least, 0.0, least, 1.0, most}) {
+      check({a, a}, {b, b});
+      check({a, b}, {std::nextafter(a, b), std::nextafter(b, a)});
+    }
+  }
+}
+
+TEST_CASE("an axis on which zeros of both signs lie has one frame, whichever comes first") {
+  CHECK(same_bits(local_frame(Points{{0.0, 1}, {-0.0, 2}}).centre_x, 0.0));
+  CHECK(same_bits(local_frame(Points{{-0.0, 1}, {0.0, 2}}).centre_x, 0.0));
 }
 
 TEST_CASE("the length scale is the power of two of the frame") {
