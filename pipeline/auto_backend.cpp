@@ -19,7 +19,12 @@ std::string failure_note(const DeviceError& error) {
   return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
 }
 
-/// The CPU's smoother, and why it was taken.
+/// Both notes; each may be empty.
+std::string joined(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
+/// A smoother, and what the user is to know of how it came about.
 class NotedSmoother final : public PreparedSmoother {
  public:
   NotedSmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
@@ -27,7 +32,7 @@ class NotedSmoother final : public PreparedSmoother {
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
     SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
-    result.backend_note = note_;
+    result.backend_note = joined(note_, result.backend_note);
     return result;
   }
 
@@ -96,6 +101,7 @@ AutoBackend::AutoBackend(CudaSupport cuda, const Backend& cpu, std::int64_t free
 
 std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, std::span<const Point2<double>> points,
                                                        const SmoothingOptions& options) const {
+  const std::string rings_note = take_rings_note();
   if (!is_large(count_free(rings))) {
     return cpu_.prepare(rings, points, options);
   }
@@ -105,15 +111,19 @@ std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, st
   const double start_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (note.empty()) {
     try {
-      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms, cpu_,
-                                                   rings, options);
+      auto smoother = std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms,
+                                                            cpu_, rings, options);
+      if (rings_note.empty()) {
+        return smoother;
+      }
+      return std::make_unique<NotedSmoother>(std::move(smoother), rings_note);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }
   } else {
     note.insert(0, "no CUDA device: ");
   }
-  return std::make_unique<NotedSmoother>(cpu_.prepare(rings, points, options), std::move(note));
+  return std::make_unique<NotedSmoother>(cpu_.prepare(rings, points, options), joined(rings_note, note));
 }
 
 std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>> points,
@@ -124,9 +134,16 @@ std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>>
   }
   try {
     return cuda_.backend->find_rings(points, triangles, constraints, options);
-  } catch (const DeviceError&) {
-    return cpu_.find_rings(points, triangles, constraints, options);
+  } catch (const DeviceError& error) {
+    const std::lock_guard lock(rings_note_mutex_);
+    rings_note_ = "the CPU found the rings: " + failure_note(error);
   }
+  return cpu_.find_rings(points, triangles, constraints, options);
+}
+
+std::string AutoBackend::take_rings_note() const {
+  const std::lock_guard lock(rings_note_mutex_);
+  return std::exchange(rings_note_, {});
 }
 
 }  // namespace trismooth

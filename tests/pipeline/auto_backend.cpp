@@ -125,3 +125,24 @@ TEST_CASE("auto has rings found by the device where the mesh is large enough and
   CHECK_FALSE(find(AutoBackend(support(failing), trismooth::cpu_backend(), 1)));
   CHECK(failing.rings_found == 1);
 }
+
+TEST_CASE("where the device fails to find the rings, the smoothing that follows says so, once") {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  const FakeBackend cuda(Failure::rings);
+  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
+  SmoothingOptions options;
+  options.topology = trismooth::Topology::device;
+  options.backend = &automatic;
+  trismooth::Workers workers(1);
+  const auto smoothed = [&] {
+    auto points = mesh.points;
+    const auto found = trismooth::rings_for(options, points, mesh.triangles, {}, workers);
+    return automatic.prepare(found.rings, points, options)->smooth(points, trismooth::Storage::float64, 1);
+  };
+  const SmoothingResult result = smoothed();
+  CHECK(result.backend == "cuda");
+  CHECK(result.backend_note ==
+        "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
+  options.topology = trismooth::Topology::halfedge;
+  CHECK(smoothed().backend_note.empty());
+}
