@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "trismooth/cuda/context.h"
 #include "trismooth/cuda/device_buffer.h"
@@ -26,6 +28,18 @@ T download(const Context& context, const T* value) {
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&result, value, sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
   context.synchronize();
   return result;
+}
+
+/// Waits for the device and returns `count` of its values.
+template <class T>
+std::vector<T> download(const Context& context, const T* values, std::size_t count) {
+  std::vector<T> copy(count);
+  if (count > 0) {
+    TRISMOOTH_CUDA_CHECK(
+        cudaMemcpyAsync(copy.data(), values, count * sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
+  }
+  context.synchronize();
+  return copy;
 }
 
 }  // namespace trismooth::cuda

@@ -19,7 +19,7 @@ struct DeviceInfo {
 /// What CUDA finds on this machine.
 struct DeviceSurvey {
   std::vector<DeviceInfo> devices;
-  std::string problem;     ///< why there are none, with the CUDA error's name; empty where there are some
+  std::string problem;     ///< why there are none, or not all, with the CUDA error's name; else empty
   int driver_version = 0;  ///< CUDA version of the driver, as 1000 major + 10 minor; 0: no driver
   int runtime_version = 0;
 };

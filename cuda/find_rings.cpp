@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/device_buffer.h"
-#include "trismooth/cuda/error.h"
 #include "trismooth/cuda/topology.h"
 #include "trismooth/cuda/uploaded_constraints.h"
 #include "trismooth/quality/workers.h"
@@ -28,23 +28,12 @@ void check_lengths(std::int32_t vertex_count, std::span<const Triangle> triangle
   }
 }
 
-template <class T>
-std::vector<T> copied_to_host(Context& context, const T* values, std::size_t count) {
-  std::vector<T> copy(count);
-  if (count > 0) {
-    TRISMOOTH_CUDA_CHECK(
-        cudaMemcpyAsync(copy.data(), values, count * sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
-    context.synchronize();
-  }
-  return copy;
-}
-
 OneRings copied_to_host(Context& context, const DeviceRings& rings) {
   const std::vector<std::uint32_t> offsets =
-      copied_to_host(context, rings.offsets.data(), static_cast<std::size_t>(rings.size()) + 1);
+      download(context, rings.offsets.data(), static_cast<std::size_t>(rings.size()) + 1);
   OneRings copy;
   copy.offsets.assign(offsets.begin(), offsets.end());
-  copy.neighbours = copied_to_host(context, rings.neighbours.data(), rings.neighbours.size());
+  copy.neighbours = download(context, rings.neighbours.data(), rings.neighbours.size());
   return copy;
 }
 
@@ -67,8 +56,8 @@ MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span
 
   MeshRings found;
   found.rings = copied_to_host(context, topology.rings());
-  found.fixed = copied_to_host(context, topology.fixed(), points.size());
-  found.reversed = copied_to_host(context, topology.reversed(), triangles.size());
+  found.fixed = download(context, topology.fixed(), points.size());
+  found.reversed = download(context, topology.reversed(), triangles.size());
   found.components = topology.components();
   found.reoriented_triangles = topology.reoriented_triangles();
   return found;

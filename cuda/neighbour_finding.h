@@ -6,6 +6,7 @@
 #include "trismooth/cuda/findings.h"
 #include "trismooth/cuda/incident_corners.h"
 #include "trismooth/cuda/triangle_list.h"
+#include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {
 
@@ -14,6 +15,11 @@ enum class NeighbourFinding : std::uint8_t {
   parallel,   ///< one thread for each triangle
   one_thread  ///< one block of one thread, the paper's way
 };
+
+/// Who finds them for this execution.
+constexpr NeighbourFinding neighbour_finding(Execution execution) {
+  return execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel;
+}
 
 /// Finds the neighbours and incident elements of every vertex, and reports triangles that name a vertex out of range or
 /// one twice, which are left out, and the large vertices. Queued.

@@ -1,9 +1,7 @@
 #include "trismooth/cuda/topology.h"
 
 #include <cstddef>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/error.h"
@@ -18,25 +16,15 @@ namespace trismooth::cuda {
 
 namespace {
 
-template <class T>
-std::vector<T> copied_to_host(const Context& context, const void* values, std::int32_t count) {
-  std::vector<T> copy(static_cast<std::size_t>(count));
-  if (count > 0) {
-    TRISMOOTH_CUDA_CHECK(
-        cudaMemcpyAsync(copy.data(), values, copy.size() * sizeof(T), cudaMemcpyDeviceToHost, context.stream()));
-  }
-  context.synchronize();
-  return copy;
-}
-
 /// Throws what the host says of what the device has refused: every message has one definition.
 void throw_host_error(const Context& context, std::int32_t vertex_count, const TriangleList& triangles,
                       const DeviceConstraints& constraints, std::uint32_t faults) {
   if ((faults & (Findings::bad_triangle | Findings::one_sided)) != 0) {
     Workers workers(0);
-    connect_triangles(vertex_count, copied_to_host<Triangle>(context, triangles.vertices, triangles.count), workers);
+    const auto* const listed = reinterpret_cast<const Triangle*>(triangles.vertices);
+    connect_triangles(vertex_count, download(context, listed, static_cast<std::size_t>(triangles.count)), workers);
   }
-  const auto fixed_ids = copied_to_host<std::int32_t>(context, constraints.fixed_ids, constraints.fixed_id_count);
+  const auto fixed_ids = download(context, constraints.fixed_ids, static_cast<std::size_t>(constraints.fixed_id_count));
   check_constraints({.fixed_ids = fixed_ids}, vertex_count, triangles.count);
   throw DeviceError("CUDA: the device has refused a mesh in which the host finds no fault");
 }

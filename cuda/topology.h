@@ -42,9 +42,6 @@ class DeviceTopology {
   double smallest_fixed_quotient(const Point2<double>* local_points) const;
 
   std::int32_t vertex_count() const { return corners_.view().vertex_count; }
-  std::int32_t triangle_count() const { return triangles_.count; }
-  /// The caller's triangles.
-  const std::int32_t* triangles() const { return triangles_.vertices; }
   /// One byte a vertex: why it is fixed, bits of namespace hold; 0 is free.
   const std::uint8_t* fixed() const { return fixed_.data(); }
   /// One byte a triangle: 1 where it is listed clockwise in the orientation found last. Null before the first.
