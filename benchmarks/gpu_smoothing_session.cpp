@@ -10,6 +10,7 @@
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/error.h"
+#include "trismooth/cuda/memory_pool.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 
 namespace benchmarks {
@@ -150,8 +151,7 @@ double milliseconds_of(const std::function<void()>& function) {
 }
 
 std::uint64_t most_memory_used() {
-  cudaMemPool_t pool = nullptr;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetDefaultMemPool(&pool, 0));
+  cudaMemPool_t pool = cuda::memory_pool();
   std::uint64_t used = 0;
   TRISMOOTH_CUDA_CHECK(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrUsedMemHigh, &used));
   std::uint64_t zero = 0;

@@ -1,23 +1,15 @@
 #include "trismooth/cuda/context.h"
 
-#include <string>
-
 #include "trismooth/cuda/error.h"
-#include "trismooth/smoothing/errors.h"
+#include "trismooth/cuda/memory_pool.h"
 
 namespace trismooth::cuda {
 
-namespace {
-
-std::string mebibytes(std::size_t bytes) {
-  return std::to_string((bytes + (std::size_t{1} << 20U) - 1) >> 20U) + " MiB";
-}
-
-}  // namespace
-
-Context::Context() {
+Context::Context() : pool_(memory_pool()) {
   TRISMOOTH_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
 }
+
+Context::Context(cudaStream_t stream) : stream_(stream), owns_stream_(false), pool_(memory_pool()) {}
 
 Context::~Context() {
   if (owns_stream_) {
@@ -34,15 +26,12 @@ void* Context::allocate(std::size_t bytes) {
     return nullptr;
   }
   void* memory = nullptr;
-  const cudaError_t error = cudaMallocAsync(&memory, bytes, stream_);
+  const cudaError_t error = cudaMallocFromPoolAsync(&memory, bytes, pool_, stream_);
   if (error == cudaErrorMemoryAllocation) {
     cudaGetLastError();
-    std::size_t free_bytes = 0;
-    std::size_t total_bytes = 0;
-    TRISMOOTH_CUDA_CHECK(cudaMemGetInfo(&free_bytes, &total_bytes));
-    throw DeviceError("CUDA: cudaErrorMemoryAllocation: this mesh needs " + mebibytes(in_use_ + bytes) +
-                      " of device memory or more, and the device has " + mebibytes(free_bytes + in_use_) + " free of " +
-                      mebibytes(total_bytes) + "; use a device with more memory, or '--backend cpu'");
+    DeviceMemory available = device_memory();
+    available.free += in_use_;
+    throw too_little_memory(mebibytes(in_use_ + bytes) + " or more", available);
   }
   TRISMOOTH_CUDA_CHECK(error);
   in_use_ += bytes;

@@ -14,7 +14,7 @@ class Context {
   /// A stream of its own on the current device.
   Context();
   /// The stream of someone else, who keeps it.
-  explicit Context(cudaStream_t stream) : stream_(stream), owns_stream_(false) {}
+  explicit Context(cudaStream_t stream);
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
   ~Context();
@@ -23,8 +23,8 @@ class Context {
   /// Waits for everything queued. Throws DeviceError for what failed meanwhile.
   void synchronize() const;
 
-  /// Device memory of `bytes` (0: none), aligned to 256 bytes. Throws DeviceError that says how much was asked for and
-  /// how much is free.
+  /// Device memory of `bytes` (0: none) from memory_pool(), aligned to 256 bytes. Throws DeviceError that says how much
+  /// was asked for and how much is free.
   void* allocate(std::size_t bytes);
   void free(void* memory, std::size_t bytes) noexcept;
 
@@ -34,6 +34,7 @@ class Context {
  private:
   cudaStream_t stream_ = nullptr;
   bool owns_stream_ = true;
+  cudaMemPool_t pool_;
   std::size_t in_use_ = 0;
   std::size_t peak_ = 0;
 };

@@ -15,6 +15,7 @@
 #include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/memory_pool.h"
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/errors.h"
@@ -112,6 +113,7 @@ SmoothingOptions on_cuda(Execution execution = Execution::resident) {
 class Hoard {
  public:
   explicit Hoard(std::size_t left) {
+    cuda::give_memory_back();
     for (std::size_t piece = std::size_t{1} << 36U; piece >= (std::size_t{1} << 21U);) {
       std::size_t free = 0;
       std::size_t total = 0;
@@ -175,6 +177,19 @@ TEST_CASE("the resident execution evaluates the vertices that the CPU evaluates,
         CHECK(found.result.history[i].evaluated == expected.result.history[i].evaluated);
       }
     }
+  }
+}
+
+TEST_CASE("a mesh that fills the whole device has the CPU's bits in both forms") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(600, 500, 0.45, 3), 4);
+  for (const Form form : forms) {
+    SmoothingOptions options;
+    options.form = form;
+    const Run expected = run(mesh, options);
+    options.backend = &cuda::backend();
+    options.topology = Topology::device;
+    CAPTURE(to_string(form));
+    require_same(run(mesh, options), expected);
   }
 }
 
