@@ -1,6 +1,5 @@
 #include "trismooth/cuda/backend.h"
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <string>
@@ -10,6 +9,7 @@
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/find_rings.h"
+#include "trismooth/cuda/host_copy.h"
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/timeline.h"
 #include "trismooth/cuda/uploaded_constraints.h"
@@ -21,17 +21,17 @@ namespace {
 
 /// Smooths coordinates of the host: there and back, with the time that it takes.
 template <class Smooth>
-SmoothingResult smooth_host_points(Context& context, DeviceBuffer<Point2<double>>& stored,
+SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, DeviceBuffer<Point2<double>>& stored,
                                    std::span<Point2<double>> points, const Smooth& smooth) {
   Timeline timeline(context);
   timeline.mark();
-  stored.upload(points);
+  copier.upload(stored, std::span<const Point2<double>>(points));
   timeline.mark();
   SmoothingResult result = smooth();
   Timeline way_back(context);
   way_back.mark();
   if (result.moved_vertices > 0) {
-    stored.download(points);
+    copier.download(points, stored);
   }
   way_back.mark();
   result.timings.transfer_in = timeline.milliseconds(0);
@@ -40,41 +40,39 @@ SmoothingResult smooth_host_points(Context& context, DeviceBuffer<Point2<double>
 }
 
 /// One-rings of the host on the device.
-DeviceRings uploaded(Context& context, const OneRings& rings) {
-  std::vector<std::uint32_t> offsets(rings.offsets.size());
-  std::ranges::transform(rings.offsets, offsets.begin(), [](std::int64_t o) { return static_cast<std::uint32_t>(o); });
-  return {DeviceBuffer<std::uint32_t>(context, offsets), DeviceBuffer<std::int32_t>(context, rings.neighbours)};
+DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
+  const std::vector<std::uint32_t> offsets(rings.offsets.begin(), rings.offsets.end());
+  return {copier.uploaded(std::span(offsets)), copier.uploaded(std::span(rings.neighbours))};
 }
 
 class RingSmoother final : public PreparedSmoother {
  public:
   RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
-      : stored_(context_, with_room_for(rings, options, points.size())) {
+      : copier_(context_, options.threads), stored_(context_, with_room_for(rings, options, points.size())) {
     const auto start = std::chrono::steady_clock::now();
     const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
     smoother_ = make_device_smoother(
-        context_,
-        pack_rings(context_, uploaded(context_, rings), DeviceBuffer<Point2<double>>(context_, points), by_colour),
-        options);
+        context_, pack_rings(context_, uploaded(copier_, rings), copier_.uploaded(points), by_colour), options);
     context_.synchronize();
     prepare_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
     SmoothingResult result = smooth_host_points(
-        context_, stored_, points, [&] { return smoother_->smooth(stored_.data(), storage, fixed_quotient); });
+        context_, copier_, stored_, points, [&] { return smoother_->smooth(stored_.data(), storage, fixed_quotient); });
     result.timings.prepare = prepare_ms_;
     return result;
   }
 
  private:
   static std::size_t with_room_for(const OneRings& rings, const SmoothingOptions& options, std::size_t vertices) {
-    require_memory(memory_need(
-        {rings.vertex_count(), rings.vertex_count(), static_cast<std::int64_t>(rings.neighbours.size())}, options));
+    const MeshSize size{rings.vertex_count(), rings.vertex_count(), std::ssize(rings.neighbours)};
+    require_memory(memory_need(size, options) + vertices * sizeof(Point2<double>));
     return vertices;
   }
 
   Context context_;
+  HostCopier copier_;
   DeviceBuffer<Point2<double>> stored_;
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;
@@ -85,8 +83,9 @@ class TriangleSmoother final : public PreparedMesh {
  public:
   TriangleSmoother(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
                    const SmoothingOptions& options)
-      : constraints_(context_, checked(constraints, vertex_count, triangles.size())),
-        triangles_(context_, triangles),
+      : copier_(context_, options.threads),
+        constraints_(context_, checked(constraints, vertex_count, triangles.size())),
+        triangles_(copier_.uploaded(triangles)),
         stored_(context_, static_cast<std::size_t>(vertex_count)),
         plan_(
             {vertex_count, static_cast<std::int32_t>(triangles.size()), triangles_.data()->data(), constraints_.view()},
@@ -101,7 +100,11 @@ class TriangleSmoother final : public PreparedMesh {
                                   std::to_string(stored_.size()) + " vertices");
     }
     const std::span points(reinterpret_cast<Point2<double>*>(xy.data()), stored_.size());
-    return smooth_host_points(context_, stored_, points, [&] { return plan_.smooth(&stored_.data()->x, storage); });
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points,
+                                                [&] { return plan_.smooth(&stored_.data()->x, storage); });
+    // The plan counts what it has taken itself.
+    result.device_memory_bytes += static_cast<std::int64_t>(context_.bytes_in_use());
+    return result;
   }
 
  private:
@@ -113,6 +116,7 @@ class TriangleSmoother final : public PreparedMesh {
   }
 
   Context context_;
+  HostCopier copier_;
   UploadedConstraints constraints_;
   DeviceBuffer<Triangle> triangles_;
   DeviceBuffer<Point2<double>> stored_;
@@ -133,9 +137,7 @@ class CudaBackend final : public Backend {
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
     require_device();
-    return find_rings_on_device(
-        points, triangles, constraints,
-        options.execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel);
+    return find_rings_on_device(points, triangles, constraints, neighbour_finding(options.execution));
   }
 
   std::unique_ptr<PreparedMesh> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,

@@ -13,15 +13,12 @@ namespace trismooth {
 
 namespace {
 
-std::vector<Triangle> as_triangles(std::span<const std::int32_t> indices) {
+std::span<const Triangle> as_triangles(std::span<const std::int32_t> indices) {
   if (indices.size() % 3 != 0) {
     throw std::invalid_argument("triangles has " + std::to_string(indices.size()) + " entries, not three a triangle");
   }
-  std::vector<Triangle> triangles(indices.size() / 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    triangles[t] = {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]};
-  }
-  return triangles;
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
+  return {reinterpret_cast<const Triangle*>(indices.data()), indices.size() / 3};
 }
 
 std::vector<Point2<double>> as_points(std::span<const double> xy, std::int32_t vertex_count) {
@@ -58,15 +55,16 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
 
 SmoothingPlan::SmoothingPlan(std::int32_t vertex_count, std::span<const std::int32_t> triangles,
                              const Constraints& constraints, const SmoothingOptions& options)
-    : options_(options), triangles_(as_triangles(triangles)) {
+    : options_(options) {
+  const std::span<const Triangle> listed = as_triangles(triangles);
   options.validate();
   if (options.topology == Topology::device) {
-    mesh_ = backend_of(options).prepare_mesh(vertex_count, triangles_, constraints, options);
+    mesh_ = backend_of(options).prepare_mesh(vertex_count, listed, constraints, options);
     if (mesh_ != nullptr) {
-      triangles_ = {};
       return;
     }
   }
+  triangles_.assign(listed.begin(), listed.end());
   Workers workers(options.threads);
   topology_ = connect_triangles(vertex_count, triangles_, workers);
   fixed_ = fixed_vertices(topology_, triangles_, constraints);
