@@ -57,6 +57,9 @@ std::size_t topology_memory_need(std::int64_t vertices, std::int64_t triangles) 
 }
 
 void require_memory(std::size_t bytes) {
+  if (bytes <= kept_memory()) {
+    return;  // asking the system takes its time
+  }
   if (const DeviceMemory memory = device_memory(); bytes > memory.free) {
     throw too_little_memory("about " + mebibytes(bytes), memory);
   }

@@ -51,13 +51,17 @@ cudaMemPool_t memory_pool() {
   return found->second;
 }
 
-DeviceMemory device_memory() {
-  DeviceMemory memory;
-  TRISMOOTH_CUDA_CHECK(cudaMemGetInfo(&memory.free, &memory.total));
+std::size_t kept_memory() {
   cudaMemPool_t pool = memory_pool();
   const std::uint64_t used = attribute(pool, cudaMemPoolAttrUsedMemCurrent);
   const std::uint64_t reserved = attribute(pool, cudaMemPoolAttrReservedMemCurrent);
-  memory.free += reserved > used ? reserved - used : 0;
+  return reserved > used ? reserved - used : 0;
+}
+
+DeviceMemory device_memory() {
+  DeviceMemory memory;
+  TRISMOOTH_CUDA_CHECK(cudaMemGetInfo(&memory.free, &memory.total));
+  memory.free += kept_memory();
   return memory;
 }
 

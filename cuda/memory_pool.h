@@ -19,6 +19,9 @@ cudaMemPool_t memory_pool();
 /// smoothers and plans use stays. Throws DeviceError.
 void give_memory_back();
 
+/// Bytes that the current device's pool keeps without using them.
+std::size_t kept_memory();
+
 /// Bytes of the current device's memory.
 struct DeviceMemory {
   std::size_t free = 0;  ///< what the pool keeps without using it is free for us as well

@@ -16,14 +16,13 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// Throws what the host says of what the device has refused: every message has one definition.
+/// Throws what the host says of what the device has refused: every message has one definition, and a fault of the
+/// triangles comes before one of the constraints.
 void throw_host_error(const Context& context, std::int32_t vertex_count, const TriangleList& triangles,
-                      const DeviceConstraints& constraints, std::uint32_t faults) {
-  if ((faults & (Findings::bad_triangle | Findings::one_sided)) != 0) {
-    Workers workers(0);
-    const auto* const listed = reinterpret_cast<const Triangle*>(triangles.vertices);
-    connect_triangles(vertex_count, download(context, listed, static_cast<std::size_t>(triangles.count)), workers);
-  }
+                      const DeviceConstraints& constraints) {
+  Workers workers(0);
+  const auto* const listed = reinterpret_cast<const Triangle*>(triangles.vertices);
+  connect_triangles(vertex_count, download(context, listed, static_cast<std::size_t>(triangles.count)), workers);
   const auto fixed_ids = download(context, constraints.fixed_ids, static_cast<std::size_t>(constraints.fixed_id_count));
   check_constraints({.fixed_ids = fixed_ids}, vertex_count, triangles.count);
   throw DeviceError("CUDA: the device has refused a mesh in which the host finds no fault");
@@ -41,21 +40,23 @@ DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std:
   const auto found = [&] {
     const Findings findings = download(context, device_findings.data());
     if (findings.faults != 0) {
-      throw_host_error(context, vertex_count, triangles_, constraints, findings.faults);
+      throw_host_error(context, vertex_count, triangles_, constraints);
     }
     return findings;
   };
+  // What is wrong with triangles is asked for later: they are left out, and each question costs a wait.
   corners_ = find_neighbours(context, vertex_count, triangles_, way, device_findings.data());
-  const Findings neighbourhoods = found();
-
   fixed_ = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(vertex_count));
   DeviceBuffer<std::uint32_t> forest_words(context, static_cast<std::size_t>(triangle_count));
   const ParityForest forest{forest_words.data()};
   determine_constraints(context, triangles_, corners_.view(), constraints, forest, fixed_.data(),
                         device_findings.data());
-  large_fans_ = find_large_fans(context, triangles_, corners_.view(), neighbourhoods, constraints.regions, forest,
-                                fixed_.data(), device_findings.data());
-  found();
+  const Findings neighbourhoods = found();
+  if (neighbourhoods.large_vertices > 0) {
+    large_fans_ = find_large_fans(context, triangles_, corners_.view(), neighbourhoods, constraints.regions, forest,
+                                  fixed_.data(), device_findings.data());
+    found();
+  }
   components_ = number_components(context, std::move(forest_words));
 }
 
