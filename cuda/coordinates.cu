@@ -1,81 +1,59 @@
-#include <limits>
-
 #include "trismooth/cuda/coordinates.h"
-#include "trismooth/cuda/launch.h"
-#include "trismooth/cuda/thread_index.cuh"
+#include "trismooth/cuda/for_each.cuh"
 
 namespace trismooth::cuda {
 
 namespace {
 
-constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+/// One access for a point.
+struct EnterFrame {
+  const double2* stored;
+  const LocalFrame* frame;
+  double2* local;
 
-__global__ void find_not_finite(const Point2<double>* points, std::int32_t count, std::int32_t* first) {
-  const std::int64_t v = thread_index();
-  if (v < count) {
-    const Point2<double> p = points[v];
-    if (!(p.x - p.x == 0 && p.y - p.y == 0)) {
-      atomicMin(first, static_cast<std::int32_t>(v));
-    }
+  __device__ void operator()(std::uint32_t v) const {
+    const double2 point = stored[v];
+    const auto [x, y] = frame->enter({point.x, point.y});
+    local[v] = {x, y};
   }
-}
+};
 
-__global__ void enter_all(const Point2<double>* stored, std::int32_t count, LocalFrame frame, Point2<double>* local) {
-  const std::int64_t v = thread_index();
-  if (v < count) {
-    local[v] = frame.enter(stored[v]);
-  }
-}
+struct Widen {
+  const float2* from;
+  double2* to;
 
-__global__ void widen_all(const float* xy, std::int32_t count, Point2<double>* points) {
-  const std::int64_t v = thread_index();
-  if (v < count) {
-    points[v] = {static_cast<double>(xy[2 * v]), static_cast<double>(xy[2 * v + 1])};
+  __device__ void operator()(std::uint32_t v) const {
+    const float2 point = from[v];
+    to[v] = {static_cast<double>(point.x), static_cast<double>(point.y)};
   }
-}
+};
 
-__global__ void narrow_all(const Point2<double>* points, std::int32_t count, float* xy) {
-  const std::int64_t v = thread_index();
-  if (v < count) {
-    xy[2 * v] = static_cast<float>(points[v].x);
-    xy[2 * v + 1] = static_cast<float>(points[v].y);
+struct Narrow {
+  const double2* from;
+  float2* to;
+
+  __device__ void operator()(std::uint32_t v) const {
+    const double2 point = from[v];
+    to[v] = {static_cast<float>(point.x), static_cast<float>(point.y)};
   }
-}
+};
 
 }  // namespace
 
-std::int32_t first_not_finite(Context& context, const Point2<double>* points, std::int32_t count) {
-  DeviceBuffer<std::int32_t> first(context, 1);
-  std::int32_t found = none;
-  first.upload({&found, 1});
-  if (count > 0) {
-    find_not_finite<<<blocks_for(count), block_size, 0, context.stream()>>>(points, count, first.data());
-    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  }
-  first.download({&found, 1});
-  return found == none ? -1 : found;
-}
-
-void enter_frame(Context& context, const Point2<double>* stored, std::int32_t count, const LocalFrame& frame,
+void enter_frame(Context& context, const Point2<double>* stored, std::int32_t count, const LocalFrame* frame,
                  Point2<double>* local) {
-  if (count > 0) {
-    enter_all<<<blocks_for(count), block_size, 0, context.stream()>>>(stored, count, frame, local);
-    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  }
+  for_each(context, static_cast<std::uint32_t>(count),
+           EnterFrame{reinterpret_cast<const double2*>(stored), frame, reinterpret_cast<double2*>(local)});
 }
 
 void widen(Context& context, const float* xy, std::int32_t count, Point2<double>* points) {
-  if (count > 0) {
-    widen_all<<<blocks_for(count), block_size, 0, context.stream()>>>(xy, count, points);
-    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  }
+  for_each(context, static_cast<std::uint32_t>(count),
+           Widen{reinterpret_cast<const float2*>(xy), reinterpret_cast<double2*>(points)});
 }
 
 void narrow(Context& context, const Point2<double>* points, std::int32_t count, float* xy) {
-  if (count > 0) {
-    narrow_all<<<blocks_for(count), block_size, 0, context.stream()>>>(points, count, xy);
-    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  }
+  for_each(context, static_cast<std::uint32_t>(count),
+           Narrow{reinterpret_cast<const double2*>(points), reinterpret_cast<float2*>(xy)});
 }
 
 }  // namespace trismooth::cuda

@@ -23,18 +23,15 @@ class Plan::Implementation {
         options_(options),
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
-                  neighbour_finding(options)) {}
+                  neighbour_finding(options.execution)),
+        extent_(context_) {}
 
   SmoothingResult smooth(Point2<double>* stored, Storage storage) {
-    if (const std::int32_t vertex = first_not_finite(context_, stored, vertex_count_); vertex >= 0) {
-      throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
-    }
     const auto start = std::chrono::steady_clock::now();
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
-    context_.synchronize();
     const std::chrono::duration<double, std::milli> preparing = std::chrono::steady_clock::now() - start;
-    SmoothingResult result = smoother_->smooth(stored, storage, fixed_quotient);
+    SmoothingResult result = smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
     result.timings.prepare = preparing.count();
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
@@ -50,26 +47,25 @@ class Plan::Implementation {
   }
 
  private:
-  static NeighbourFinding neighbour_finding(const SmoothingOptions& options) {
-    return options.execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel;
-  }
-
-  /// Orients the mesh by its coordinates; packs it where that is new.
+  /// Finds the local frame, orients the mesh by its coordinates, and packs it where that is new.
   void prepare(const Point2<double>* stored, double& fixed_quotient) {
+    extent_.find(stored, vertex_count_);
     DeviceBuffer<Point2<double>> local(context_, static_cast<std::size_t>(vertex_count_));
-    if (vertex_count_ > 0) {
-      const auto [low, high] = bounding_box(context_, stored, vertex_count_);
-      enter_frame(context_, stored, vertex_count_, local_frame(low, high), local.data());
+    enter_frame(context_, stored, vertex_count_, extent_.frame(), local.data());
+    if (topology_.orient(local.data())) {
+      smoother_.reset();
     }
-    const bool changed = topology_.orient(local.data());
+    // Not asked before all that waits for the device anyway. A mesh that is refused may have another orientation.
+    if (const std::int32_t vertex = extent_.extent().first_not_finite; vertex >= 0) {
+      throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
+    }
     if (options_.target_quality || options_.record_min_shape) {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
-    if (changed || smoother_ == nullptr) {
-      smoother_.reset();
-      const bool by_colour = options_.form == Form::in_place && options_.order == Order::colour;
-      smoother_ = make_device_smoother(context_, pack_rings(context_, topology_.rings(), std::move(local), by_colour),
-                                       options_);
+    if (smoother_ == nullptr) {
+      smoother_ =
+          make_device_smoother(context_, pack_rings(context_, topology_.rings(), std::move(local), options_), options_);
+      context_.synchronize();
     }
   }
 
@@ -77,6 +73,7 @@ class Plan::Implementation {
   SmoothingOptions options_;
   Context context_;
   DeviceTopology topology_;
+  ExtentFinder extent_;
   std::unique_ptr<DeviceSmoother> smoother_;
 };
 

@@ -13,18 +13,18 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/sweep_engine.h"
 #include "trismooth/cuda/timeline.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::cuda {
 
 namespace {
 
-/// What a launch leaves for the host, in one piece: one copy brings it over.
+/// What a launch of sweeps and the commit behind it leave for the host, in one piece: one copy brings it over.
 struct RunRecord {
   static constexpr std::int32_t most_sweeps = 256;
 
   LoopState state;
+  CommitState commit;
   std::array<SweepSums, most_sweeps> sums;
 };
 
@@ -37,13 +37,16 @@ class TypedSmoother final : public DeviceSmoother {
         device_(require_device()),
         rings_(std::move(rings)),
         before_(context, static_cast<std::size_t>(rings_.vertex_count())),
-        record_(context, 1) {
+        extent_(context),
+        record_(context, 1),
+        timeline_(context) {
     if (rings_.free_count() > 0) {
       engine_ = make_sweep_engine<T, layout>(context, rings_, options);
     }
   }
 
-  SmoothingResult smooth(Point2<double>* stored, Storage storage, double fixed_quotient) override {
+  SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
+                         double fixed_quotient) override {
     SmoothingResult result;
     result.backend = "cuda";
     result.device = device_;
@@ -54,34 +57,34 @@ class TypedSmoother final : public DeviceSmoother {
       sweep_nothing(fixed_quotient, result);
       return result;
     }
-    Timeline timeline(context_);
-    timeline.mark();
-    const auto [low, high] = bounding_box(context_, stored, rings_.vertex_count());
-    const LocalFrame frame = local_frame(low, high);
+    timeline_.rewind();
+    timeline_.mark();
+    if (frame == nullptr) {
+      extent_.find(stored, rings_.vertex_count());
+      frame = extent_.frame();
+      ++result.kernel_launches;
+    }
     const auto [first, second] = engine_->input();
     launch_enter(stored, rings_.input_index.data(), rings_.vertex_count(), frame, before_.data(), first, second,
                  context_.stream());
     engine_->begin();
-    result.kernel_launches += 2;
-    const std::int32_t current = run(fixed_quotient, result);
-    timeline.mark();
-    const CommitView<T, layout> view{
-        rings_.rings.view(), rings_.input_index.data(), before_.data(), engine_->output(current), frame, storage};
-    CommitOutcome outcome = commit(context_, view, options_.guard, stored);
-    timeline.mark();
-    result.guard_rounds = outcome.rounds;
-    result.reverted_vertices = static_cast<std::int64_t>(outcome.reverted.size());
-    result.reverted = std::move(outcome.reverted);
-    result.moved_vertices = outcome.moved;
-    result.kernel_launches += outcome.launches;
-    result.timings.smooth = timeline.milliseconds(0);
-    result.timings.commit = timeline.milliseconds(1);
+    ++result.kernel_launches;
+    Commit commit{{&rings_, before_.data(), {}, {}, &record_.data()->state, false, frame, storage}, stored};
+    run(fixed_quotient, commit, result);
+    end(commit, result);
+    result.timings.smooth = timeline_.milliseconds(0);
+    result.timings.commit = timeline_.milliseconds(1);
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  struct Commit {
+    CommitInput<T, layout> input;
+    Point2<double>* stored;
+  };
 
   bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
 
@@ -112,28 +115,43 @@ class TypedSmoother final : public DeviceSmoother {
     }
   }
 
-  /// Sweeps to a stop; the buffer that holds the positions. The host looks in after every sweep if it has a callback or
-  /// a clock to ask, else when the records of a launch are full.
-  std::int32_t run(double fixed_quotient, SmoothingResult& result) {
+  /// Whether the host looks in after every sweep: it has a callback or a clock to ask.
+  bool host_decides() const {
+    return options_.progress || options_.time_limit_seconds < std::numeric_limits<double>::infinity();
+  }
+
+  /// Sweeps to a stop and queues the commit. Behind resident sweeps it is queued without waiting for them: should they
+  /// not have ended the run, it does nothing, and is queued again. Else the commit comes when the host knows of the
+  /// end.
+  void run(double fixed_quotient, Commit& commit, SmoothingResult& result) {
     const auto start = Clock::now();
     LoopRules loop = rules(fixed_quotient);
-    auto& [state, sums] = host_record_;
+    LoopState& state = host_record_.state;
     state = LoopState{};
     if (options_.target_quality && min_shape_now(loop, result) >= *options_.target_quality) {
       result.stop_reason = StopReason::quality_target;
-      return 0;
+      commit_now(commit, result);
+      return;
     }
-    const bool host_decides =
-        options_.progress || options_.time_limit_seconds < std::numeric_limits<double>::infinity();
+    const bool commits_behind = options_.execution == Execution::resident && !host_decides();
     for (;;) {
-      loop.sweeps = host_decides ? 1 : RunRecord::most_sweeps;
+      loop.sweeps = host_decides() ? 1 : RunRecord::most_sweeps;
       if (options_.max_sweeps > 0) {
-        loop.sweeps =
-            static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, options_.max_sweeps - result.sweeps));
+        const std::int64_t remaining = options_.max_sweeps - result.sweeps;
+        loop.remaining = host_decides() ? 0 : remaining;
+        loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, remaining));
+        commit.input.is_over = loop.sweeps == remaining;
       }
       launch(loop, result);
+      if (commits_behind) {
+        queue_commit(commit, result);
+      }
+      read_record(result);
       const bool stopped = read_sweeps(loop, result);
-      if (state.stop != LoopState::running) {
+      if (state.stop == LoopState::repeating) {
+        repeat_last_two(result);
+        result.stop_reason = StopReason::sweep_limit;
+      } else if (state.stop != LoopState::running) {
         result.stop_reason = static_cast<StopReason>(state.stop);
       } else if (stopped) {
         result.stop_reason = StopReason::cancelled;
@@ -144,25 +162,69 @@ class TypedSmoother final : public DeviceSmoother {
       } else {
         continue;
       }
-      return state.current;
+      if (!commits_behind) {
+        commit_now(commit, result);
+      }
+      return;
     }
   }
 
-  /// Sweeps once more from where host_record_ says, and brings the record back.
+  /// Queues more sweeps from where host_record_ says.
   void launch(const LoopRules& loop, SmoothingResult& result) {
-    LoopState next;
-    next.current = host_record_.state.current;
+    LoopState next = host_record_.state;
+    next.sweeps = 0;
+    next.stop = LoopState::running;
+    next.children = 0;
     host_record_ = RunRecord{};
     host_record_.state = next;
     record_.upload({&host_record_, 1});
-    engine_->sweep(loop, &record_.data()->state, record_.data()->sums.data());
+    result.kernel_launches += engine_->sweep(loop, &record_.data()->state, record_.data()->sums.data());
+  }
+
+  /// Waits for the record of what has been queued.
+  void read_record(SmoothingResult& result) {
     record_.download({&host_record_, 1});
-    ++result.kernel_launches;
     result.child_launches += static_cast<std::int64_t>(host_record_.state.children);
     if (const auto error = static_cast<cudaError_t>(host_record_.state.error); error != cudaSuccess) {
       throw DeviceError(std::string("CUDA: a kernel launch by the device failed: ") + cudaGetErrorName(error) + " (" +
                         cudaGetErrorString(error) + ")");
     }
+  }
+
+  void queue_commit(Commit& commit, SmoothingResult& result) {
+    timeline_.rewind(1);
+    timeline_.mark();
+    if (options_.execution == Execution::resident) {
+      commit.input.first = engine_->output(0);
+      commit.input.second = engine_->output(1);
+    } else {
+      commit.input.first = commit.input.second = engine_->output(host_record_.state.current);
+    }
+    result.kernel_launches +=
+        launch_commit(commit.input, options_.guard, commit.stored, &record_.data()->commit, context_.stream());
+    timeline_.mark();
+  }
+
+  /// Commits where the host knows that the run is over.
+  void commit_now(Commit& commit, SmoothingResult& result) {
+    commit.input.is_over = true;
+    queue_commit(commit, result);
+    record_.download({&host_record_, 1});
+  }
+
+  /// What is left of the commit when its record has been read.
+  void end(const Commit& commit, SmoothingResult& result) {
+    const std::int64_t queued = result.kernel_launches;
+    CommitOutcome outcome = finish_commit(context_, commit.input, commit.stored, &record_.data()->commit,
+                                          host_record_.commit, result.kernel_launches);
+    if (result.kernel_launches > queued) {
+      timeline_.rewind(2);
+      timeline_.mark();
+    }
+    result.guard_rounds = outcome.rounds;
+    result.reverted_vertices = static_cast<std::int64_t>(outcome.reverted.size());
+    result.reverted = std::move(outcome.reverted);
+    result.moved_vertices = outcome.moved;
   }
 
   /// Writes the sweeps of a launch into the history. True where the caller's callback said stop.
@@ -183,10 +245,20 @@ class TypedSmoother final : public DeviceSmoother {
     return stopped;
   }
 
+  /// The sweeps that are left until the limit: each is the one two before it once more.
+  void repeat_last_two(SmoothingResult& result) const {
+    while (result.sweeps < options_.max_sweeps) {
+      SweepRecord record = result.history[result.history.size() - 2];
+      record.sweep = ++result.sweeps;
+      result.vertex_updates += record.evaluated;
+      result.history.push_back(record);
+    }
+  }
+
   double min_shape_now(const LoopRules& loop, SmoothingResult& result) {
     host_record_ = RunRecord{};
     record_.upload({&host_record_, 1});
-    launch_min_quotient(rings_.rings.view(), engine_->input().first, record_.data()->sums.data(), context_.stream());
+    engine_->measure(record_.data()->sums.data());
     record_.download({&host_record_, 1});
     ++result.kernel_launches;
     return min_shape_after(host_record_.sums.front(), loop);
@@ -197,8 +269,10 @@ class TypedSmoother final : public DeviceSmoother {
   std::string device_;
   PackedDeviceRings rings_;
   DeviceBuffer<Point2<double>> before_;
+  ExtentFinder extent_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
+  Timeline timeline_;
   std::unique_ptr<SweepEngine<T, layout>> engine_;
 };
 

@@ -5,7 +5,7 @@
 #include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/for_each.cuh"
 #include "trismooth/cuda/orientation.h"
-#include "trismooth/cuda/triangle_quotients.h"
+#include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth::cuda {
 
@@ -13,12 +13,15 @@ namespace {
 
 /// How a triangle would have its component turned.
 struct SignVotes {
-  const double* quotients;
+  TriangleList triangles;
+  const Point2<double>* points;
   const std::uint32_t* words;
 
   TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t t) const {
     const std::uint32_t word = words[t];
-    const double quotient = (word & 1U) != 0 ? -quotients[t] : quotients[t];
+    const auto [a, b, c] = triangles[t];
+    const double as_listed = shape_quotient(points[a], points[b], points[c]);
+    const double quotient = (word & 1U) != 0 ? -as_listed : as_listed;
     return {word >> 1U, quotient > 0, quotient < 0, quotient != 0, !(quotient > 0)};
   }
 };
@@ -70,14 +73,12 @@ bool orient(Context& context, const TriangleList& triangles, const Point2<double
   DeviceBuffer<std::uint32_t> changed(context, 1);
   changed.fill_bytes(0);
   {
-    DeviceBuffer<double> quotients(context, triangle_count);
     DeviceBuffer<std::int32_t> margins(context, component_count);
     DeviceBuffer<std::uint32_t> tie_breakers(context, component_count);
     margins.fill_bytes(0);
     tie_breakers.fill_bytes(0xFF);
     const VoteCounts counts{margins.data(), tie_breakers.data()};
-    evaluate_triangles(context, triangles, points, quotients.data());
-    count_votes(context, triangle_count, SignVotes{quotients.data(), words}, counts);
+    count_votes(context, triangle_count, SignVotes{triangles, points, words}, counts);
     for_each(context, static_cast<std::uint32_t>(component_count),
              TurnComponent{counts, orientation.turned.data(), changed.data()});
   }

@@ -11,10 +11,13 @@ Timeline::~Timeline() {
 }
 
 void Timeline::mark() {
-  cudaEvent_t event = nullptr;
-  TRISMOOTH_CUDA_CHECK(cudaEventCreate(&event));
-  events_.push_back(event);
-  TRISMOOTH_CUDA_CHECK(cudaEventRecord(event, context_.stream()));
+  if (marked_ == events_.size()) {
+    cudaEvent_t event = nullptr;
+    TRISMOOTH_CUDA_CHECK(cudaEventCreate(&event));
+    events_.push_back(event);
+  }
+  TRISMOOTH_CUDA_CHECK(cudaEventRecord(events_[marked_], context_.stream()));
+  ++marked_;
 }
 
 double Timeline::milliseconds(std::size_t from) const {

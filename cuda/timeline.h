@@ -19,12 +19,15 @@ class Timeline {
 
   /// Marks the moment when all that is queued so far will be done.
   void mark();
+  /// Forgets all moments from `moment` on.
+  void rewind(std::size_t moment = 0) { marked_ = moment; }
   /// Milliseconds from moment `from` to the next; waits for the latter.
   double milliseconds(std::size_t from) const;
 
  private:
   const Context& context_;
-  std::vector<cudaEvent_t> events_;
+  std::vector<cudaEvent_t> events_;  ///< made once; those from marked_ on wait to be used again
+  std::size_t marked_ = 0;
 };
 
 }  // namespace trismooth::cuda

@@ -1,6 +1,5 @@
 #include <limits>
 
-#include "trismooth/cuda/for_each.cuh"
 #include "trismooth/cuda/reduce.cuh"
 #include "trismooth/cuda/triangle_quotients.h"
 #include "trismooth/quality/triangle_quality.h"
@@ -8,17 +7,6 @@
 namespace trismooth::cuda {
 
 namespace {
-
-struct EvaluateTriangle {
-  TriangleList triangles;
-  const Point2<double>* points;
-  double* quotients;
-
-  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
-    const auto [a, b, c] = triangles[t];
-    quotients[t] = shape_quotient(points[a], points[b], points[c]);
-  }
-};
 
 struct FixedQuotient {
   TriangleList triangles;
@@ -38,11 +26,6 @@ struct Smaller {
 };
 
 }  // namespace
-
-void evaluate_triangles(const Context& context, const TriangleList& triangles, const Point2<double>* points,
-                        double* quotients) {
-  for_each(context, static_cast<std::uint32_t>(triangles.count), EvaluateTriangle{triangles, points, quotients});
-}
 
 double smallest_fixed_quotient(Context& context, const TriangleList& triangles, const Point2<double>* points,
                                const std::uint8_t* reversed, const std::uint8_t* fixed) {

@@ -1,0 +1,275 @@
+// What comes before and after the sweeps on the device: the local frame and the never-worse commit, against the CPU's.
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/bounding_box.h"
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using namespace trismooth;
+using test_meshes::Mesh;
+using test_meshes::Random;
+using Points = std::vector<Point2<double>>;
+
+namespace {
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+void require_host_extent(cuda::Context& context, cuda::ExtentFinder& finder, const Points& points) {
+  const cuda::DeviceBuffer<Point2<double>> device(context, points);
+  finder.find(device.data(), static_cast<std::int32_t>(points.size()));
+  const cuda::Extent found = finder.extent();
+  const LocalFrame expected = local_frame(points);
+  REQUIRE(found.first_not_finite == -1);
+  REQUIRE(same_bits(found.frame.centre_x, expected.centre_x));
+  REQUIRE(same_bits(found.frame.centre_y, expected.centre_y));
+  REQUIRE(found.frame.exponent == expected.exponent);
+  // What kernels will read is what the host has been told.
+  LocalFrame on_device;
+  REQUIRE(cudaMemcpy(&on_device, finder.frame(), sizeof(on_device), cudaMemcpyDeviceToHost) == cudaSuccess);
+  REQUIRE(on_device.exponent == expected.exponent);
+}
+
+Points random_points(std::size_t count, Point2<double> low, Point2<double> extent, std::uint64_t seed) {
+  Random random(seed);
+  Points points(count);
+  for (auto& p : points) {
+    p = {low.x + random.between(0, 1) * extent.x, low.y + random.between(0, 1) * extent.y};
+  }
+  return points;
+}
+
+struct Run {
+  std::vector<double> xy;
+  SmoothingResult result;
+};
+
+Run run(const Mesh& mesh, const SmoothingOptions& options, Storage storage = Storage::float64) {
+  Run run{mesh.xy(), {}};
+  run.result = plan(mesh.vertex_count(), mesh.indices(), {}, options).smooth(run.xy, storage);
+  return run;
+}
+
+void require_same(const Run& found, const Run& expected) {
+  REQUIRE(std::memcmp(found.xy.data(), expected.xy.data(), expected.xy.size() * sizeof(double)) == 0);
+  REQUIRE(found.result.stop_reason == expected.result.stop_reason);
+  REQUIRE(found.result.sweeps == expected.result.sweeps);
+  REQUIRE(found.result.moved_vertices == expected.result.moved_vertices);
+  REQUIRE(found.result.guard_rounds == expected.result.guard_rounds);
+  REQUIRE(found.result.reverted_vertices == expected.result.reverted_vertices);
+  REQUIRE(found.result.reverted.size() == expected.result.reverted.size());
+  for (std::size_t i = 0; i < found.result.reverted.size(); ++i) {
+    REQUIRE(found.result.reverted[i].vertex == expected.result.reverted[i].vertex);
+    REQUIRE(found.result.reverted[i].position == expected.result.reverted[i].position);
+  }
+  REQUIRE(found.result.history.size() == expected.result.history.size());
+  for (std::size_t i = 0; i < found.result.history.size(); ++i) {
+    CAPTURE(i);
+    REQUIRE(found.result.history[i].sweep == expected.result.history[i].sweep);
+    REQUIRE(found.result.history[i].moved == expected.result.history[i].moved);
+    REQUIRE(found.result.history[i].max_relative_move == expected.result.history[i].max_relative_move);
+  }
+}
+
+constexpr auto forms = {Form::swap, Form::in_place};
+constexpr auto precisions = {Precision::double_precision, Precision::single_precision};
+
+/// The CPU against the resident execution with the commit queued behind the sweeps, the same with the commit queued
+/// when the host knows of the end (a callback, a time limit), and single-block.
+void require_cpu_commit(const Mesh& mesh, SmoothingOptions options, const Run& expected) {
+  options.backend = &cuda::backend();
+  for (const Layout layout : {Layout::aos, Layout::soa}) {
+    for (const Topology topology : {Topology::halfedge, Topology::device}) {
+      options.layout = layout;
+      options.topology = topology;
+      CAPTURE(to_string(layout), to_string(topology));
+      require_same(run(mesh, options), expected);
+    }
+  }
+  SmoothingOptions watched = options;
+  watched.progress = [](const SweepRecord&) { return Progress::proceed; };
+  require_same(run(mesh, watched), expected);
+  SmoothingOptions timed = options;
+  timed.time_limit_seconds = 1e6;
+  require_same(run(mesh, timed), expected);
+  options.execution = Execution::single_block;
+  require_same(run(mesh, options), expected);
+}
+
+}  // namespace
+
+TEST_CASE("the device finds the host's local frame of points of every size and place") {
+  cuda::Context context;
+  cuda::ExtentFinder finder(context);
+  const double most = std::numeric_limits<double>::max();
+  const double least = std::numeric_limits<double>::denorm_min();
+  for (const std::size_t count : {2, 31, 513, 20'000, 600'000}) {
+    CAPTURE(count);
+    require_host_extent(context, finder, random_points(count, {0, 0}, {1, 1}, count));
+    require_host_extent(context, finder, random_points(count, {4e7, -3e9}, {1.5, 7}, count));
+    require_host_extent(context, finder, random_points(count, {-1e-300, 5e-308}, {1e-301, 1e-307}, count));
+    require_host_extent(context, finder, random_points(count, {-1e308, 0}, {1.5e308, 1e300}, count));
+    require_host_extent(context, finder, random_points(count, {1e5 * least, 0}, {40 * least, 9 * least}, count));
+  }
+  require_host_extent(context, finder, {{-most, most}, {most, -most}});
+  require_host_extent(context, finder, {{least, 0}, {0, -least}});
+  require_host_extent(context, finder, {{3, -1e300}});
+  require_host_extent(context, finder, {{0.0, 1}, {-0.0, 2}});
+  require_host_extent(context, finder, {{-0.0, 1}, {0.0, 2}});
+  require_host_extent(context, finder, {});
+}
+
+TEST_CASE("the first point that is not finite is named, whatever is wrong with it, and the next search is sound") {
+  cuda::Context context;
+  cuda::ExtentFinder finder(context);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (const std::int32_t first : {0, 1, 300'000, 599'999}) {
+      Points points = random_points(600'000, {0, 0}, {1, 1}, 3);
+      points[static_cast<std::size_t>(first)].y = bad;
+      for (std::size_t i = static_cast<std::size_t>(first) + 7; i < points.size(); i += 1001) {
+        points[i].x = bad;
+      }
+      const cuda::DeviceBuffer<Point2<double>> device(context, points);
+      finder.find(device.data(), static_cast<std::int32_t>(points.size()));
+      CHECK(finder.extent().first_not_finite == first);
+    }
+    require_host_extent(context, finder, random_points(1000, {5, 5}, {1, 1}, 4));
+  }
+}
+
+TEST_CASE("moves that nothing is wrong with are committed at once") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(70, 60, 0.45, 6), 3);
+  for (const Form form : forms) {
+    for (const Precision precision : precisions) {
+      SmoothingOptions options;
+      options.form = form;
+      options.precision = precision;
+      const Run expected = run(mesh, options);
+      REQUIRE(expected.result.guard_rounds == 0);
+      REQUIRE(expected.result.moved_vertices > 0);
+      require_cpu_commit(mesh, options, expected);
+    }
+  }
+}
+
+TEST_CASE("Form A that is stopped early leaves offenders, and the same ones go back") {
+  for (const std::int32_t side : {60, 300}) {
+    const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(side, side, 0.6, 2), 5);
+    for (const Precision precision : precisions) {
+      SmoothingOptions options;
+      options.form = Form::swap;
+      options.precision = precision;
+      options.max_sweeps = 1;
+      const Run expected = run(mesh, options);
+      REQUIRE(expected.result.guard_rounds > 0);
+      require_cpu_commit(mesh, options, expected);
+    }
+  }
+}
+
+TEST_CASE("plain averages do damage in many rounds, and the same is taken back in each") {
+  const Mesh annulus = test_meshes::annulus(40, 12, 0.8);
+  for (const Mesh& mesh :
+       {test_meshes::shuffled(annulus, 8), test_meshes::together(annulus, test_meshes::tangled(30, 7), {3, 0})}) {
+    for (const Form form : forms) {
+      SmoothingOptions options;
+      options.form = form;
+      options.method = Method::laplacian;
+      options.max_sweeps = 20;
+      const Run expected = run(mesh, options);
+      REQUIRE(expected.result.guard_rounds > 1);
+      require_cpu_commit(mesh, options, expected);
+      const Run in_float32 = run(mesh, options, Storage::float32);
+      options.backend = &cuda::backend();
+      require_same(run(mesh, options, Storage::float32), in_float32);
+    }
+  }
+}
+
+TEST_CASE("without the guard all moves are written") {
+  for (const Mesh& mesh : {test_meshes::tangled(30, 7), test_meshes::jittered_grid(60, 60, 0.6, 2)}) {
+    for (const Form form : forms) {
+      SmoothingOptions options;
+      options.form = form;
+      options.method = Method::laplacian;
+      options.guard = false;
+      const Run expected = run(mesh, options);
+      require_cpu_commit(mesh, options, expected);
+    }
+  }
+}
+
+TEST_CASE("sweeps that go to and fro for ever have the history of real ones, up to any limit") {
+  const Mesh mesh = test_meshes::jittered_grid(5, 5, 0.45, 4);
+  for (const Form form : forms) {
+    for (const Precision precision : precisions) {
+      for (const std::int64_t limit : {255, 256, 257, 1000, 1001}) {
+        CAPTURE(to_string(form), to_string(precision), limit);
+        SmoothingOptions options;
+        options.method = Method::weighted;
+        options.form = form;
+        options.precision = precision;
+        options.tolerance = 0;
+        options.max_sweeps = limit;
+        options.record_min_shape = limit == 1001;
+        const Run expected = run(mesh, options);
+        options.backend = &cuda::backend();
+        const Run found = run(mesh, options);
+        require_same(found, expected);
+        CHECK(found.result.vertex_updates == expected.result.vertex_updates);
+        for (std::size_t i = 0; i < found.result.history.size(); ++i) {
+          REQUIRE(found.result.history[i].evaluated == expected.result.history[i].evaluated);
+          if (options.record_min_shape) {
+            REQUIRE(found.result.history[i].min_shape == expected.result.history[i].min_shape);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a plan refuses coordinates that are not finite, names the first, and goes on with the next") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(25, 20, 0.45, 6), 3);
+  const Run expected = run(mesh, {});
+  cuda::Context context;
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, mesh.indices());
+  const cuda::DeviceMesh device_mesh{
+      mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}};
+  cuda::DeviceBuffer<double> xy(context, mesh.xy());
+  cuda::Plan plan(device_mesh, {}, context.stream());
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> broken = mesh.xy();
+    broken[2 * 17 + 1] = std::numeric_limits<double>::quiet_NaN();
+    broken[2 * 300] = std::numeric_limits<double>::infinity();
+    xy.upload(broken);
+    CHECK_THROWS_WITH(plan.smooth(xy.data()), "vertex 17 has a coordinate that is not finite");
+    std::vector<double> after(broken.size());
+    xy.download(after);
+    CHECK(std::memcmp(after.data(), broken.data(), after.size() * sizeof(double)) == 0);
+
+    xy.upload(mesh.xy());
+    Run found{mesh.xy(), {}};
+    found.result = plan.smooth(xy.data());
+    xy.download(found.xy);
+    require_same(found, expected);
+  }
+}
