@@ -82,6 +82,8 @@ __global__ void __launch_bounds__(threads)
 
 ExtentFinder::ExtentFinder(Context& context) : context_(&context), keys_(context, 1), found_(context, 1) {
   keys_.fill_bytes(0);
+  // Gaps between the members are copied to the host with them.
+  found_.fill_bytes(0);
 }
 
 void ExtentFinder::find(const Point2<double>* points, std::int32_t count) {
