@@ -50,9 +50,8 @@ class RingSmoother final : public PreparedSmoother {
   RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
       : copier_(context_, options.threads), stored_(context_, with_room_for(rings, options, points.size())) {
     const auto start = std::chrono::steady_clock::now();
-    const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
     smoother_ = make_device_smoother(
-        context_, pack_rings(context_, uploaded(copier_, rings), copier_.uploaded(points), by_colour), options);
+        context_, pack_rings(context_, uploaded(copier_, rings), copier_.uploaded(points), options), options);
     context_.synchronize();
     prepare_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }

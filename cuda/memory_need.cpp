@@ -50,10 +50,10 @@ std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options) {
 }
 
 std::size_t topology_memory_need(std::int64_t vertices, std::int64_t triangles) {
-  // A vertex: where its corners begin, its flags, and while a component is oriented its local coordinates. A triangle:
-  // three corners, its component, its orientation, and for a while its quotient.
+  // A vertex: where its corners begin, its flags, and while the mesh is oriented its local coordinates. A triangle:
+  // three corners, its component, its orientation.
   return static_cast<std::size_t>(vertices) * (index_bytes + 1 + point_bytes) +
-         static_cast<std::size_t>(triangles) * (4 * index_bytes + 1 + sizeof(double));
+         static_cast<std::size_t>(triangles) * (4 * index_bytes + 1);
 }
 
 void require_memory(std::size_t bytes) {

@@ -19,9 +19,8 @@ namespace trismooth::cuda {
 /// How triangles in device memory hang together, found on the device: the paper's finding of neighbours and determining
 /// of constraints. The same in every number as what find_mesh_rings() finds on the host.
 ///
-/// Memory while it lives, for n vertices and m triangles: 5 n + 16 m bytes, 17 m once oriented; 4 m or 8 m more for a
-/// while in the constructor and in orient(). Vertices of more than VertexFan::capacity triangles take more: see
-/// find_large_fans().
+/// Memory while it lives, for n vertices and m triangles: 5 n + 16 m bytes, 17 m once oriented; 4 m more for a while in
+/// the constructor. Vertices of more than VertexFan::capacity triangles take more: see find_large_fans().
 class DeviceTopology {
  public:
   /// Analyses 3 `triangle_count` vertex numbers in device memory, which the caller owns and keeps as long as this
