@@ -6,9 +6,9 @@
 namespace trismooth::cuda {
 
 /// Joins what the threads of a block did in the block's shared sums. All threads of the block call it; a barrier comes
-/// before the sums are read.
-template <class T>
-__device__ void join_in_block(const SweepTally<T>& tally, SweepSums& shared) {
+/// before the sums are read. `Tally`: of one sweep or of one thread.
+template <class Tally>
+__device__ void join_in_block(const Tally& tally, SweepSums& shared) {
   constexpr unsigned all = 0xffffffffU;
   if (!__any_sync(all, tally.evaluated > 0)) {
     return;
@@ -16,9 +16,9 @@ __device__ void join_in_block(const SweepTally<T>& tally, SweepSums& shared) {
   const unsigned evaluated = __reduce_add_sync(all, static_cast<unsigned>(tally.evaluated));
   const unsigned moved = __reduce_add_sync(all, static_cast<unsigned>(tally.moved));
   const bool beyond = __any_sync(all, !tally.within_tolerance) != 0;
-  T largest = tally.max_relative_squared;
+  auto largest = tally.max_relative_squared;
   for (int distance = 16; distance > 0 && moved > 0; distance /= 2) {
-    const T other = __shfl_xor_sync(all, largest, distance);
+    const auto other = __shfl_xor_sync(all, largest, distance);
     largest = other > largest ? other : largest;
   }
   if (threadIdx.x % 32 == 0) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "trismooth/cuda/bounding_box.h"
@@ -7,6 +8,7 @@
 #include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/packing.h"
+#include "trismooth/cuda/renumbering.h"
 #include "trismooth/cuda/thread_index.cuh"
 #include "trismooth/smoothing/hilbert_curve.h"
 
@@ -58,65 +60,72 @@ __global__ void make_keys(RingsView rings, const Point2<double>* points, CurveGr
   vertices[v] = v;
 }
 
+/// The place of each free vertex along the curve.
+__global__ void find_places(const std::int32_t* order, std::int32_t count, std::int32_t* place) {
+  const std::int64_t i = thread_index();
+  if (i < count) {
+    place[order[i]] = static_cast<std::int32_t>(i);
+  }
+}
+
+/// Differences that fit a slot of 16 bits, less what vertices may still move apart within their windows.
+constexpr std::int32_t near = std::numeric_limits<std::int16_t>::max() - 2 * window_size;
+
+__device__ bool has_far_neighbour(const RingsView& rings, std::int32_t vertex, const std::int32_t* place) {
+  const std::int32_t* const ring = rings.ring(vertex);
+  bool far = false;
+  for (std::int32_t k = 0; k < rings.ring_size(vertex); ++k) {
+    const std::int32_t difference = place[ring[k]] - place[vertex];
+    far = far || difference > near || difference < -near;
+  }
+  return far;
+}
+
 /// Sorting by these keys puts vertices with rings of like size together within windows of each batch, so that the
-/// threads of a warp do the same. Fixed vertices stay last.
-__global__ void make_window_keys(RingsView rings, const std::int32_t* order, const std::int32_t* batches,
-                                 std::int32_t batch_count, std::uint64_t* keys) {
+/// threads of a warp do the same. Where `place` is given, those with a neighbour far away come last in a window: their
+/// rings are in another list. Fixed vertices stay last of all.
+__global__ void make_window_keys(RingsView rings, const std::int32_t* order, const std::int32_t* place,
+                                 const std::int32_t* batches, std::int32_t batch_count, std::uint64_t* keys) {
   const std::int64_t i = thread_index();
   if (i >= rings.size) {
     return;
   }
-  const auto place = static_cast<std::int32_t>(i);
-  if (place >= batches[batch_count]) {
-    keys[place] = ~std::uint64_t{0};
+  const auto own = static_cast<std::int32_t>(i);
+  if (own >= batches[batch_count]) {
+    keys[own] = ~std::uint64_t{0};
     return;
   }
   std::int32_t batch = 0;
-  while (place >= batches[batch + 1]) {
+  while (own >= batches[batch + 1]) {
     ++batch;
   }
   // Windows are numbered on, one more for each batch: a batch ends with a window that is not full.
-  const std::int32_t window = batches[batch] / window_size + batch + (place - batches[batch]) / window_size;
-  const std::int32_t size = min(rings.ring_size(order[place]), (1 << size_bits) - 1);
-  keys[place] = static_cast<std::uint64_t>(window) << size_bits | static_cast<std::uint64_t>(size);
+  const std::int32_t window = batches[batch] / window_size + batch + (own - batches[batch]) / window_size;
+  constexpr std::int32_t last = (1 << size_bits) - 1;
+  std::int32_t size = min(rings.ring_size(order[own]), last - 1);
+  if (place != nullptr && has_far_neighbour(rings, order[own], place)) {
+    size = last;
+  }
+  keys[own] = static_cast<std::uint64_t>(window) << size_bits | static_cast<std::uint64_t>(size);
 }
 
-__global__ void number_vertices(const std::int32_t* input_index, std::int32_t vertex_count, std::int32_t free_count,
-                                RingsView rings, std::int32_t* new_number, std::uint32_t* ring_sizes) {
-  const std::int64_t i = thread_index();
-  if (i >= vertex_count) {
-    return;
-  }
-  const auto v = static_cast<std::int32_t>(i);
-  new_number[input_index[v]] = v;
-  if (v < free_count) {
-    ring_sizes[v] = static_cast<std::uint32_t>(rings.ring_size(input_index[v]));
-  }
-}
+/// How vertices are ordered within windows of the curve.
+enum class Windows {
+  none,      ///< along the curve
+  by_size,   ///< by ring size
+  far_last,  ///< and those with a neighbour far away last
+};
 
-__global__ void copy_rings(RingsView from, const std::int32_t* input_index, const std::int32_t* new_number,
-                           std::int32_t free_count, const std::uint32_t* offsets, std::int32_t* neighbours) {
-  const std::int64_t i = thread_index();
-  if (i >= free_count) {
-    return;
-  }
-  const std::int32_t input = input_index[i];
-  const std::int32_t* const ring = from.ring(input);
-  for (std::int32_t k = 0; k < from.ring_size(input); ++k) {
-    neighbours[offsets[i] + static_cast<std::uint32_t>(k)] = new_number[ring[k]];
-  }
-}
-
-/// Fills input_index, batches and batch_begins.
+/// Fills input_index, batches and batch_begins. `colours`: a batch each, of `batch_count`; null: one batch.
 void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point2<double>> points,
-                    const DeviceBuffer<std::int32_t>& colours, std::int32_t batch_count, PackedDeviceRings& packed) {
+                    const std::int32_t* colours, std::int32_t batch_count, Windows order, PackedDeviceRings& packed) {
   const auto count = static_cast<std::size_t>(rings.size);
   DeviceBuffer<std::uint64_t> keys(context, count);
   DeviceBuffer<std::int32_t> vertices(context, count);
   DeviceBuffer<std::uint32_t> batch_sizes(context, static_cast<std::size_t>(batch_count) + 1);
   batch_sizes.fill_bytes(0);
   make_keys<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(
-      rings, points.data(), curve_grid(bounding_box(context, points.data(), rings.size)), colours.data(), batch_count,
+      rings, points.data(), curve_grid(bounding_box(context, points.data(), rings.size)), colours, batch_count,
       keys.data(), vertices.data(), batch_sizes.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   points.reset();
@@ -129,9 +138,19 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
     packed.batches.push_back(packed.batches.back() + static_cast<std::int32_t>(sizes[batch]));
   }
   packed.batch_begins = DeviceBuffer<std::int32_t>(context, packed.batches);
+  if (order == Windows::none) {
+    packed.input_index = std::move(vertices);
+    return;
+  }
+  DeviceBuffer<std::int32_t> place(context, order == Windows::far_last ? count : 0);
+  if (order == Windows::far_last) {
+    find_places<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(vertices.data(), rings.size, place.data());
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  }
   make_window_keys<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(
-      rings, vertices.data(), packed.batch_begins.data(), batch_count, keys.data());
+      rings, vertices.data(), place.data(), packed.batch_begins.data(), batch_count, keys.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  place.reset();
   const auto windows = static_cast<unsigned>(rings.size / window_size + batch_count + 1);
   // One bit more than windows need, for the fixed vertices.
   sort_by_key(context, keys, vertices, size_bits + std::bit_width(windows) + 1);
@@ -140,7 +159,8 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
 
 }  // namespace
 
-PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>> points, bool by_colour) {
+PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>> points,
+                             const SmoothingOptions& options) {
   PackedDeviceRings packed;
   // A parameter lives as long as the caller's expression; the memory is to go back with this function.
   const DeviceRings source = std::move(rings);
@@ -149,31 +169,39 @@ PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<P
     packed.batches = {0, 0};
     return packed;
   }
+  const bool is_resident = options.execution == Execution::resident;
+  const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
   DeviceColouring colouring;
   if (by_colour) {
     colouring = colour_vertices(context, from);
     packed.colours = colouring.count;
   }
-  const std::int32_t batch_count = std::max(1, packed.colours);
-  order_vertices(context, from, std::move(points), colouring.colours, batch_count, packed);
-  colouring.colours.reset();
-
-  const std::int32_t free_count = packed.free_count();
-  DeviceBuffer<std::int32_t> new_number(context, static_cast<std::size_t>(from.size));
-  DeviceRings to;
-  to.offsets = DeviceBuffer<std::uint32_t>(context, static_cast<std::size_t>(free_count) + 1);
-  to.offsets.fill_bytes(0);
-  number_vertices<<<blocks_for(from.size), block_size, 0, context.stream()>>>(
-      packed.input_index.data(), from.size, free_count, from, new_number.data(), to.offsets.data());
-  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  sum_before(context, to.offsets.data(), std::int64_t{free_count} + 1);
-  to.neighbours = DeviceBuffer<std::int32_t>(context, source.neighbours.size());
-  if (free_count > 0) {
-    copy_rings<<<blocks_for(free_count), block_size, 0, context.stream()>>>(
-        from, packed.input_index.data(), new_number.data(), free_count, to.offsets.data(), to.neighbours.data());
-    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  if (is_resident && Patches::may_suit(from.size, packed.colours, options)) {
+    DeviceBuffer<Point2<double>> copy(context, points.size());
+    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(copy.data(), points.data(), points.size() * sizeof(Point2<double>),
+                                         cudaMemcpyDeviceToDevice, context.stream()));
+    order_vertices(context, from, std::move(copy), nullptr, 1, Windows::none, packed);
+    const Renumbering numbers(context, from, packed.input_index.data(), packed.free_count());
+    packed.rings = renumbered(context, numbers, source.neighbours.size());
+    const DeviceBuffer<std::uint8_t> colours = renumbered(context, numbers, colouring.colours.data());
+    packed.patches = Patches::cut(context, packed.rings.view(), from.size, colours.data(), packed.colours, options);
+    if (packed.patches != nullptr) {
+      return packed;
+    }
+    packed.rings = {};
   }
-  packed.rings = std::move(to);
+  const bool has_near_rings = is_resident && !by_colour;
+  order_vertices(context, from, std::move(points), colouring.colours.data(), std::max(1, packed.colours),
+                 has_near_rings ? Windows::far_last : Windows::by_size, packed);
+  colouring.colours.reset();
+  const Renumbering numbers(context, from, packed.input_index.data(), packed.free_count());
+  if (has_near_rings) {
+    packed.near_rings = slotted<std::int16_t>(context, numbers);
+  } else if (is_resident) {
+    packed.wide_rings = slotted<std::int32_t>(context, numbers);
+  } else {
+    packed.rings = renumbered(context, numbers, source.neighbours.size());
+  }
   return packed;
 }
 

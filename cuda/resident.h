@@ -2,28 +2,29 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <cuda_runtime_api.h>
 
 #include "trismooth/cuda/point_arrays.h"
-#include "trismooth/cuda/rings.h"
+#include "trismooth/cuda/slotted_rings.h"
 #include "trismooth/cuda/sweep_state.h"
 #include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {
 
-/// Positions of all vertices, and which free ones are to be evaluated.
+/// Positions of all vertices, and marks of the free ones.
 template <class T, Layout layout>
 struct ResidentBuffer {
   PointArrays<T, layout> points;
-  std::uint8_t* marked;  ///< a byte each: the closed neighbourhood changed since the last evaluation
+  std::uint32_t* marks;  ///< a bit for each free vertex, 0 before the first sweep: see mark()
 };
 
 /// What the resident execution works on, in packed numbering: free vertices first, batch after batch. Form B uses one
 /// buffer for both.
-template <class T, Layout layout>
+template <class T, Layout layout, class Slot>
 struct ResidentMesh {
-  RingsView rings;  ///< of the free vertices
+  SlottedRingsView<Slot> rings;  ///< of the free vertices
   ResidentBuffer<T, layout> first;
   ResidentBuffer<T, layout> second;
 };
@@ -31,17 +32,22 @@ struct ResidentMesh {
 /// Words for the barriers of a launch by these rules.
 std::size_t resident_barriers(const LoopRules& rules);
 
-/// Queues the resident execution: one launch of the whole GPU, with a barrier after each batch, that sweeps until the
-/// rules say stop or rules.sweeps are done. Sweep i of the launch adds to sums[i]. These and the resident_barriers()
-/// words of `barriers` are zero before. `largest_batch`: vertices of the largest batch.
-template <class T, Layout layout>
-void launch_resident(Method method, const ResidentMesh<T, layout>& mesh, const LoopRules& rules,
-                     std::int32_t largest_batch, LoopState* state, SweepSums* sums, unsigned long long* barriers,
-                     cudaStream_t stream);
+/// Queues `sweeps` sweeps that evaluate every vertex, a launch for each batch. Each is only made while the run goes on
+/// and its state says that all are to be evaluated: while many vertices move that is cheaper than to mark and to list
+/// them. Sweep i of the run's launch adds to sums[i], which are zero before. `batches`: as rules.batches, on the host.
+/// Returns how many kernels were launched.
+template <class T, Layout layout, class Slot>
+std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+                                  std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
+                                  SweepSums* sums, cudaStream_t stream);
 
-/// Queues the measuring of the smallest quotient of the triangles with a free vertex into sums->min_quotient.
-template <class T, Layout layout>
-void launch_min_quotient(const RingsView& rings, const PointArrays<T, layout>& points, SweepSums* sums,
-                         cudaStream_t stream);
+/// Queues sweeps that evaluate the marked vertices: one launch of the whole GPU, with a barrier after each batch, that
+/// sweeps until the rules say stop or rules.sweeps are done, those of launch_sweeps_of_all() among them. The first of
+/// them evaluates every vertex where the state says so still. The resident_barriers() words of `barriers` are zero
+/// before. `largest_batch`: vertices of the largest batch.
+template <class T, Layout layout, class Slot>
+void launch_sweeps_of_marked(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+                             std::int32_t largest_batch, LoopState* state, SweepSums* sums,
+                             unsigned long long* barriers, cudaStream_t stream);
 
 }  // namespace trismooth::cuda

@@ -39,6 +39,7 @@ struct LoopRules {
   double target;                ///< quality target, or no_target
   double fixed_quotient;        ///< smallest quotient of the triangles without a free vertex
   std::int32_t sweeps;          ///< at most so many before the host is asked; no more than there are SweepSums
+  std::int64_t remaining;       ///< sweeps until the limit, those of this launch among them; 0: no limit
   std::int32_t batch_count;     ///< vertices of a batch are updated at the same time
   const std::int32_t* batches;  ///< on the device: batch b holds vertices batches[b] .. batches[b + 1]
 };
@@ -46,13 +47,21 @@ struct LoopRules {
 /// Where a run stands. On the device; the host reads it between launches.
 struct LoopState {
   static constexpr std::int32_t running = -1;
+  /// The positions after the last sweep are those of two sweeps before, so all further sweeps go to and fro between the
+  /// last two: nothing but the limit ends them. `current` is the buffer that will hold the positions then.
+  static constexpr std::int32_t repeating = -2;
 
   std::int32_t sweeps = 0;      ///< done since the host last looked
-  std::int32_t stop = running;  ///< a StopReason, or running
+  std::int32_t stop = running;  ///< a StopReason, running or repeating
   std::int32_t current = 0;     ///< which of the two buffers holds the positions
   std::int32_t batch = 0;       ///< the batch that comes next (CDP)
   std::int32_t error = 0;       ///< the cudaError_t of a launch by the device that failed
   std::uint64_t children = 0;   ///< kernels launched by the device
+
+  // Of the resident execution. The host hands them on from launch to launch.
+  std::int32_t evaluates_all = 1;  ///< the next sweep evaluates every vertex
+  std::int32_t marks = 0;          ///< it marks for the sweep after it, which will not
+  std::uint32_t blocks_done = 0;   ///< blocks that have ended the sweep
 };
 
 /// The smallest shape after a sweep.

@@ -24,6 +24,21 @@ struct SweepTally {
   }
 };
 
+/// How far a vertex with k neighbours n_i moved, v being where it was.
+template <class T>
+struct MoveLength {
+  T moved;  ///< move^2 * k
+  T sum;    ///< sum |n_i - v|^2, in ring order
+
+  constexpr TRISMOOTH_HOST_DEVICE bool is_within(T tolerance) const { return moved <= tolerance * tolerance * sum; }
+  constexpr TRISMOOTH_HOST_DEVICE T relative_squared() const { return sum > 0 ? moved / sum : T(0); }
+};
+
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE MoveLength<T> length_of_move(Point2<T> from, Point2<T> to, int neighbours, T sum) {
+  return {squared_length(to - from) * static_cast<T>(neighbours), sum};
+}
+
 /// The tally of one move, measured by the values that the update read. It is within the tolerance where
 /// move^2 * k <= tolerance^2 * sum |n_i - v|^2, in working precision.
 template <class T, class Ring>
@@ -33,8 +48,8 @@ constexpr TRISMOOTH_HOST_DEVICE SweepTally<T> tally_of_move(Point2<T> from, Poin
   for (int i = 0; i < ring.size(); ++i) {
     sum += squared_length(ring[i] - from);
   }
-  const T moved = squared_length(to - from) * static_cast<T>(ring.size());
-  return {0, 1, moved <= tolerance * tolerance * sum, sum > 0 ? moved / sum : T(0)};
+  const MoveLength<T> length = length_of_move(from, to, ring.size(), sum);
+  return {0, 1, length.is_within(tolerance), length.relative_squared()};
 }
 
 }  // namespace trismooth

@@ -167,9 +167,9 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
   }
   const OneRings rings = find_mesh_rings(local, mesh.triangles, {}, workers).rings;
   const std::vector<std::uint32_t> offsets(rings.offsets.begin(), rings.offsets.end());
-  const bool by_colour = form == Form::in_place;
+  options.execution = Execution::cdp;
   const cuda::PackedDeviceRings packed =
-      cuda::pack_rings(context, {{context, offsets}, {context, rings.neighbours}}, {context, local}, by_colour);
+      cuda::pack_rings(context, {{context, offsets}, {context, rings.neighbours}}, {context, local}, options);
   const cuda::DeviceElements elements =
       cuda::find_elements(context, packed.rings.view(), packed.rings.neighbours.size());
   cuda::PaperMesh<T, layout> paper(context, packed.rings.view(), packed.vertex_count(), elements);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "trismooth/smoothing/sweep_tally.h"
+
+namespace trismooth::cuda {
+
+/// SweepTally of one thread in a launch.
+template <class T>
+struct ThreadTally {
+  unsigned evaluated = 0;
+  unsigned moved = 0;
+  bool within_tolerance = true;
+  T max_relative_squared = 0;
+};
+
+/// Whether a move is longer, relative to its neighbourhood, than `longest_squared`. Its quotient is only divided where
+/// that is not clear without: the products are off by less than the margin, and a smaller quotient rounds to a smaller
+/// or the same number.
+template <class T>
+__device__ bool may_be_longer(const MoveLength<T>& length, T longest_squared) {
+  return length.moved > longest_squared * length.sum * (1 - T(1e-6));
+}
+
+template <class T>
+__device__ void add_move(ThreadTally<T>& tally, const MoveLength<T>& length, T tolerance) {
+  ++tally.moved;
+  tally.within_tolerance = tally.within_tolerance && length.is_within(tolerance);
+  if (may_be_longer(length, tally.max_relative_squared)) {
+    const T relative = length.relative_squared();
+    tally.max_relative_squared = relative > tally.max_relative_squared ? relative : tally.max_relative_squared;
+  }
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,556 @@
+#include <algorithm>
+#include <bit>
+
+#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/grid_barrier.cuh"
+#include "trismooth/cuda/move_tally.cuh"
+#include "trismooth/cuda/patch_sweeps.h"
+#include "trismooth/cuda/team_update.cuh"
+#include "trismooth/cuda/vertex_update.cuh"
+
+namespace trismooth::cuda {
+
+namespace {
+
+template <class T>
+constexpr int threads_for = sizeof(T) == sizeof(float) ? 1024 : 512;
+constexpr unsigned all_lanes = 0xffffffffU;
+/// So many of a warp's vertices are evaluated by teams, more by one thread each.
+constexpr int few = 8;
+/// Sweeps of a group, at most: those of a single patch.
+constexpr std::int32_t longest_group = 16;
+
+/// What a block's vertices did in one sweep.
+struct PatchSums {
+  std::uint32_t evaluated;
+  std::uint32_t moved;
+  std::uint32_t beyond_tolerance;
+  unsigned long long max_relative;  ///< as in SweepSums
+};
+
+struct BlockWork {
+  PatchSums sums[longest_group];
+  unsigned long long barrier_total;  ///< of grid_barrier()
+  std::int32_t class_begins[256];    ///< colour c: class_list[class_begins[c] .. class_begins[c + 1])
+};
+
+/// A patch in shared memory.
+template <class T>
+struct PatchMemory {
+  Point2<T>* points;       ///< before a sweep
+  Point2<T>* next_points;  ///< after it; the same in Form B
+  std::uint16_t* begins;   ///< ring of local vertex v: entries[begins[v] .. begins[v + 1])
+  std::uint16_t* entries;
+  std::uint16_t* list;   ///< the vertices that are evaluated, colour by colour (Form B)
+  std::uint8_t* sweeps;  ///< of Patches
+  std::uint8_t* colours;
+  std::uint8_t* marked;       ///< the closed neighbourhood changed since the last evaluation
+  std::uint8_t* next_marked;  ///< the same for the next sweep; the same in Form B
+  std::uint8_t* moved;        ///< in which sweep the vertex moved last: see stamp()
+};
+
+constexpr std::size_t rounded_up(std::size_t bytes) {
+  return (bytes + 15) / 16 * 16;
+}
+
+/// Bytes of the parts of a patch's memory, one after the other.
+template <class T>
+constexpr std::size_t memory_bytes(std::size_t vertices, std::size_t entries, bool swaps) {
+  return (swaps ? 2 : 1) * rounded_up(vertices * sizeof(Point2<T>)) + 2 * rounded_up((vertices + 1) * 2) +
+         rounded_up(entries * 2) + (swaps ? 5 : 4) * rounded_up(vertices);
+}
+
+template <class T>
+__device__ PatchMemory<T> divide_memory(std::uint8_t* memory, std::size_t vertices, std::size_t entries, bool swaps) {
+  const auto take = [&memory](std::size_t bytes) {
+    std::uint8_t* const part = memory;
+    memory += rounded_up(bytes);
+    return part;
+  };
+  PatchMemory<T> patch{};
+  patch.points = reinterpret_cast<Point2<T>*>(take(vertices * sizeof(Point2<T>)));
+  patch.next_points = swaps ? reinterpret_cast<Point2<T>*>(take(vertices * sizeof(Point2<T>))) : patch.points;
+  patch.begins = reinterpret_cast<std::uint16_t*>(take((vertices + 1) * 2));
+  patch.list = reinterpret_cast<std::uint16_t*>(take((vertices + 1) * 2));
+  patch.entries = reinterpret_cast<std::uint16_t*>(take(entries * 2));
+  patch.sweeps = take(vertices);
+  patch.colours = take(vertices);
+  patch.marked = take(vertices);
+  patch.next_marked = swaps ? take(vertices) : patch.marked;
+  patch.moved = take(vertices);
+  return patch;
+}
+
+/// A ring of any size in a patch.
+template <class T>
+struct RingInPatch {
+  const Point2<T>* points;
+  const std::uint16_t* ring;
+  int count;
+
+  __device__ int size() const { return count; }
+  __device__ Point2<T> operator[](int i) const { return points[ring[i]]; }
+};
+
+/// What stands for a group's sweep in PatchMemory::moved. 1 is the last sweep of the group before.
+__device__ inline std::uint8_t stamp(std::int32_t sweep) {
+  return static_cast<std::uint8_t>(sweep + 2);
+}
+
+/// Which vertices of the patch are the block's own, how they are counted, and what they are stamped with.
+struct PatchRules {
+  std::int32_t own_begin;
+  std::int32_t own_end;
+  double tolerance;
+  std::uint8_t stamp;
+};
+
+/// What the threads of a block do in a sweep with the patch's vertices.
+template <class T>
+struct PatchSweep {
+  const PatchMemory<T>& patch;
+  PatchRules rules;
+  PatchSums& sums;
+
+  __device__ bool is_own(std::int32_t v) const { return v >= rules.own_begin && v < rules.own_end; }
+};
+
+/// Counts a move of the block's own vertices.
+template <class T>
+__device__ __forceinline__ void count_move(const MoveLength<T>& length, const PatchSweep<T>& sweep) {
+  atomicAdd(&sweep.sums.moved, 1U);
+  if (!length.is_within(static_cast<T>(sweep.rules.tolerance))) {
+    sweep.sums.beyond_tolerance = 1;
+  }
+  const double longest = std::bit_cast<double>(*static_cast<volatile unsigned long long*>(&sweep.sums.max_relative));
+  if (may_be_longer(length, static_cast<T>(longest))) {
+    atomicMax(&sweep.sums.max_relative,
+              std::bit_cast<unsigned long long>(static_cast<double>(length.relative_squared())));
+  }
+}
+
+/// Marks a moved vertex; its neighbours are marked by the caller.
+template <class T>
+__device__ __forceinline__ void mark_moved(std::int32_t v, const PatchSweep<T>& sweep) {
+  sweep.patch.next_marked[v] = 1;
+  sweep.patch.moved[v] = sweep.rules.stamp;
+}
+
+/// The update of a vertex by one thread, for rings of any size.
+template <class Update, class T>
+__device__ __noinline__ VertexMove<T> update_alone(Point2<T> position, RingInPatch<T> ring) {
+  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
+  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
+    result.squares += squared_length(ring[i] - position);
+  }
+  return result;
+}
+
+/// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
+/// vertex that is left to visit_by_team().
+template <class Update, class T>
+__device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, const PatchSweep<T>& sweep) {
+  const PatchMemory<T>& patch = sweep.patch;
+  const std::int32_t begin = active ? patch.begins[v] : 0;
+  const int size = active ? patch.begins[v + 1] - begin : 0;
+  VertexMove<T> result;
+  Point2<T> position;
+  if constexpr (has_register_update<Update, T>) {
+    constexpr int capacity = 8;
+    RegisterRing<T, capacity> ring;
+    ring.size = size <= capacity ? size : 0;
+    ring.longest = __reduce_max_sync(all_lanes, ring.size);
+    if (ring.size == 0) {
+      return active;
+    }
+    unrolled<capacity, RegisterRing<T, capacity>::smallest + 1>(ring.longest + 1, [&](auto i) {
+      ring.neighbours[i] = patch.points[patch.entries[begin + (i < size ? i() : 0)]];
+    });
+    position = patch.points[v];
+    if (!try_update(Update{}, position, ring, result)) {
+      return true;
+    }
+  } else {
+    if (!active) {
+      return false;
+    }
+    position = patch.points[v];
+    result = update_alone<Update, T>(position, {patch.points, patch.entries + begin, size});
+  }
+  patch.next_points[v] = result.move.position;
+  if (result.move.moved) {
+    mark_moved(v, sweep);
+    for (int i = 0; i < size; ++i) {
+      patch.next_marked[patch.entries[begin + i]] = 1;
+    }
+    if (sweep.is_own(v)) {
+      count_move(length_of_move(position, result.move.position, size, result.squares), sweep);
+    }
+  }
+  return false;
+}
+
+/// Evaluates one vertex a team, whose threads call it with the same arguments. All threads of the warp call it.
+template <class Update, class T>
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const PatchSweep<T>& sweep) {
+  const PatchMemory<T>& patch = sweep.patch;
+  const std::int32_t begin = patch.begins[v];
+  const int size = active ? patch.begins[v + 1] - begin : 0;
+  const Point2<T> position = patch.points[v];
+  const VertexMove<T> result = evaluate_by_team<Update>(
+      position, size, [&](int i) { return patch.points[patch.entries[begin + i]]; },
+      [&] {
+        return update_alone<Update, T>(position, {patch.points, patch.entries + begin, size});
+      });
+  if (active && team_lane() == 0) {
+    patch.next_points[v] = result.move.position;
+  }
+  if (result.move.moved) {
+    for (int i = team_lane(); i < size; i += team_size) {
+      patch.next_marked[patch.entries[begin + i]] = 1;
+    }
+    if (team_lane() == 0) {
+      mark_moved(v, sweep);
+      if (sweep.is_own(v)) {
+        count_move(length_of_move(position, result.move.position, size, result.squares), sweep);
+      }
+    }
+  }
+}
+
+/// The n-th of the bits that are set, from 0; -1 if there are not so many.
+__device__ inline int set_bit(unsigned bits, int n) {
+#pragma unroll
+  for (int i = 0; i + 1 < teams; ++i) {
+    bits = i < n ? bits & (bits - 1) : bits;
+  }
+  return __ffs(static_cast<int>(bits)) - 1;
+}
+
+/// Evaluates those of 32 vertices, one of each thread of the warp, that are `wanted`: few of them by teams.
+template <class Update, class T>
+__device__ __forceinline__ void visit(std::int32_t v, bool wanted, const PatchSweep<T>& sweep) {
+  unsigned lanes = __ballot_sync(all_lanes, wanted);
+  if (lanes == 0) {
+    return;
+  }
+  const unsigned own_lanes = __ballot_sync(all_lanes, wanted && sweep.is_own(v));
+  if (threadIdx.x % 32 == 0 && own_lanes != 0) {
+    atomicAdd(&sweep.sums.evaluated, static_cast<std::uint32_t>(__popc(own_lanes)));
+  }
+  if (!has_register_update<Update, T> || __popc(lanes) > few) {
+    lanes = __ballot_sync(all_lanes, visit_by_thread<Update>(v, wanted, sweep));
+  }
+  if constexpr (has_register_update<Update, T>) {
+    while (lanes != 0) {
+      const int lane = set_bit(lanes, static_cast<int>(threadIdx.x % 32) / team_size);
+      visit_by_team<Update>(__shfl_sync(all_lanes, v, lane < 0 ? 0 : lane), lane >= 0, sweep);
+#pragma unroll
+      for (int i = 0; i < teams; ++i) {
+        lanes &= lanes - 1;
+      }
+    }
+  }
+}
+
+/// One sweep of Form A: evaluates the marked vertices that the group's sweep `sweep` is to.
+template <class Update, class T>
+__device__ void sweep_form_a(std::int32_t sweep, bool all, std::int32_t count, PatchMemory<T>& patch,
+                             const PatchRules& rules, BlockWork& work) {
+  constexpr int threads = threads_for<T>;
+  // The vertices of a warp are far apart: what moves is often near to each other.
+  const std::int32_t groups = (count + 31) / 32;
+  const auto lane = static_cast<std::int32_t>(threadIdx.x % 32);
+  for (std::int32_t group = static_cast<std::int32_t>(threadIdx.x / 32); group < groups; group += threads / 32) {
+    const std::int32_t v = lane * groups + group;
+    bool wanted = false;
+    if (v < count) {
+      wanted = (all || patch.marked[v] != 0) && sweep < patch.sweeps[v];
+      patch.marked[v] = 0;
+    }
+    visit<Update>(wanted ? v : 0, wanted, PatchSweep<T>{patch, rules, work.sums[sweep]});
+  }
+  __syncthreads();
+  Point2<T>* const old = patch.points;
+  patch.points = patch.next_points;
+  patch.next_points = old;
+  std::uint8_t* const old_marked = patch.marked;
+  patch.marked = patch.next_marked;
+  patch.next_marked = old_marked;
+}
+
+/// One sweep of Form B, colour by colour.
+template <class Update, class T>
+__device__ void sweep_form_b(std::int32_t sweep, bool all, std::int32_t colours, PatchMemory<T>& patch,
+                             const PatchRules& rules, BlockWork& work) {
+  constexpr int threads = threads_for<T>;
+  const auto thread = static_cast<std::int32_t>(threadIdx.x);
+  for (std::int32_t colour = 0; colour < colours; ++colour) {
+    const std::int32_t begin = work.class_begins[colour];
+    const std::int32_t count = work.class_begins[colour + 1] - begin;
+    for (std::int32_t i = thread; i < (count + 31) / 32 * 32; i += threads) {
+      const std::int32_t v = patch.list[begin + (i < count ? i : 0)];
+      const bool wanted = i < count && (all || patch.marked[v] != 0);
+      if (wanted) {
+        patch.marked[v] = 0;
+      }
+      __syncwarp();
+      visit<Update>(v, wanted, PatchSweep<T>{patch, rules, work.sums[sweep]});
+    }
+    __syncthreads();
+  }
+}
+
+/// Lists the vertices that are evaluated by colour.
+template <class T>
+__device__ void list_classes(std::int32_t count, std::int32_t colours, const PatchMemory<T>& patch, BlockWork& work) {
+  constexpr int threads = threads_for<T>;
+  for (std::int32_t i = static_cast<std::int32_t>(threadIdx.x); i <= colours + 1; i += threads) {
+    work.class_begins[i] = 0;
+  }
+  __syncthreads();
+  // Counts stand two places on, so that filling the list moves begins to where they belong.
+  for (std::int32_t v = static_cast<std::int32_t>(threadIdx.x); v < count; v += threads) {
+    if (patch.sweeps[v] > 0) {
+      atomicAdd(&work.class_begins[patch.colours[v] + 2], 1);
+    }
+  }
+  __syncthreads();
+  if (threadIdx.x == 0) {
+    for (std::int32_t colour = 0; colour < colours; ++colour) {
+      work.class_begins[colour + 2] += work.class_begins[colour + 1];
+    }
+  }
+  __syncthreads();
+  for (std::int32_t v = static_cast<std::int32_t>(threadIdx.x); v < count; v += threads) {
+    if (patch.sweeps[v] > 0) {
+      patch.list[atomicAdd(&work.class_begins[patch.colours[v] + 1], 1)] = static_cast<std::uint16_t>(v);
+    }
+  }
+  __syncthreads();
+}
+
+/// Brings in positions and moves from the last group, and marks what they changed.
+template <class T, Layout layout>
+__device__ void enter_group(const PatchBuffer<T, layout>& from, const std::int32_t* vertices, std::int32_t count,
+                            std::int32_t free_count, bool swaps, const PatchMemory<T>& patch, BlockWork& work) {
+  constexpr int threads = threads_for<T>;
+  const auto thread = static_cast<std::int32_t>(threadIdx.x);
+  for (std::int32_t v = thread; v < count; v += threads) {
+    const std::int32_t number = __ldg(vertices + v);
+    const Point2<T> position = from.points.load(number);
+    patch.points[v] = position;
+    patch.next_points[v] = position;
+    patch.moved[v] = number < free_count ? from.moved[number] : 0;
+  }
+  for (std::int32_t i = thread; i < longest_group; i += threads) {
+    work.sums[i] = PatchSums{};
+  }
+  __syncthreads();
+  for (std::int32_t v = thread; v < count; v += threads) {
+    bool marked = false;
+    if (patch.sweeps[v] > 0) {
+      marked = patch.moved[v] != 0;
+      for (std::int32_t i = patch.begins[v]; i < patch.begins[v + 1]; ++i) {
+        const std::int32_t neighbour = patch.entries[i];
+        // One of a lower colour moved before the vertex was looked at.
+        marked = marked || (patch.moved[neighbour] != 0 && (swaps || patch.colours[neighbour] > patch.colours[v]));
+      }
+    }
+    patch.marked[v] = marked ? 1 : 0;
+    if (swaps) {
+      patch.next_marked[v] = 0;
+    }
+  }
+  __syncthreads();
+}
+
+/// What the blocks tell each other of a group: bit s: a vertex moved in its sweep s; bit 32 + s: beyond the tolerance.
+constexpr unsigned beyond_shift = 32;
+
+__device__ std::int32_t stop_in_group(unsigned long long found, std::int32_t sweep) {
+  const bool moved = (found >> static_cast<unsigned>(sweep) & 1) != 0;
+  const bool beyond = (found >> (beyond_shift + static_cast<unsigned>(sweep)) & 1) != 0;
+  const auto reason = reason_in_sweep(moved ? 1 : 0, !beyond, no_target, no_target);
+  return reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
+}
+
+__device__ unsigned long long bits_of(const PatchSums& sums, std::int32_t sweep) {
+  return (sums.moved > 0 ? 1ULL << static_cast<unsigned>(sweep) : 0ULL) |
+         (sums.beyond_tolerance > 0 ? 1ULL << (beyond_shift + static_cast<unsigned>(sweep)) : 0ULL);
+}
+
+template <class Update, class T, Layout layout, bool swaps>
+__global__ void __launch_bounds__(threads_for<T>, 1)
+    sweep_patches(PatchedMesh<T, layout> mesh, LoopRules rules, std::int32_t group_length, std::int32_t free_count,
+                  LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found) {
+  constexpr int threads = threads_for<T>;
+  extern __shared__ __align__(16) std::uint8_t memory[];
+  __shared__ BlockWork work;
+  const PatchPlace place = mesh.patches.places[blockIdx.x];
+  const std::int32_t count = place.vertex_count;
+  const auto thread = static_cast<std::int32_t>(threadIdx.x);
+  PatchMemory<T> patch =
+      divide_memory<T>(memory, static_cast<std::size_t>(count), static_cast<std::size_t>(place.entry_count), swaps);
+  const std::int32_t* const vertices = mesh.patches.vertices + place.first_vertex;
+  for (std::int32_t v = thread; v <= count; v += threads) {
+    patch.begins[v] = mesh.patches.ring_begins[place.first_vertex + blockIdx.x + static_cast<std::uint32_t>(v)];
+  }
+  for (std::int32_t v = thread; v < count; v += threads) {
+    patch.sweeps[v] = mesh.patches.sweeps[place.first_vertex + static_cast<std::uint32_t>(v)];
+    patch.colours[v] = mesh.patches.colours[place.first_vertex + static_cast<std::uint32_t>(v)];
+  }
+  for (std::int32_t i = thread; i < place.entry_count; i += threads) {
+    patch.entries[i] = mesh.patches.ring_entries[place.first_entry + static_cast<std::uint32_t>(i)];
+  }
+  __syncthreads();
+  if (!swaps) {
+    list_classes(count, mesh.colours, patch, work);
+  }
+  PatchRules patch_rules{place.own_begin, place.own_end, rules.tolerance, 0};
+  const bool is_alone = gridDim.x == 1;
+  PatchBuffer<T, layout> from = mesh.first;
+  PatchBuffer<T, layout> to = mesh.second;
+  std::int32_t current = state->current;
+  if (current != 0) {
+    from = mesh.second;
+    to = mesh.first;
+  }
+  std::int32_t sweep = 0;
+  std::int32_t stop = LoopState::running;
+  while (sweep < rules.sweeps && stop == LoopState::running) {
+    const std::int32_t planned = min(group_length, rules.sweeps - sweep);
+    std::int32_t made = planned;
+    // Where the group turns out to contain the last sweep, it is made again up to there.
+    for (bool again = false;; again = true) {
+      enter_group(from, vertices, count, free_count, swaps, patch, work);
+      for (std::int32_t s = 0; s < made; ++s) {
+        patch_rules.stamp = stamp(s);
+        if (swaps) {
+          sweep_form_a<Update>(s, rules.evaluates_all, count, patch, patch_rules, work);
+        } else {
+          sweep_form_b<Update>(s, rules.evaluates_all, mesh.colours, patch, patch_rules, work);
+        }
+        // A block that is alone decides at once.
+        if (is_alone) {
+          stop = stop_in_group(bits_of(work.sums[s], s), s);
+          made = stop != LoopState::running ? s + 1 : made;
+        }
+      }
+      for (std::int32_t v = place.own_begin + thread; v < place.own_end; v += threads) {
+        const std::int32_t number = __ldg(vertices + v);
+        to.points.store(number, patch.points[v]);
+        to.moved[number] = patch.moved[v] == stamp(made - 1) ? 1 : 0;
+      }
+      if (again) {
+        break;
+      }
+      if (thread < made) {
+        const PatchSums& own = work.sums[thread];
+        SweepSums& all = sums[sweep + thread];
+        if (own.evaluated > 0) {
+          atomicAdd(&all.evaluated, static_cast<unsigned long long>(own.evaluated));
+        }
+        if (own.moved > 0) {
+          atomicAdd(&all.moved, static_cast<unsigned long long>(own.moved));
+          atomicMax(&all.max_relative, own.max_relative);
+        }
+        if (own.beyond_tolerance > 0) {
+          atomicAdd(&all.beyond_tolerance, 1ULL);
+        }
+      }
+      if (is_alone) {
+        __syncthreads();
+        break;
+      }
+      if (thread == 0) {
+        unsigned long long bits = 0;
+        for (std::int32_t s = 0; s < made; ++s) {
+          bits |= bits_of(work.sums[s], s);
+        }
+        if (bits != 0) {
+          atomicOr(found, bits);
+        }
+      }
+      grid_barrier(barriers, 0, work.barrier_total, [] {});
+      const unsigned long long bits = *static_cast<volatile unsigned long long*>(found);
+      for (std::int32_t s = 0; s < planned && stop == LoopState::running; ++s) {
+        stop = stop_in_group(bits, s);
+        made = s + 1;
+      }
+      ++barriers;
+      ++found;
+      // After a sweep in which nothing moved, nothing has.
+      if (made == planned || stop == static_cast<std::int32_t>(StopReason::fixed_point)) {
+        break;
+      }
+    }
+    sweep += made;
+    current = 1 - current;
+    const PatchBuffer<T, layout> old = from;
+    from = to;
+    to = old;
+  }
+  if (blockIdx.x == 0 && thread == 0) {
+    state->current = current;
+    state->sweeps = sweep;
+    state->stop = stop;
+  }
+}
+
+template <class Update, class T, Layout layout, bool swaps>
+void launch_with(const PatchedMesh<T, layout>& mesh, const LoopRules& rules, std::size_t shared_bytes,
+                 std::int32_t free_count, LoopState* state, SweepSums* sums, BarrierWord* barriers,
+                 unsigned long long* found, cudaStream_t stream) {
+  const auto* const kernel = reinterpret_cast<const void*>(&sweep_patches<Update, T, layout, swaps>);
+  TRISMOOTH_CUDA_CHECK(
+      cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_bytes)));
+  std::int32_t group_length = longest_group;
+  if (mesh.patches.count > 1) {
+    group_length = swaps ? Patches::sweeps_in_group_a : Patches::sweeps_in_group_b;
+  }
+  PatchedMesh<T, layout> mesh_argument = mesh;
+  LoopRules rules_argument = rules;
+  void* arguments[] = {&mesh_argument, &rules_argument, &group_length, &free_count, &state, &sums, &barriers, &found};
+  TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(kernel, dim3(static_cast<unsigned>(mesh.patches.count)),
+                                                   dim3(threads_for<T>), arguments, shared_bytes, stream));
+}
+
+}  // namespace
+
+template <class T>
+std::size_t patch_bytes(const Patches& patches, bool swaps) {
+  return memory_bytes<T>(static_cast<std::size_t>(patches.most_vertices()),
+                         static_cast<std::size_t>(patches.most_entries()), swaps);
+}
+
+std::size_t patch_groups(std::int32_t sweeps) {
+  return static_cast<std::size_t>(sweeps);
+}
+
+template <class T, Layout layout>
+void launch_patch_sweeps(Method method, const PatchedMesh<T, layout>& mesh, const LoopRules& rules,
+                         std::size_t shared_bytes, std::int32_t free_count, LoopState* state, SweepSums* sums,
+                         unsigned long long* barriers, unsigned long long* found, cudaStream_t stream) {
+  visit_method(method, [&]<class Update>(Update) {
+    if (rules.swaps) {
+      launch_with<Update, T, layout, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+    } else {
+      launch_with<Update, T, layout, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found,
+                                            stream);
+    }
+  });
+}
+
+template std::size_t patch_bytes<float>(const Patches&, bool);
+template std::size_t patch_bytes<double>(const Patches&, bool);
+#define INSTANTIATE(T, layout)                                                                                      \
+  template void launch_patch_sweeps(Method, const PatchedMesh<T, layout>&, const LoopRules&, std::size_t,           \
+                                    std::int32_t, LoopState*, SweepSums*, unsigned long long*, unsigned long long*, \
+                                    cudaStream_t)
+INSTANTIATE(float, Layout::aos);
+INSTANTIATE(float, Layout::soa);
+INSTANTIATE(double, Layout::aos);
+INSTANTIATE(double, Layout::soa);
+
+}  // namespace trismooth::cuda

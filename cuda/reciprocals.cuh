@@ -1,0 +1,33 @@
+#pragma once
+
+namespace trismooth::cuda {
+
+/// 1 / n in T, correctly rounded as by a division: the compiler has divided.
+template <class T>
+struct Reciprocals {
+  static constexpr int count = 17;
+  T values[count];
+
+  constexpr Reciprocals() : values{} {
+    for (int n = 1; n < count; ++n) {
+      values[n] = T(1) / static_cast<T>(n);
+    }
+  }
+};
+
+__constant__ const Reciprocals<float> float_reciprocals;
+__constant__ const Reciprocals<double> double_reciprocals;
+
+template <class T>
+__device__ T reciprocal(int n) {
+  if (n >= Reciprocals<T>::count) {
+    return T(1) / static_cast<T>(n);
+  }
+  if constexpr (sizeof(T) == sizeof(float)) {
+    return float_reciprocals.values[n];
+  } else {
+    return double_reciprocals.values[n];
+  }
+}
+
+}  // namespace trismooth::cuda

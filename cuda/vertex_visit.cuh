@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/cuda/changed_vertices.cuh"
+#include "trismooth/cuda/move_tally.cuh"
+#include "trismooth/cuda/point_arrays.h"
+#include "trismooth/cuda/ring_in_memory.cuh"
+#include "trismooth/cuda/slotted_rings.h"
+#include "trismooth/cuda/team_update.cuh"
+#include "trismooth/cuda/vertex_update.cuh"
+
+namespace trismooth::cuda {
+
+/// What a sweep reads and writes.
+template <class T, Layout layout, class Slot>
+struct SweepData {
+  SlottedRingsView<Slot> rings;
+  PointArrays<T, layout> from;
+  PointArrays<T, layout> to;  ///< the same in Form B
+  std::uint32_t* marks;       ///< for the next sweep (Form A), or for those to come (Form B)
+  T tolerance;
+  /// Set where a vertex is elsewhere than `to` had it, that is two sweeps before (Form A). Null: nobody asks.
+  std::uint32_t* differs = nullptr;
+};
+
+/// Rings of more neighbours are left to teams.
+inline constexpr int largest_ring = 12;
+
+/// Marks a vertex for the next sweep unless it is fixed.
+template <class T, Layout layout, class Slot>
+__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, layout, Slot>& data) {
+  if (v < data.rings.size) {
+    mark(data.marks, v);
+  }
+}
+
+/// The record of a vertex, which never changes: read past the cache's coherence, so that it stays there from sweep to
+/// sweep.
+template <class Slot>
+__device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<Slot>& rings, std::int32_t v) {
+  RingRecord<Slot> record;
+  const auto* const from = reinterpret_cast<const int4*>(&rings.records[v]);
+  auto* const to = reinterpret_cast<int4*>(&record);
+#pragma unroll
+  for (std::size_t i = 0; i < sizeof(record) / sizeof(int4); ++i) {
+    to[i] = __ldg(from + i);
+  }
+  return record;
+}
+
+/// Writes where an evaluated vertex is, and counts it.
+template <class T, Layout layout, class Slot>
+__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, layout, Slot>& data,
+                                       ThreadTally<T>& tally) {
+  ++tally.evaluated;
+  if (data.differs != nullptr && !(data.to.load(v) == move.position)) {
+    *data.differs = 1;
+  }
+  data.to.store(v, move.position);
+}
+
+/// The update of a vertex by one thread, its ring read from memory: for rings of any size.
+template <class Update, class T, Layout layout, class Slot>
+__device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position,
+                                                         PointArrays<T, layout> points, SlottedRingsView<Slot> rings) {
+  const auto ring = ring_in_memory(points, rings, v);
+  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
+  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
+    result.squares += squared_length(ring[i] - position);
+  }
+  return result;
+}
+
+/// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
+/// Those that are not `active` do nothing. Exact for every ring.
+template <class Update, class T, Layout layout, class Slot>
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, bool marks,
+                                              const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+  const Point2<T> position = data.from.load(v);
+  const SlottedRing<Slot> numbers = data.rings.ring(v);
+  const int size = active ? data.rings.ring_size(v) : 0;
+  const VertexMove<T> result = evaluate_by_team<Update>(
+      position, size, [&](int i) { return data.from.load(numbers[i]); },
+      [&] { return update_from_memory<Update>(v, position, data.from, data.rings); });
+  if (active && team_lane() == 0) {
+    settle(v, result.move, data, tally);
+  }
+  if (result.move.moved) {
+    if (team_lane() == 0) {
+      add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
+    }
+    if (marks) {
+      if (team_lane() == 0) {
+        mark(data.marks, v);
+      }
+      for (int i = team_lane(); i < size; i += team_size) {
+        mark_if_free(numbers[i], data);
+      }
+    }
+  }
+}
+
+/// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
+/// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
+/// marks the vertex itself for the next sweep.
+template <class Update, class T, Layout layout, class Slot>
+__device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active, bool marks,
+                                      const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+  VertexMove<T> result;
+  Point2<T> position;
+  if constexpr (has_register_update<Update, T>) {
+    RegisterRing<T, largest_ring> ring;
+    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
+    if (!active) {
+      return false;
+    }
+    position = data.from.load(v);
+    if (ring.size == 0 || !try_update(Update{}, position, ring, result)) {
+      return true;
+    }
+  } else {
+    if (!active) {
+      return false;
+    }
+    position = data.from.load(v);
+    result = update_from_memory<Update>(v, position, data.from, data.rings);
+  }
+  settle(v, result.move, data, tally);
+  if (result.move.moved) {
+    const int size = record.ring_size();
+    add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
+    if (marks) {
+      mark(data.marks, v);
+      const SlottedRing<Slot> numbers = data.rings.ring(v);
+      for (int i = 0; i < size; ++i) {
+        mark_if_free(numbers[i], data);
+      }
+    }
+  }
+  return false;
+}
+
+/// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
+template <class Update, class T, Layout layout, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_teams(int count, bool marks, const SweepData<T, layout, Slot>& data,
+                                               ThreadTally<T>& tally, const Vertex& vertex) {
+  if constexpr (has_register_update<Update, T>) {
+    for (int base = 0; base < count; base += teams) {
+      const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
+      visit_by_team<Update>(vertex(i < count ? i : 0), i < count, marks, data, tally);
+    }
+  }
+}
+
+/// Adds the values of the threads that say `adds` to a list of their warp. All threads of the warp call it; what is in
+/// the list is there after a __syncwarp().
+__device__ __forceinline__ void add_to_list(bool adds, std::int32_t value, std::int32_t* list, int& count) {
+  const unsigned lanes = __ballot_sync(0xffffffffU, adds);
+  if (adds) {
+    list[count + __popc(lanes & ((1U << (threadIdx.x % 32)) - 1))] = value;
+  }
+  count += __popc(lanes);
+}
+
+}  // namespace trismooth::cuda
