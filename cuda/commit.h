@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/packing.h"
 #include "trismooth/cuda/point_arrays.h"
 #include "trismooth/cuda/sweep_state.h"
@@ -29,17 +32,50 @@ struct CommitInput {
 
 /// What the kernels of the commit tell each other and the host; all zeros to begin with.
 struct CommitState {
+  /// A key that is above those of all quotients: of an element that was valid and is not any more, or that has a
+  /// quotient that is no number.
+  static constexpr unsigned long long spoilt = ~0ULL;
+
   unsigned long long before;  ///< falling_key() of T, the smallest quotient before of the elements of moved vertices
-  unsigned long long after;   ///< falling_key() of the smallest quotient of the same elements after
-  std::uint32_t spoilt;       ///< not 0: one of them was valid and is not any more, or has a quotient that is no number
-  std::uint32_t offending;    ///< vertices found in all rounds
-  std::uint32_t listed;       ///< of those, how many are in the lists
-  std::uint32_t moved;        ///< vertices written
+  unsigned long long after;   ///< falling_key() of the smallest quotient of the same elements after, or spoilt
+  unsigned long long barriers[3];  ///< of the blocks that make rounds
+  std::uint32_t listed;            ///< offenders found, those that the list has no room for among them
+  std::uint32_t taken_back;        ///< of those, how many went back: the first ones of the list
+  std::uint32_t rounds;            ///< that took something back
+  std::uint32_t settled;           ///< not 0: the rounds are over, nothing offends any more
+  std::uint32_t moved;             ///< vertices written
 
   /// Whether all elements pass without a second look: where none is spoilt, and the smallest quotient after is not
   /// below T, no quotient after is below T. So offends() holds for none, and no round would take anything back. (A
   /// falling key is the larger, the smaller the number.)
-  TRISMOOTH_HOST_DEVICE bool nothing_offends() const { return spoilt == 0 && after <= before; }
+  TRISMOOTH_HOST_DEVICE bool nothing_offends() const { return after <= before; }
+  TRISMOOTH_HOST_DEVICE bool may_write() const { return nothing_offends() || settled != 0; }
+};
+
+/// A vertex that went back.
+struct Offender {
+  std::int32_t vertex;      ///< packed
+  std::int32_t input;       ///< the caller's number
+  Point2<double> position;  ///< where it would have been stored
+};
+
+/// What a guarded commit needs beside its input, made once for a mesh: about a byte for each free vertex.
+struct CommitBuffers {
+  DeviceBuffer<unsigned long long> verdicts;  ///< of each block of free vertices: see CommitState::after
+  DeviceBuffer<std::uint32_t> marks;          ///< a bit for each free vertex; all zeros between commits
+  DeviceBuffer<Offender> list;
+
+  /// For a commit that is not guarded.
+  CommitBuffers() = default;
+  CommitBuffers(Context& context, std::int32_t free_count);
+
+  /// Offenders that the list has room for at first. More are rare and cost a round trip to the host. A round that has
+  /// more by itself makes the list longer for good.
+  static constexpr std::int32_t list_size(std::int32_t free_count) {
+    constexpr std::int32_t smallest_size = 4096;
+    return std::min(free_count, std::max(smallest_size, free_count / 32));
+  }
+  bool guard() const { return list.size() > 0; }
 };
 
 /// What the commit took back and wrote.
@@ -49,21 +85,21 @@ struct CommitOutcome {
   std::int64_t moved = 0;                ///< vertices that were written
 };
 
-/// Queues the never-worse commit (never_worse.h), unless `guarded` is false; then the writing alone. It may be queued
-/// behind sweeps of which nobody knows yet whether they end the run: where they do not, it does nothing. Where nothing
-/// offends, which is nearly always so, the vertices that are elsewhere are written to `stored` (input numbering,
-/// aligned to 16 bytes) and the others keep their bits; else nothing is written, and finish_commit() does the rest.
-/// Returns the number of launches. There are free vertices.
+/// Queues the never-worse commit (never_worse.h), or the writing alone if the buffers are none of a guarded commit. It
+/// may be queued behind sweeps of which nobody knows yet whether they end the run: where they do not, it does nothing.
+/// Else offenders go back, round by round, in their working positions too; then the vertices that are elsewhere are
+/// written to `stored` (input numbering, aligned to 16 bytes), and the others keep their bits. Only where there are
+/// more offenders than the list holds, nothing is written, and finish_commit() does the rest. Returns the number of
+/// launches. There are free vertices.
 template <class T, Layout layout>
-std::int64_t launch_commit(const CommitInput<T, layout>& input, bool guarded, Point2<double>* stored,
+std::int64_t launch_commit(const CommitInput<T, layout>& input, CommitBuffers& buffers, Point2<double>* stored,
                            CommitState* state, cudaStream_t stream);
 
-/// Ends a commit whose `state` has become `found`: the rounds that take offenders back, and the writing, where the
-/// launches have left that. The host is asked once a round. Working positions of reverted vertices are put back. Adds
-/// to `launches`.
+/// Brings over what a commit did whose `state` has become `found`. Where the list was too short, does what is left: the
+/// host is asked each time that the list is full. Adds to `launches`.
 template <class T, Layout layout>
-CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& input, Point2<double>* stored,
-                            CommitState* state, const CommitState& found, std::int64_t& launches);
+CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& input, CommitBuffers& buffers,
+                            Point2<double>* stored, CommitState* state, CommitState found, std::int64_t& launches);
 
 /// Queues the way into the frame: before[v] = frame->enter(stored[input_index[v]]), and in working precision into both
 /// `first` and `second` (which may be the same). The frame is on the device.

@@ -42,6 +42,9 @@ class TypedSmoother final : public DeviceSmoother {
         timeline_(context) {
     if (rings_.free_count() > 0) {
       engine_ = make_sweep_engine<T, layout>(context, rings_, options);
+      if (options.guard) {
+        commit_buffers_ = CommitBuffers(context, rings_.free_count());
+      }
     }
   }
 
@@ -201,7 +204,7 @@ class TypedSmoother final : public DeviceSmoother {
       commit.input.first = commit.input.second = engine_->output(host_record_.state.current);
     }
     result.kernel_launches +=
-        launch_commit(commit.input, options_.guard, commit.stored, &record_.data()->commit, context_.stream());
+        launch_commit(commit.input, commit_buffers_, commit.stored, &record_.data()->commit, context_.stream());
     timeline_.mark();
   }
 
@@ -215,8 +218,8 @@ class TypedSmoother final : public DeviceSmoother {
   /// What is left of the commit when its record has been read.
   void end(const Commit& commit, SmoothingResult& result) {
     const std::int64_t queued = result.kernel_launches;
-    CommitOutcome outcome = finish_commit(context_, commit.input, commit.stored, &record_.data()->commit,
-                                          host_record_.commit, result.kernel_launches);
+    CommitOutcome outcome = finish_commit(context_, commit.input, commit_buffers_, commit.stored,
+                                          &record_.data()->commit, host_record_.commit, result.kernel_launches);
     if (result.kernel_launches > queued) {
       timeline_.rewind(2);
       timeline_.mark();
@@ -269,6 +272,7 @@ class TypedSmoother final : public DeviceSmoother {
   std::string device_;
   PackedDeviceRings rings_;
   DeviceBuffer<Point2<double>> before_;
+  CommitBuffers commit_buffers_;
   ExtentFinder extent_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};

@@ -10,6 +10,7 @@
 
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/bounding_box.h"
+#include "trismooth/cuda/commit.h"
 #include "trismooth/cuda/context.h"
 #include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/device_mesh.h"
@@ -201,6 +202,35 @@ TEST_CASE("plain averages do damage in many rounds, and the same is taken back i
       const Run in_float32 = run(mesh, options, Storage::float32);
       options.backend = &cuda::backend();
       require_same(run(mesh, options, Storage::float32), in_float32);
+    }
+  }
+}
+
+TEST_CASE("more offenders than the list has room for go back all the same, and the plan is fit for the next run") {
+  struct Case {
+    Mesh mesh;
+    std::int64_t max_sweeps;
+  };
+  // Too many in the first round; in a later one; in the first and together again; in many small ones.
+  for (const Case& tried :
+       {Case{test_meshes::tangled(300, 7), 1}, Case{test_meshes::tangled(205, 7), 1},
+        Case{test_meshes::annulus(400, 30, 0.9), 200}, Case{test_meshes::annulus(300, 100, 0.8), 20}}) {
+    const Mesh mesh = test_meshes::shuffled(tried.mesh, 9);
+    SmoothingOptions options;
+    options.form = Form::swap;
+    options.method = Method::laplacian;
+    options.max_sweeps = tried.max_sweeps;
+    const Run expected = run(mesh, options);
+    REQUIRE(expected.result.guard_rounds > 1);
+    REQUIRE(expected.result.reverted_vertices >
+            cuda::CommitBuffers::list_size(static_cast<std::int32_t>(expected.result.free_vertices)));
+    require_cpu_commit(mesh, options, expected);
+    options.backend = &cuda::backend();
+    auto again = plan(mesh.vertex_count(), mesh.indices(), {}, options);
+    for (int i = 0; i < 2; ++i) {
+      Run found{mesh.xy(), {}};
+      found.result = again.smooth(found.xy);
+      require_same(found, expected);
     }
   }
 }
