@@ -10,7 +10,7 @@ namespace trismooth::cuda {
 template <class Tally>
 __device__ void join_in_block(const Tally& tally, SweepSums& shared) {
   constexpr unsigned all = 0xffffffffU;
-  if (!__any_sync(all, tally.evaluated > 0)) {
+  if (!__any_sync(all, tally.evaluated > 0 || tally.moved > 0)) {
     return;
   }
   const unsigned evaluated = __reduce_add_sync(all, static_cast<unsigned>(tally.evaluated));

@@ -11,6 +11,14 @@ struct ThreadTally {
   unsigned moved = 0;
   bool within_tolerance = true;
   T max_relative_squared = 0;
+
+  __device__ void join(const ThreadTally& other) {
+    evaluated += other.evaluated;
+    moved += other.moved;
+    within_tolerance = within_tolerance && other.within_tolerance;
+    max_relative_squared =
+        other.max_relative_squared > max_relative_squared ? other.max_relative_squared : max_relative_squared;
+  }
 };
 
 /// Whether a move is longer, relative to its neighbourhood, than `longest_squared`. Its quotient is only divided where

@@ -13,7 +13,9 @@ namespace trismooth::cuda {
 namespace {
 
 template <class T>
-constexpr int threads_for = sizeof(T) == sizeof(float) ? 1024 : 512;
+constexpr int threads_for = sizeof(T) == sizeof(float) ? 768 : 512;
+/// Places in a warp's list.
+constexpr int list_size = 96;
 constexpr unsigned all_lanes = 0xffffffffU;
 /// So many of a warp's vertices are evaluated by teams, more by one thread each.
 constexpr int few = 8;
@@ -30,8 +32,9 @@ struct PatchSums {
 
 struct BlockWork {
   PatchSums sums[longest_group];
-  unsigned long long barrier_total;  ///< of grid_barrier()
-  std::int32_t class_begins[256];    ///< colour c: class_list[class_begins[c] .. class_begins[c + 1])
+  std::uint16_t lists[32][list_size];  ///< of vertices to evaluate, one for each warp
+  unsigned long long barrier_total;    ///< of grid_barrier()
+  std::int32_t class_begins[256];      ///< colour c: class_list[class_begins[c] .. class_begins[c + 1])
 };
 
 /// A patch in shared memory.
@@ -156,7 +159,7 @@ __device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, con
   VertexMove<T> result;
   Point2<T> position;
   if constexpr (has_register_update<Update, T>) {
-    constexpr int capacity = 8;
+    constexpr int capacity = 12;
     RegisterRing<T, capacity> ring;
     ring.size = size <= capacity ? size : 0;
     ring.longest = __reduce_max_sync(all_lanes, ring.size);
@@ -218,38 +221,75 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
   }
 }
 
-/// The n-th of the bits that are set, from 0; -1 if there are not so many.
-__device__ inline int set_bit(unsigned bits, int n) {
-#pragma unroll
-  for (int i = 0; i + 1 < teams; ++i) {
-    bits = i < n ? bits & (bits - 1) : bits;
+/// Evaluates vertices of the warp's list from `begin` on by teams.
+template <class Update, class T>
+__device__ __forceinline__ void visit_by_teams(const std::uint16_t* list, int begin, int end,
+                                               const PatchSweep<T>& sweep) {
+  if constexpr (has_register_update<Update, T>) {
+    for (; begin < end; begin += teams) {
+      const int i = begin + static_cast<int>(threadIdx.x % 32) / team_size;
+      visit_by_team<Update>(list[i < end ? i : begin], i < end, sweep);
+    }
   }
-  return __ffs(static_cast<int>(bits)) - 1;
 }
 
-/// Evaluates those of 32 vertices, one of each thread of the warp, that are `wanted`: few of them by teams.
+/// Adds the vertices of the threads that say `adds` to the warp's list.
+__device__ __forceinline__ int added_to_list(std::uint16_t* list, int listed, bool adds, std::int32_t v) {
+  const unsigned lanes = __ballot_sync(all_lanes, adds);
+  if (adds) {
+    list[listed + __popc(lanes & ((1U << (threadIdx.x % 32)) - 1))] = static_cast<std::uint16_t>(v);
+  }
+  return listed + __popc(lanes);
+}
+
+/// Evaluates the vertices of the warp's list: 32 at a time by threads while there are more than a few, what is left and
+/// what threads have left by teams. All threads of the warp call it.
 template <class Update, class T>
-__device__ __forceinline__ void visit(std::int32_t v, bool wanted, const PatchSweep<T>& sweep) {
-  unsigned lanes = __ballot_sync(all_lanes, wanted);
-  if (lanes == 0) {
-    return;
+__device__ __forceinline__ void visit_list(std::uint16_t* list, int listed, const PatchSweep<T>& sweep) {
+  __syncwarp();
+  int begin = 0;
+  int left_over = 0;
+  while (listed - begin > (has_register_update<Update, T> ? few : 0)) {
+    const int i = begin + static_cast<int>(threadIdx.x % 32);
+    const std::int32_t v = list[i < listed ? i : 0];
+    const bool left = visit_by_thread<Update>(v, i < listed, sweep);
+    __syncwarp();
+    // The places before `begin` are free.
+    left_over = added_to_list(list, left_over, left, v);
+    begin += 32;
   }
-  const unsigned own_lanes = __ballot_sync(all_lanes, wanted && sweep.is_own(v));
-  if (threadIdx.x % 32 == 0 && own_lanes != 0) {
-    atomicAdd(&sweep.sums.evaluated, static_cast<std::uint32_t>(__popc(own_lanes)));
-  }
-  if (!has_register_update<Update, T> || __popc(lanes) > few) {
-    lanes = __ballot_sync(all_lanes, visit_by_thread<Update>(v, wanted, sweep));
-  }
-  if constexpr (has_register_update<Update, T>) {
-    while (lanes != 0) {
-      const int lane = set_bit(lanes, static_cast<int>(threadIdx.x % 32) / team_size);
-      visit_by_team<Update>(__shfl_sync(all_lanes, v, lane < 0 ? 0 : lane), lane >= 0, sweep);
-#pragma unroll
-      for (int i = 0; i < teams; ++i) {
-        lanes &= lanes - 1;
-      }
+  __syncwarp();
+  visit_by_teams<Update>(list, 0, left_over, sweep);
+  visit_by_teams<Update>(list, begin, listed, sweep);
+  __syncwarp();
+}
+
+/// Evaluates those of `count` candidates that wanted(i, v) says of, with v set to the vertex. The candidates of a warp
+/// are far apart: what changes is often near to each other.
+template <class Update, class T, class Wanted>
+__device__ __forceinline__ void visit_candidates(std::int32_t count, std::uint16_t* list, const PatchSweep<T>& sweep,
+                                                 const Wanted& wanted) {
+  constexpr std::int32_t warps = threads_for<T> / 32;
+  const auto warp = static_cast<std::int32_t>(threadIdx.x / 32);
+  const auto lane = static_cast<std::int32_t>(threadIdx.x % 32);
+  int listed = 0;
+  unsigned evaluated = 0;
+  for (std::int32_t base = 0; base + warp < count; base += 32 * warps) {
+    const std::int32_t i = base + lane * warps + warp;
+    std::int32_t v = 0;
+    const bool is_wanted = i < count && wanted(i, v);
+    listed = added_to_list(list, listed, is_wanted, v);
+    evaluated += __popc(__ballot_sync(all_lanes, is_wanted && sweep.is_own(v)));
+    if (listed > list_size - 32) {
+      visit_list<Update>(list, listed, sweep);
+      listed = 0;
     }
+  }
+  if (listed > 0) {
+    visit_list<Update>(list, listed, sweep);
+  }
+  if (lane == 0 && evaluated > 0) {
+    atomicAdd(&sweep.sums.evaluated, evaluated);
   }
 }
 
@@ -257,19 +297,15 @@ __device__ __forceinline__ void visit(std::int32_t v, bool wanted, const PatchSw
 template <class Update, class T>
 __device__ void sweep_form_a(std::int32_t sweep, bool all, std::int32_t count, PatchMemory<T>& patch,
                              const PatchRules& rules, BlockWork& work) {
-  constexpr int threads = threads_for<T>;
-  // The vertices of a warp are far apart: what moves is often near to each other.
-  const std::int32_t groups = (count + 31) / 32;
-  const auto lane = static_cast<std::int32_t>(threadIdx.x % 32);
-  for (std::int32_t group = static_cast<std::int32_t>(threadIdx.x / 32); group < groups; group += threads / 32) {
-    const std::int32_t v = lane * groups + group;
-    bool wanted = false;
-    if (v < count) {
-      wanted = (all || patch.marked[v] != 0) && sweep < patch.sweeps[v];
-      patch.marked[v] = 0;
-    }
-    visit<Update>(wanted ? v : 0, wanted, PatchSweep<T>{patch, rules, work.sums[sweep]});
-  }
+  visit_candidates<Update>(count, work.lists[threadIdx.x / 32], PatchSweep<T>{patch, rules, work.sums[sweep]},
+                           [&](std::int32_t i, std::int32_t& v) {
+                             v = i;
+                             const bool marked = patch.marked[i] != 0;
+                             if (marked) {
+                               patch.marked[i] = 0;
+                             }
+                             return (all || marked) && sweep < patch.sweeps[i];
+                           });
   __syncthreads();
   Point2<T>* const old = patch.points;
   patch.points = patch.next_points;
@@ -283,20 +319,17 @@ __device__ void sweep_form_a(std::int32_t sweep, bool all, std::int32_t count, P
 template <class Update, class T>
 __device__ void sweep_form_b(std::int32_t sweep, bool all, std::int32_t colours, PatchMemory<T>& patch,
                              const PatchRules& rules, BlockWork& work) {
-  constexpr int threads = threads_for<T>;
-  const auto thread = static_cast<std::int32_t>(threadIdx.x);
   for (std::int32_t colour = 0; colour < colours; ++colour) {
     const std::int32_t begin = work.class_begins[colour];
-    const std::int32_t count = work.class_begins[colour + 1] - begin;
-    for (std::int32_t i = thread; i < (count + 31) / 32 * 32; i += threads) {
-      const std::int32_t v = patch.list[begin + (i < count ? i : 0)];
-      const bool wanted = i < count && (all || patch.marked[v] != 0);
-      if (wanted) {
-        patch.marked[v] = 0;
-      }
-      __syncwarp();
-      visit<Update>(v, wanted, PatchSweep<T>{patch, rules, work.sums[sweep]});
-    }
+    visit_candidates<Update>(work.class_begins[colour + 1] - begin, work.lists[threadIdx.x / 32],
+                             PatchSweep<T>{patch, rules, work.sums[sweep]}, [&](std::int32_t i, std::int32_t& v) {
+                               v = patch.list[begin + i];
+                               const bool marked = patch.marked[v] != 0;
+                               if (marked) {
+                                 patch.marked[v] = 0;
+                               }
+                               return all || marked;
+                             });
     __syncthreads();
   }
 }

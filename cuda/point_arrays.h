@@ -31,12 +31,6 @@ struct PointArrays<T, Layout::aos> {
   PointArrays() = default;
   PointArrays(T* memory, std::int64_t /*count*/) : points(reinterpret_cast<PointRecord<T>*>(memory)) {}
 
-  /// The points from `vertex` on.
-  TRISMOOTH_HOST_DEVICE PointArrays from(std::int32_t vertex) const {
-    PointArrays rest = *this;
-    rest.points += vertex;
-    return rest;
-  }
   TRISMOOTH_HOST_DEVICE Point2<T> load(std::int32_t vertex) const {
     const PointRecord<T> record = points[vertex];
     return {record.x, record.y};
@@ -54,13 +48,6 @@ struct PointArrays<T, Layout::soa> {
   PointArrays() = default;
   PointArrays(T* memory, std::int64_t count) : x(memory), y(memory + count) {}
 
-  /// The points from `vertex` on.
-  TRISMOOTH_HOST_DEVICE PointArrays from(std::int32_t vertex) const {
-    PointArrays rest = *this;
-    rest.x += vertex;
-    rest.y += vertex;
-    return rest;
-  }
   TRISMOOTH_HOST_DEVICE Point2<T> load(std::int32_t vertex) const { return {x[vertex], y[vertex]}; }
   TRISMOOTH_HOST_DEVICE void store(std::int32_t vertex, Point2<T> point) const {
     x[vertex] = point.x;

@@ -37,7 +37,7 @@ struct FilterBand<double> {
 template <class T>
 __device__ bool is_sound_origin(Point2<T> point) {
   constexpr T smallest = T(0x1p-20);
-  return fabs(point.x) >= smallest && fabs(point.y) >= smallest;
+  return (fabs(point.x) >= smallest) & (fabs(point.y) >= smallest);
 }
 
 __device__ inline float approximate_reciprocal(float value) {

@@ -18,11 +18,9 @@ struct Reciprocals {
 __constant__ const Reciprocals<float> float_reciprocals;
 __constant__ const Reciprocals<double> double_reciprocals;
 
+/// `n` is below Reciprocals::count.
 template <class T>
-__device__ T reciprocal(int n) {
-  if (n >= Reciprocals<T>::count) {
-    return T(1) / static_cast<T>(n);
-  }
+__device__ T small_reciprocal(int n) {
   if constexpr (sizeof(T) == sizeof(float)) {
     return float_reciprocals.values[n];
   } else {

@@ -55,9 +55,9 @@ __device__ __forceinline__ void fetch_ring(std::int32_t v, const RingRecord<Slot
   }
   // One place more than the longest ring has: where it is closed.
   if (!is_long) {
-    const PointArrays<T, layout> origin = sizeof(Slot) == 2 ? points.from(v) : points;
+    const std::int32_t origin = sizeof(Slot) == 2 ? v : 0;
     unrolled<capacity, smallest + 1>(
-        ring.longest + 1, [&](auto i) { ring.neighbours[i] = origin.load(record.slot(i < slots ? i() : 0)); });
+        ring.longest + 1, [&](auto i) { ring.neighbours[i] = points.load(origin + record.slot(i < slots ? i() : 0)); });
   } else {
     const std::int32_t* const neighbours = long_rings + record.long_begin();
     unrolled<capacity, smallest + 1>(

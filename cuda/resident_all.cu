@@ -14,9 +14,7 @@ constexpr std::int32_t threads = 256;
 /// Blocks of a multiprocessor: what their registers allow.
 template <class T>
 constexpr std::int32_t resident_blocks = sizeof(T) == sizeof(float) ? 3 : 2;
-/// Rounds that a block makes with vertices one after the other at most: what is near in number is near in the mesh and
-/// in the cache.
-constexpr std::int32_t longest_run = 4;
+constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them.
 constexpr std::uint64_t smallest_share = 6;
@@ -30,92 +28,72 @@ __device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopS
   state->stop = stop_after(found, rules);
   ++state->sweeps;
   state->current = rules.swaps ? 1 - state->current : state->current;
-  // Whether a sweep marks is said before it begins, and so which one is the last to evaluate every vertex.
-  state->evaluates_all = state->marks == 0 ? 1 : 0;
   const bool many_move = found.moved > static_cast<std::uint64_t>(free_count) / smallest_share;
-  state->marks = rules.evaluates_all || many_move ? 0 : 1;
+  state->evaluates_all = rules.evaluates_all || many_move ? 1 : 0;
 }
 
-/// The vertices of a batch that a block goes through, as many as it has threads in each round: runs of `rounds` rounds,
-/// one of every so many that there are blocks.
-struct Runs {
+/// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
+/// each other, then leaves as many to each of the others: what is near in number is near in the mesh and in the cache.
+struct Pieces {
   std::int32_t begin;
   std::int32_t end;
-  std::int32_t rounds;
-};
+  std::int32_t run_bits;
 
-/// A block's way through its runs.
-class Place {
- public:
-  __device__ explicit Place(const Runs& runs)
-      : first_(runs.begin + static_cast<std::int64_t>(blockIdx.x) * runs.rounds * threads), left_(runs.rounds) {}
-
-  /// The first vertex of the round; beyond the end where there are no more.
-  __device__ std::int64_t first() const { return first_; }
-  __device__ void next(const Runs& runs) {
-    first_ += threads;
-    if (--left_ == 0) {
-      left_ = runs.rounds;
-      first_ += static_cast<std::int64_t>(gridDim.x - 1) * runs.rounds * threads;
-    }
+  /// The first vertex of the block's piece `i`; the end or more where there is none.
+  __device__ std::int64_t first(std::int32_t i) const {
+    const std::int32_t run =
+        (i >> run_bits) * static_cast<std::int32_t>(gridDim.x) + static_cast<std::int32_t>(blockIdx.x);
+    const std::int32_t piece = (run << run_bits) + (i & ((1 << run_bits) - 1));
+    return begin + static_cast<std::int64_t>(piece) * threads;
   }
-
- private:
-  std::int64_t first_;
-  std::int32_t left_;
 };
 
-/// Vertices that a warp leaves to its teams before it evaluates them.
-constexpr int most_left_over = 64;
+/// Pieces after which a block evaluates what its threads have left to its teams.
+constexpr std::int32_t segment = 16;
 
 template <class Update, class T, Layout layout, class Slot>
 __global__ void __launch_bounds__(threads, resident_blocks<T>)
-    sweep_batch(ResidentMesh<T, layout, Slot> mesh, LoopRules rules, Runs runs, bool is_last, LoopState* state,
+    sweep_batch(ResidentMesh<T, layout, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
   if (state->stop != LoopState::running || state->evaluates_all == 0) {
     return;
   }
   __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[threads / 32][most_left_over + 32];
+  __shared__ std::int32_t left_over[segment * threads];
+  __shared__ std::uint32_t left_over_count;
   if (threadIdx.x == 0) {
     shared = SweepSums{};
+    left_over_count = 0;
   }
   __syncthreads();
   const bool second = state->current != 0;
   const bool to_second = rules.swaps ? !second : second;
-  const bool marks = state->marks != 0;
-  const SweepData<T, layout, Slot> data{
-      mesh.rings, second ? mesh.second.points : mesh.first.points, to_second ? mesh.second.points : mesh.first.points,
-      to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
+  const SweepData<T, layout, Slot> data{mesh.rings, second ? mesh.second.points : mesh.first.points,
+                                        to_second ? mesh.second.points : mesh.first.points, nullptr,
+                                        static_cast<T>(rules.tolerance)};
   ThreadTally<T> tally;
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
-  std::int32_t* const list = left_over[threadIdx.x / 32];
-  int listed = 0;
-  const auto visit_left_over = [&] {
-    __syncwarp();
-    visit_by_teams<Update>(listed, marks, data, tally, [&](int i) { return list[i]; });
-    __syncwarp();
-    listed = 0;
-  };
-  Place place(runs);
-  RingRecord<Slot> record{};
-  if (place.first() + thread < runs.end) {
-    record = fetch_record(data.rings, static_cast<std::int32_t>(place.first()) + thread);
+  for (std::int32_t piece = 0; pieces.first(piece) < pieces.end;) {
+    for (std::int32_t i = 0; i < segment; ++i, ++piece) {
+      const std::int64_t first = pieces.first(piece);
+      if (first >= pieces.end) {
+        break;
+      }
+      const bool active = first + thread < pieces.end;
+      const std::int32_t v = active ? static_cast<std::int32_t>(first) + thread : pieces.begin;
+      const bool left = visit<Update, false>(v, fetch_record(data.rings, v), active, data, tally);
+      add_left_over(left, v, left_over, left_over_count);
+    }
+    __syncthreads();
+    visit_by_block<Update, false>(left_over_count, data, tally, [&](std::uint32_t i) { return left_over[i]; });
+    __syncthreads();
+    if (thread == 0) {
+      left_over_count = 0;
+    }
+    __syncthreads();
   }
-  while (place.first() < runs.end) {
-    const bool active = place.first() + thread < runs.end;
-    const std::int32_t v = static_cast<std::int32_t>(place.first()) + thread;
-    // The next record is on its way while this one is worked on.
-    place.next(runs);
-    RingRecord<Slot> next{};
-    if (place.first() + thread < runs.end) {
-      next = fetch_record(data.rings, static_cast<std::int32_t>(place.first()) + thread);
-    }
-    add_to_list(visit<Update>(v, record, active, marks, data, tally), v, list, listed);
-    record = next;
-    if (listed > most_left_over || place.first() >= runs.end) {
-      visit_left_over();
-    }
+  if (thread == 0 && blockIdx.x == 0) {
+    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
   }
   join_in_block(tally, shared);
   __syncthreads();
@@ -151,11 +129,11 @@ std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, S
         const std::int32_t begin = batches[batch];
         const std::int32_t end = batches[batch + 1];
         const bool is_last = batch + 2 == batches.size();
-        const auto rounds = static_cast<std::int32_t>(blocks_for(end - begin, threads));
-        const std::int32_t run = std::clamp(rounds / most_blocks, 1, longest_run);
-        const auto blocks = static_cast<unsigned>(std::min((rounds + run - 1) / run, most_blocks));
+        const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+        const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+        const auto blocks = static_cast<unsigned>(std::min(count, most_blocks));
         sweep_batch<Update, T, layout, Slot>
-            <<<blocks, threads, 0, stream>>>(mesh, rules, Runs{begin, end, run}, is_last, state, sums);
+            <<<blocks, threads, 0, stream>>>(mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
         TRISMOOTH_CUDA_CHECK(cudaGetLastError());
         ++launches;
       }

@@ -42,20 +42,21 @@ __device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin,
     const std::int64_t beyond = static_cast<std::int64_t>(end) + 1;
     const int listed =
         list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
+    tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
     int decided = 0;
     if (!has_register_update<Update, T> || listed > few) {
       int left_over = 0;
       for (; listed - decided > (has_register_update<Update, T> ? few : 0); decided += 32) {
         const int i = decided + lane;
         const std::int32_t v = list[i < listed ? i : 0];
-        const bool left = visit<Update>(v, fetch_record(data.rings, v), i < listed, true, data, tally);
+        const bool left = visit<Update, true>(v, fetch_record(data.rings, v), i < listed, data, tally);
         __syncwarp();
         add_to_list(left, v, list, left_over);
       }
       __syncwarp();
-      visit_by_teams<Update>(left_over, true, data, tally, [&](int i) { return list[i]; });
+      visit_by_teams<Update, true>(left_over, data, tally, [&](int i) { return list[i]; });
     }
-    visit_by_teams<Update>(listed - decided, true, data, tally, [&](int i) { return list[decided + i]; });
+    visit_by_teams<Update, true>(listed - decided, data, tally, [&](int i) { return list[decided + i]; });
   }
 }
 
@@ -77,7 +78,7 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
   __shared__ BlockWork work;
   __shared__ std::int32_t lists[threads / 32][words_at_a_time * 32];
   std::int32_t stop = state->stop;
-  bool all = rules.evaluates_all || state->evaluates_all != 0;
+  bool all = rules.evaluates_all || state->has_marks == 0;
   if (threadIdx.x == 0) {
     work.sums = SweepSums{};
     work.differs = 0;
@@ -144,7 +145,8 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
     state->current = current;
     state->sweeps = sweep;
     state->stop = stop;
-    state->evaluates_all = all ? 1 : 0;
+    state->evaluates_all = 0;
+    state->has_marks = 1;
   }
 }
 

@@ -72,8 +72,9 @@ class ResidentEngine final : public SweepEngine<T, layout> {
   }
   std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) override {
     std::int64_t launches = 0;
-    // The smallest shape is measured by the other kernel alone.
-    if (!rules.measures_shape) {
+    // The smallest shape is measured by the other kernel alone, and batches that do not fill the GPU are not worth a
+    // launch each.
+    if (!rules.measures_shape && (rules.evaluates_all || largest_batch_ >= smallest_launch)) {
       const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, sweeps_of_all);
       launches = launch_sweeps_of_all(method_, mesh_, rules, batches_, sweeps, state, sums, context_.stream());
       if (rules.evaluates_all) {
@@ -94,6 +95,7 @@ class ResidentEngine final : public SweepEngine<T, layout> {
   Points output(std::int32_t current) override { return current == 0 ? mesh_.first.points : mesh_.second.points; }
 
  private:
+  static constexpr std::int32_t smallest_launch = 500'000;
   /// Sweeps in which most vertices of a mesh are evaluated, as a rule; where they are more, the first marked sweep
   /// evaluates every vertex as well.
   static constexpr std::int32_t sweeps_of_all = 12;

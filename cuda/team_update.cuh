@@ -15,6 +15,9 @@
 namespace trismooth::cuda {
 
 inline constexpr int team_size = 8;
+/// Most rings have no more neighbours than a team deals out in so many rounds; rings of more than twice that are left
+/// to one thread.
+inline constexpr int usual_rounds = 8 / team_size;
 /// Teams of a warp.
 inline constexpr int teams = 32 / team_size;
 
@@ -70,7 +73,7 @@ __device__ __forceinline__ T sum_in_order(const TeamRing<T, rounds>& ring, T not
 /// laplacian_position(), by the same operations in the same order as one thread.
 template <class T, int rounds>
 __device__ __forceinline__ Point2<T> laplacian_position(const TeamRing<T, rounds>& ring) {
-  const T weight = reciprocal<T>(ring.size);
+  const T weight = small_reciprocal<T>(ring.size);
   return {sum_in_order(ring, -T(0), [&](int round) { return ring.neighbours[round].x; }) * weight,
           sum_in_order(ring, -T(0), [&](int round) { return ring.neighbours[round].y; }) * weight};
 }
@@ -152,10 +155,10 @@ __device__ __forceinline__ VertexMove<T> evaluate_by_team(Point2<T> position, in
       result = alone();
     }
   };
-  if (__any_sync(all_lanes, size > team_size) == 0) {
-    with_rounds(std::integral_constant<int, 1>{});
+  if (__any_sync(all_lanes, size > usual_rounds * team_size) == 0) {
+    with_rounds(std::integral_constant<int, usual_rounds>{});
   } else {
-    with_rounds(std::integral_constant<int, 2>{});
+    with_rounds(std::integral_constant<int, 2 * usual_rounds>{});
   }
   result.move.moved = size > 0 && result.move.moved;
   return result;

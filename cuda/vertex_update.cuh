@@ -25,7 +25,7 @@ __device__ Point2<T> laplacian_position(const RegisterRing<T, capacity>& ring) {
       sum.y += ring.neighbours[i].y;
     }
   });
-  const T weight = reciprocal<T>(ring.size);
+  const T weight = small_reciprocal<T>(ring.size);
   return {sum.x * weight, sum.y * weight};
 }
 
@@ -88,12 +88,13 @@ __device__ __forceinline__ bool try_update(SmartLaplacian, Point2<T> position, c
   T unused;
   const T after = approximate_minimum(target, ring, unused);
   const T gain = after - before;
-  // Where no element is inverted, a larger minimum says that none becomes it.
-  const bool sound = before > FilterBand<T>::value && is_sound_origin(position) && is_sound_origin(target);
+  // Where no element is inverted, a larger minimum says that none becomes it. (No branches: & and | are meant.)
+  const bool sound = (before > FilterBand<T>::value) & is_sound_origin(position) & is_sound_origin(target);
   // Where the target is the position, nothing can be said that moves the vertex.
-  const bool same = target == position;
-  result.move = gain > T(0) && !same ? Move<T>{target, true} : stay(position);
-  return same || (sound && fabs(gain) > FilterBand<T>::value);
+  const bool same = (target.x == position.x) & (target.y == position.y);
+  result.move.moved = (gain > T(0)) & !same;
+  result.move.position = result.move.moved ? target : position;
+  return same | (sound & (fabs(gain) > FilterBand<T>::value));
 }
 
 template <class T, int capacity>

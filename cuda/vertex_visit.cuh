@@ -24,9 +24,6 @@ struct SweepData {
   std::uint32_t* differs = nullptr;
 };
 
-/// Rings of more neighbours are left to teams.
-inline constexpr int largest_ring = 12;
-
 /// Marks a vertex for the next sweep unless it is fixed.
 template <class T, Layout layout, class Slot>
 __device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, layout, Slot>& data) {
@@ -49,11 +46,9 @@ __device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<
   return record;
 }
 
-/// Writes where an evaluated vertex is, and counts it.
+/// Writes where an evaluated vertex is.
 template <class T, Layout layout, class Slot>
-__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, layout, Slot>& data,
-                                       ThreadTally<T>& tally) {
-  ++tally.evaluated;
+__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, layout, Slot>& data) {
   if (data.differs != nullptr && !(data.to.load(v) == move.position)) {
     *data.differs = 1;
   }
@@ -74,9 +69,9 @@ __device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<
 
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
 /// Those that are not `active` do nothing. Exact for every ring.
-template <class Update, class T, Layout layout, class Slot>
-__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, bool marks,
-                                              const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const SweepData<T, layout, Slot>& data,
+                                              ThreadTally<T>& tally) {
   const Point2<T> position = data.from.load(v);
   const SlottedRing<Slot> numbers = data.rings.ring(v);
   const int size = active ? data.rings.ring_size(v) : 0;
@@ -84,13 +79,13 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, bool 
       position, size, [&](int i) { return data.from.load(numbers[i]); },
       [&] { return update_from_memory<Update>(v, position, data.from, data.rings); });
   if (active && team_lane() == 0) {
-    settle(v, result.move, data, tally);
+    settle(v, result.move, data);
   }
   if (result.move.moved) {
     if (team_lane() == 0) {
       add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
     }
-    if (marks) {
+    if constexpr (marks) {
       if (team_lane() == 0) {
         mark(data.marks, v);
       }
@@ -101,36 +96,40 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, bool 
   }
 }
 
+/// Rings of more neighbours are left to teams.
+inline constexpr int largest_ring = 12;
+
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
-/// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
-/// marks the vertex itself for the next sweep.
-template <class Update, class T, Layout layout, class Slot>
-__device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active, bool marks,
+/// vertex that is left to visit_by_team(). A vertex that is not
+/// evaluated is at the same place in both buffers: a move marks the vertex itself for the next sweep.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active,
                                       const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+  // Asked for first: it arrives together with the ring.
+  const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
   VertexMove<T> result;
-  Point2<T> position;
+  int size = 0;
   if constexpr (has_register_update<Update, T>) {
     RegisterRing<T, largest_ring> ring;
     fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
-    if (!active) {
-      return false;
+    size = ring.size;
+    if (size == 0) {
+      return active;
     }
-    position = data.from.load(v);
-    if (ring.size == 0 || !try_update(Update{}, position, ring, result)) {
+    if (!try_update(Update{}, position, ring, result)) {
       return true;
     }
   } else {
     if (!active) {
       return false;
     }
-    position = data.from.load(v);
+    size = record.ring_size();
     result = update_from_memory<Update>(v, position, data.from, data.rings);
   }
-  settle(v, result.move, data, tally);
+  settle(v, result.move, data);
   if (result.move.moved) {
-    const int size = record.ring_size();
     add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
-    if (marks) {
+    if constexpr (marks) {
       mark(data.marks, v);
       const SlottedRing<Slot> numbers = data.rings.ring(v);
       for (int i = 0; i < size; ++i) {
@@ -142,13 +141,13 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
 }
 
 /// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
-template <class Update, class T, Layout layout, class Slot, class Vertex>
-__device__ __forceinline__ void visit_by_teams(int count, bool marks, const SweepData<T, layout, Slot>& data,
-                                               ThreadTally<T>& tally, const Vertex& vertex) {
+template <class Update, bool marks, class T, Layout layout, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally,
+                                               const Vertex& vertex) {
   if constexpr (has_register_update<Update, T>) {
     for (int base = 0; base < count; base += teams) {
       const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
-      visit_by_team<Update>(vertex(i < count ? i : 0), i < count, marks, data, tally);
+      visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
     }
   }
 }
@@ -161,6 +160,35 @@ __device__ __forceinline__ void add_to_list(bool adds, std::int32_t value, std::
     list[count + __popc(lanes & ((1U << (threadIdx.x % 32)) - 1))] = value;
   }
   count += __popc(lanes);
+}
+
+/// The same for all warps of a block and its shared list, of which `count` are the entries.
+__device__ __forceinline__ void add_left_over(bool adds, std::int32_t value, std::int32_t* list, std::uint32_t& count) {
+  const unsigned lanes = __ballot_sync(0xffffffffU, adds);
+  if (lanes == 0) {
+    return;
+  }
+  const unsigned lane = threadIdx.x % 32;
+  std::uint32_t place = 0;
+  if (lane == 0) {
+    place = atomicAdd(&count, static_cast<std::uint32_t>(__popc(lanes)));
+  }
+  place = __shfl_sync(0xffffffffU, place, 0) + static_cast<std::uint32_t>(__popc(lanes & ((1U << lane) - 1)));
+  if (adds) {
+    list[place] = value;
+  }
+}
+
+/// Evaluates `count` vertices by the teams of a block: vertex(i) is the i-th.
+template <class Update, bool marks, class T, Layout layout, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_block(std::uint32_t count, const SweepData<T, layout, Slot>& data,
+                                               ThreadTally<T>& tally, const Vertex& vertex) {
+  if constexpr (has_register_update<Update, T>) {
+    for (std::uint32_t i = threadIdx.x / team_size; i < (count + teams - 1) / teams * teams;
+         i += blockDim.x / team_size) {
+      visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
+    }
+  }
 }
 
 }  // namespace trismooth::cuda
