@@ -4,6 +4,7 @@
 
 #include "trismooth/cuda/memory_pool.h"
 #include "trismooth/cuda/mesh_layouts.h"
+#include "trismooth/cuda/slotted_rings.h"
 #include "trismooth/quality/point2.h"
 
 namespace trismooth::cuda {
@@ -29,7 +30,18 @@ std::size_t engine_bytes(std::size_t vertices, std::size_t free_vertices, std::s
     return paper_mesh_bytes<T>(vertices, ring_entries);
   }
   const std::size_t buffers = options.form == Form::swap ? 2 : 1;
-  return buffers * (vertices * sizeof(PointRecord<T>) + free_vertices);
+  return buffers * (vertices * sizeof(PointRecord<T>) + free_vertices / 8);
+}
+
+/// The rings in packed numbering. Patches of small meshes take more, which matters to no device.
+std::size_t packed_ring_bytes(std::size_t free_vertices, std::size_t ring_entries, const SmoothingOptions& options) {
+  if (options.execution != Execution::resident) {
+    return (free_vertices + ring_entries) * index_bytes;
+  }
+  const std::size_t record =
+      options.form == Form::swap ? sizeof(RingRecord<std::int16_t>) : sizeof(RingRecord<std::int32_t>);
+  // One ring in ten, or less, is too long for a record.
+  return free_vertices * record + ring_entries / 8 * index_bytes;
 }
 
 }  // namespace
@@ -39,13 +51,14 @@ std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options) {
   const auto free_vertices = static_cast<std::size_t>(size.free_vertices);
   const auto ring_entries = static_cast<std::size_t>(size.ring_entries);
   const std::size_t rings = vertices * index_bytes + ring_entries * index_bytes;
-  const std::size_t sorting = vertices * (2 * sizeof(std::uint64_t) + 3 * index_bytes);
-  const std::size_t packing = rings + std::max(sorting, 2 * vertices * index_bytes + rings);
+  const std::size_t packed = packed_ring_bytes(free_vertices, ring_entries, options);
+  const std::size_t sorting = vertices * (2 * sizeof(std::uint64_t) + 4 * index_bytes);
+  const std::size_t packing = rings + std::max(sorting, 3 * vertices * index_bytes + packed);
   const std::size_t engine = options.precision == Precision::double_precision
                                  ? engine_bytes<double>(vertices, free_vertices, ring_entries, options)
                                  : engine_bytes<float>(vertices, free_vertices, ring_entries, options);
-  const std::size_t guard = 2 * free_vertices;
-  const std::size_t smoothing = vertices * (point_bytes + index_bytes) + rings + engine + guard;
+  const std::size_t guard = free_vertices;
+  const std::size_t smoothing = vertices * (point_bytes + index_bytes) + packed + engine + guard;
   return std::max(packing, smoothing);
 }
 

@@ -32,10 +32,10 @@ struct ResidentMesh {
 /// Words for the barriers of a launch by these rules.
 std::size_t resident_barriers(const LoopRules& rules);
 
-/// Queues `sweeps` sweeps that evaluate every vertex, a launch for each batch. Each is only made while the run goes on
-/// and its state says that all are to be evaluated: while many vertices move that is cheaper than to mark and to list
-/// them. Sweep i of the run's launch adds to sums[i], which are zero before. `batches`: as rules.batches, on the host.
-/// Returns how many kernels were launched.
+/// Queues `sweeps` sweeps that evaluate every vertex, a launch for each batch, and one more that marks. Each is only
+/// made while the run goes on, less than rules.sweeps are done and the state says that all are to be evaluated: while
+/// many vertices move that is cheaper than to mark and to list them. Sweep i of the run's launch adds to sums[i], which
+/// are zero before. `batches`: as rules.batches, on the host. Returns how many kernels were launched.
 template <class T, Layout layout, class Slot>
 std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,

@@ -16,8 +16,10 @@ template <class T>
 constexpr std::int32_t resident_blocks = sizeof(T) == sizeof(float) ? 3 : 2;
 constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
-/// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them.
-constexpr std::uint64_t smallest_share = 6;
+/// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them. In
+/// Form B, where a sweep takes a launch for each colour, it is so for a shorter time.
+constexpr std::uint64_t smallest_share_a = 16;
+constexpr std::uint64_t smallest_share_b = 6;
 
 /// Closes a sweep that evaluated every vertex. One thread calls it when all blocks are done.
 __device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopState* state, const SweepSums& sums) {
@@ -28,8 +30,11 @@ __device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopS
   state->stop = stop_after(found, rules);
   ++state->sweeps;
   state->current = rules.swaps ? 1 - state->current : state->current;
-  const bool many_move = found.moved > static_cast<std::uint64_t>(free_count) / smallest_share;
-  state->evaluates_all = rules.evaluates_all || many_move ? 1 : 0;
+  // Whether a sweep marks is said before it begins, and so which one is the last to evaluate every vertex.
+  state->evaluates_all = state->marks == 0 ? 1 : 0;
+  const std::uint64_t share = rules.swaps ? smallest_share_a : smallest_share_b;
+  const bool many_move = found.moved > static_cast<std::uint64_t>(free_count) / share;
+  state->marks = rules.evaluates_all || many_move ? 0 : 1;
 }
 
 /// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
@@ -48,56 +53,68 @@ struct Pieces {
   }
 };
 
-/// Pieces after which a block evaluates what its threads have left to its teams.
-constexpr std::int32_t segment = 16;
+/// More vertices than a warp leaves to its teams before it evaluates them, but for those of its last piece.
+constexpr int enough_left_over = 32;
 
-template <class Update, class T, Layout layout, class Slot>
+/// Evaluates the block's vertices. `list` is the warp's own.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepData<T, layout, Slot>& data,
+                                             std::int32_t* list, ThreadTally<T>& tally) {
+  const auto thread = static_cast<std::int32_t>(threadIdx.x);
+  const auto fetch = [&](std::int64_t first) {
+    return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
+                                       : RingRecord<Slot>{};
+  };
+  std::int32_t piece = 0;
+  std::int64_t first = pieces.first(piece);
+  RingRecord<Slot> record = fetch(first);
+  while (first < pieces.end) {
+    int listed = 0;
+    do {
+      // The next record is on its way while this one is worked on.
+      const std::int64_t next_first = pieces.first(++piece);
+      const RingRecord<Slot> next = fetch(next_first);
+      const bool active = first + thread < pieces.end;
+      const std::int32_t v = static_cast<std::int32_t>(first) + thread;
+      add_to_list(visit<Update, marks>(v, record, active, data, tally), v, list, listed);
+      record = next;
+      first = next_first;
+    } while (listed < enough_left_over && first < pieces.end);
+    __syncwarp();
+    visit_by_teams<Update, marks>(listed, data, tally, [&](int i) { return list[i]; });
+    __syncwarp();
+  }
+}
+
+/// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
+/// to be marked is what this kernel does.
+template <class Update, bool marks, class T, Layout layout, class Slot>
 __global__ void __launch_bounds__(threads, resident_blocks<T>)
     sweep_batch(ResidentMesh<T, layout, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
-  if (state->stop != LoopState::running || state->evaluates_all == 0) {
+  if (state->stop != LoopState::running || state->evaluates_all == 0 || (state->marks != 0) != marks ||
+      state->sweeps >= rules.sweeps) {
     return;
   }
   __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[segment * threads];
-  __shared__ std::uint32_t left_over_count;
+  __shared__ std::int32_t left_over[threads / 32][enough_left_over + 32];
   if (threadIdx.x == 0) {
     shared = SweepSums{};
-    left_over_count = 0;
   }
   __syncthreads();
   const bool second = state->current != 0;
   const bool to_second = rules.swaps ? !second : second;
-  const SweepData<T, layout, Slot> data{mesh.rings, second ? mesh.second.points : mesh.first.points,
-                                        to_second ? mesh.second.points : mesh.first.points, nullptr,
-                                        static_cast<T>(rules.tolerance)};
+  const SweepData<T, layout, Slot> data{
+      mesh.rings, second ? mesh.second.points : mesh.first.points, to_second ? mesh.second.points : mesh.first.points,
+      to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
   ThreadTally<T> tally;
-  const auto thread = static_cast<std::int32_t>(threadIdx.x);
-  for (std::int32_t piece = 0; pieces.first(piece) < pieces.end;) {
-    for (std::int32_t i = 0; i < segment; ++i, ++piece) {
-      const std::int64_t first = pieces.first(piece);
-      if (first >= pieces.end) {
-        break;
-      }
-      const bool active = first + thread < pieces.end;
-      const std::int32_t v = active ? static_cast<std::int32_t>(first) + thread : pieces.begin;
-      const bool left = visit<Update, false>(v, fetch_record(data.rings, v), active, data, tally);
-      add_left_over(left, v, left_over, left_over_count);
-    }
-    __syncthreads();
-    visit_by_block<Update, false>(left_over_count, data, tally, [&](std::uint32_t i) { return left_over[i]; });
-    __syncthreads();
-    if (thread == 0) {
-      left_over_count = 0;
-    }
-    __syncthreads();
-  }
-  if (thread == 0 && blockIdx.x == 0) {
+  sweep_pieces<Update, marks>(pieces, data, left_over[threadIdx.x / 32], tally);
+  if (threadIdx.x == 0 && blockIdx.x == 0) {
     tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
   }
   join_in_block(tally, shared);
   __syncthreads();
-  if (thread != 0) {
+  if (threadIdx.x != 0) {
     return;
   }
   add_block(shared, &sums[state->sweeps]);
@@ -123,20 +140,25 @@ std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, S
   TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
   const std::int32_t most_blocks = processors * resident_blocks<T>;
   std::int32_t launches = 0;
+  const auto launch_sweep = [&](auto kernel) {
+    for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
+      const std::int32_t begin = batches[batch];
+      const std::int32_t end = batches[batch + 1];
+      const bool is_last = batch + 2 == batches.size();
+      const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+      const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+      kernel<<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
+          mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
+      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+      ++launches;
+    }
+  };
   visit_method(method, [&]<class Update>(Update) {
     for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-      for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-        const std::int32_t begin = batches[batch];
-        const std::int32_t end = batches[batch + 1];
-        const bool is_last = batch + 2 == batches.size();
-        const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
-        const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-        const auto blocks = static_cast<unsigned>(std::min(count, most_blocks));
-        sweep_batch<Update, T, layout, Slot>
-            <<<blocks, threads, 0, stream>>>(mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
-        TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-        ++launches;
-      }
+      launch_sweep(&sweep_batch<Update, false, T, layout, Slot>);
+    }
+    if (!rules.evaluates_all) {
+      launch_sweep(&sweep_batch<Update, true, T, layout, Slot>);
     }
   });
   return launches;

@@ -78,7 +78,7 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
   __shared__ BlockWork work;
   __shared__ std::int32_t lists[threads / 32][words_at_a_time * 32];
   std::int32_t stop = state->stop;
-  bool all = rules.evaluates_all || state->has_marks == 0;
+  bool all = rules.evaluates_all || state->evaluates_all != 0;
   if (threadIdx.x == 0) {
     work.sums = SweepSums{};
     work.differs = 0;
@@ -146,7 +146,6 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
     state->sweeps = sweep;
     state->stop = stop;
     state->evaluates_all = 0;
-    state->has_marks = 1;
   }
 }
 

@@ -96,9 +96,9 @@ class ResidentEngine final : public SweepEngine<T, layout> {
 
  private:
   static constexpr std::int32_t smallest_launch = 500'000;
-  /// Sweeps in which most vertices of a mesh are evaluated, as a rule; where they are more, the first marked sweep
-  /// evaluates every vertex as well.
-  static constexpr std::int32_t sweeps_of_all = 12;
+  /// Sweeps in which many vertices of a mesh move, as a rule; where they are more, the sweeps over marked vertices begin
+  /// with one over all.
+  static constexpr std::int32_t sweeps_of_all = 20;
 
   Context& context_;
   Method method_;

@@ -59,8 +59,8 @@ struct LoopState {
   std::uint64_t children = 0;   ///< kernels launched by the device
 
   // Of the resident execution. The host hands them on from launch to launch.
-  std::int32_t evaluates_all = 1;  ///< the next sweep evaluates every vertex, and marks none
-  std::int32_t has_marks = 0;      ///< the last sweep has marked for the next one
+  std::int32_t evaluates_all = 1;  ///< the next sweep evaluates every vertex
+  std::int32_t marks = 0;          ///< and marks for the sweep after it, which will not
   std::uint32_t blocks_done = 0;   ///< blocks that have ended the sweep
 };
 

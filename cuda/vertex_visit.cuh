@@ -162,33 +162,4 @@ __device__ __forceinline__ void add_to_list(bool adds, std::int32_t value, std::
   count += __popc(lanes);
 }
 
-/// The same for all warps of a block and its shared list, of which `count` are the entries.
-__device__ __forceinline__ void add_left_over(bool adds, std::int32_t value, std::int32_t* list, std::uint32_t& count) {
-  const unsigned lanes = __ballot_sync(0xffffffffU, adds);
-  if (lanes == 0) {
-    return;
-  }
-  const unsigned lane = threadIdx.x % 32;
-  std::uint32_t place = 0;
-  if (lane == 0) {
-    place = atomicAdd(&count, static_cast<std::uint32_t>(__popc(lanes)));
-  }
-  place = __shfl_sync(0xffffffffU, place, 0) + static_cast<std::uint32_t>(__popc(lanes & ((1U << lane) - 1)));
-  if (adds) {
-    list[place] = value;
-  }
-}
-
-/// Evaluates `count` vertices by the teams of a block: vertex(i) is the i-th.
-template <class Update, bool marks, class T, Layout layout, class Slot, class Vertex>
-__device__ __forceinline__ void visit_by_block(std::uint32_t count, const SweepData<T, layout, Slot>& data,
-                                               ThreadTally<T>& tally, const Vertex& vertex) {
-  if constexpr (has_register_update<Update, T>) {
-    for (std::uint32_t i = threadIdx.x / team_size; i < (count + teams - 1) / teams * teams;
-         i += blockDim.x / team_size) {
-      visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
-    }
-  }
-}
-
 }  // namespace trismooth::cuda
