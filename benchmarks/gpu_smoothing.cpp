@@ -37,6 +37,7 @@ constexpr std::array<std::pair<const char*, void (*)(Session&)>, 6> experiments{
 
 std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
+  names.reserve(experiments.size());
   for (const auto& [name, run] : experiments) {
     names.emplace_back(name);
   }

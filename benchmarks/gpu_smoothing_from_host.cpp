@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 
@@ -59,7 +60,7 @@ void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const
     }
     calls.push_back(call);
     const SmoothingTimings& timings = result.timings;
-    const double known[] = {timings.transfer_in, timings.prepare, timings.smooth, timings.commit, timings.transfer_out};
+    const std::array known{timings.transfer_in, timings.prepare, timings.smooth, timings.commit, timings.transfer_out};
     for (std::size_t part = 0; part < parts.size(); ++part) {
       parts[part].push_back(known[part]);
     }

@@ -6,6 +6,7 @@
 #include "trismooth/cuda/commit.h"
 #include "trismooth/cuda/commit_view.cuh"
 #include "trismooth/cuda/device_algorithms.h"
+#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/grid_barrier.cuh"
 #include "trismooth/cuda/largest_key.cuh"
 #include "trismooth/cuda/launch.h"
@@ -227,14 +228,6 @@ __global__ void __launch_bounds__(block_size)
   }
 }
 
-unsigned multiprocessors() {
-  int device = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
-  int count = 0;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, device));
-  return static_cast<unsigned>(count);
-}
-
 /// Queues the rounds of a guarded commit, and the writing. Returns the number of launches.
 template <class View>
 std::int64_t launch_rounds(const View& view, CommitBuffers& buffers, Point2<double>* stored, CommitState* state,
@@ -244,7 +237,8 @@ std::int64_t launch_rounds(const View& view, CommitBuffers& buffers, Point2<doub
     Work work{buffers.verdicts.data(), buffers.marks.data(), buffers.list.data(),
               static_cast<std::uint32_t>(buffers.list.size())};
     void* arguments[] = {&view_argument, &work, &state};
-    const auto blocks = std::min(blocks_for(view.rings.size, round_threads), multiprocessors());
+    const auto blocks =
+        std::min(blocks_for(view.rings.size, round_threads), static_cast<unsigned>(multiprocessor_count()));
     TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(&make_rounds<View>), dim3(blocks),
                                                      dim3(round_threads), arguments, 0, stream));
   }

@@ -82,4 +82,24 @@ const std::string& require_device() {
   return name;
 }
 
+namespace {
+
+int attribute(cudaDeviceAttr name) {
+  int device = 0;
+  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
+  int value = 0;
+  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&value, name, device));
+  return value;
+}
+
+}  // namespace
+
+int multiprocessor_count() {
+  return attribute(cudaDevAttrMultiProcessorCount);
+}
+
+std::size_t most_shared_bytes() {
+  return static_cast<std::size_t>(attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin));
+}
+
 }  // namespace trismooth::cuda

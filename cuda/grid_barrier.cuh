@@ -23,6 +23,7 @@ __device__ unsigned long long grid_barrier(BarrierWord* word, unsigned long long
     if (threadIdx.x == 0) {
       before_waiting();
     }
+    __syncthreads();
     return contribution;
   }
   if (threadIdx.x == 0) {

@@ -70,9 +70,10 @@ void give_memory_back() {
 }
 
 DeviceError too_little_memory(const std::string& needed, const DeviceMemory& memory) {
-  return DeviceError("CUDA: cudaErrorMemoryAllocation: this mesh needs " + needed +
-                     " of device memory, and the device has " + mebibytes(memory.free) + " free of " +
-                     mebibytes(memory.total) + "; use a device with more memory, or '--backend cpu'");
+  const std::string message = "CUDA: cudaErrorMemoryAllocation: this mesh needs " + needed +
+                              " of device memory, and the device has " + mebibytes(memory.free) + " free of " +
+                              mebibytes(memory.total) + "; use a device with more memory, or '--backend cpu'";
+  return DeviceError{message};
 }
 
 std::string mebibytes(std::size_t bytes) {

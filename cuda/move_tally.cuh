@@ -21,12 +21,12 @@ struct ThreadTally {
   }
 };
 
-/// Whether a move is longer, relative to its neighbourhood, than `longest_squared`. Its quotient is only divided where
-/// that is not clear without: the products are off by less than the margin, and a smaller quotient rounds to a smaller
-/// or the same number.
+/// Whether a move may be longer, relative to its neighbourhood, than `longest_squared`: only then is its quotient
+/// divided. Exact: if the rounded moved / sum exceeds `longest_squared`, then moved > longest_squared * sum, and rounding
+/// the product cannot bring it above `moved`, which is a number itself.
 template <class T>
 __device__ bool may_be_longer(const MoveLength<T>& length, T longest_squared) {
-  return length.moved > longest_squared * length.sum * (1 - T(1e-6));
+  return length.moved >= longest_squared * length.sum;
 }
 
 template <class T>

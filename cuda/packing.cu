@@ -186,6 +186,7 @@ PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<P
     const DeviceBuffer<std::uint8_t> colours = renumbered(context, numbers, colouring.colours.data());
     packed.patches = Patches::cut(context, packed.rings.view(), from.size, colours.data(), packed.colours, options);
     if (packed.patches != nullptr) {
+      points.reset();
       return packed;
     }
     packed.rings = {};

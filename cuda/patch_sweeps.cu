@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/grid_barrier.cuh"
 #include "trismooth/cuda/patch_sweeps.h"
@@ -269,8 +267,7 @@ void launch_with(const PatchedMesh<T, layout>& mesh, const LoopRules& rules, std
                  std::int32_t free_count, LoopState* state, SweepSums* sums, BarrierWord* barriers,
                  unsigned long long* found, cudaStream_t stream) {
   const auto* const kernel = reinterpret_cast<const void*>(&sweep_patches<Update, T, layout, swaps>);
-  TRISMOOTH_CUDA_CHECK(
-      cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_bytes)));
+  allow_most_patch_bytes(kernel);
   std::int32_t group_length = longest_group;
   if (mesh.patches.count > 1) {
     group_length = swaps ? Patches::sweeps_in_group_a : Patches::sweeps_in_group_b;
@@ -288,10 +285,6 @@ template <class T>
 std::size_t patch_bytes(const Patches& patches, bool swaps) {
   return memory_bytes<T>(static_cast<std::size_t>(patches.most_vertices()),
                          static_cast<std::size_t>(patches.most_entries()), swaps);
-}
-
-std::size_t patch_groups(std::int32_t sweeps) {
-  return static_cast<std::size_t>(sweeps);
 }
 
 template <class T, Layout layout>

@@ -34,13 +34,10 @@ struct PatchedMesh {
 template <class T>
 std::size_t patch_bytes(const Patches& patches, bool swaps);
 
-/// Words of `barriers` and of `found` for a launch with so many sweeps.
-std::size_t patch_groups(std::int32_t sweeps);
-
 /// Queues sweeps until the rules say stop or rules.sweeps are done: one launch of a block for each patch, with a
 /// barrier of the grid after each group of sweeps. `shared_bytes`: patch_bytes(). Sweep i adds to sums[i], sweeps after
-/// the last one too; these and the patch_groups() words of `barriers` and `found` are zero before. The rules measure no
-/// shape.
+/// the last one too; these and the rules.sweeps words of `barriers` and of `found` are zero before. The rules measure
+/// no shape.
 template <class T, Layout layout>
 void launch_patch_sweeps(Method method, const PatchedMesh<T, layout>& mesh, const LoopRules& rules,
                          std::size_t shared_bytes, std::int32_t free_count, LoopState* state, SweepSums* sums,

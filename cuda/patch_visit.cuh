@@ -148,6 +148,7 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
       [&] {
         return update_alone<Update, T>(position, {patch.points, patch.entries + begin, size});
       });
+  __syncwarp();  // all threads of the team have read the position that is written now
   if (active && team_lane() == 0) {
     patch.next_points[v] = result.move.position;
   }
@@ -194,7 +195,7 @@ __device__ __forceinline__ void visit_list(std::uint16_t* list, int listed, cons
   int left_over = 0;
   while (listed - begin > (has_register_update<Update, T> ? few : 0)) {
     const int i = begin + static_cast<int>(threadIdx.x % 32);
-    const std::int32_t v = list[i < listed ? i : 0];
+    const std::int32_t v = i < listed ? list[i] : 0;
     const bool left = visit_by_thread<Update>(v, i < listed, sweep);
     __syncwarp();
     // The places before `begin` are free.

@@ -4,6 +4,7 @@
 
 #include <cub/block/block_scan.cuh>
 
+#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/patch_sweeps.h"
 #include "trismooth/cuda/patches.h"
@@ -231,18 +232,9 @@ std::size_t set_bytes(std::int32_t vertex_count) {
 
 void launch_cut(const Cut& cut, std::int32_t count, cudaStream_t stream) {
   const std::size_t bytes = set_bytes(cut.vertex_count);
-  TRISMOOTH_CUDA_CHECK(cudaFuncSetAttribute(reinterpret_cast<const void*>(&cut_patch),
-                                            cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));
+  allow_most_patch_bytes(reinterpret_cast<const void*>(&cut_patch));
   cut_patch<<<static_cast<unsigned>(count), threads, bytes, stream>>>(cut);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-}
-
-std::size_t attribute(cudaDeviceAttr name) {
-  int device = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
-  int value = 0;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&value, name, device));
-  return static_cast<std::size_t>(value);
 }
 
 /// A mesh up to this size is one patch: a block that is alone needs no barrier of the grid.
@@ -252,21 +244,30 @@ constexpr std::int32_t largest_mesh = 400'000;
 /// Vertices that a patch has for itself at least.
 constexpr std::int32_t smallest_patch = 64;
 constexpr std::int32_t most_colours = 128;
-/// What kernels have in shared memory beside the patch or the sets.
-constexpr std::size_t other_shared_bytes = std::size_t{40} << 10U;
-
 std::int32_t count_of_patches(std::int32_t free_count) {
   if (free_count <= largest_single) {
     return 1;
   }
-  return std::min(free_count / smallest_patch, static_cast<std::int32_t>(attribute(cudaDevAttrMultiProcessorCount)));
+  return std::min(free_count / smallest_patch, std::int32_t{multiprocessor_count()});
 }
 
 }  // namespace
 
+std::size_t most_patch_bytes() {
+  // What the kernels have in shared memory of their own.
+  constexpr std::size_t others = std::size_t{40} << 10U;
+  const std::size_t most = most_shared_bytes();
+  return most > others ? most - others : 0;
+}
+
+void allow_most_patch_bytes(const void* kernel) {
+  TRISMOOTH_CUDA_CHECK(
+      cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(most_patch_bytes())));
+}
+
 bool Patches::may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options) {
   return vertices <= largest_mesh && colours <= most_colours && !options.record_min_shape && !options.target_quality &&
-         set_bytes(vertices) + other_shared_bytes <= attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin);
+         set_bytes(vertices) <= most_patch_bytes();
 }
 
 std::unique_ptr<Patches> Patches::cut(Context& context, const RingsView& rings, std::int32_t vertex_count,
@@ -302,8 +303,7 @@ std::unique_ptr<Patches> Patches::cut(Context& context, const RingsView& rings, 
   const std::size_t shared = options.precision == Precision::double_precision
                                  ? patch_bytes<double>(*patches, options.form == Form::swap)
                                  : patch_bytes<float>(*patches, options.form == Form::swap);
-  if (patches->most_vertices_ > most_numbers || patches->most_entries_ > most_numbers ||
-      shared + other_shared_bytes > attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin)) {
+  if (patches->most_vertices_ > most_numbers || patches->most_entries_ > most_numbers || shared > most_patch_bytes()) {
     return nullptr;
   }
   patches->places_.upload(places);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -8,6 +9,12 @@
 #include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {
+
+/// The most shared memory that the parts of a patch may take on the current device.
+std::size_t most_patch_bytes();
+/// Lets a kernel have as much. The same for every launch: the limit belongs to the kernel, and several threads may be
+/// launching it.
+void allow_most_patch_bytes(const void* kernel);
 
 /// Where the parts of a patch are.
 struct PatchPlace {

@@ -10,9 +10,9 @@
 /// doubled, by cross * y with y close to 1 / h, where h = |a|^2 + |b|^2 - a.b of the spokes a and b is half the sum.
 /// The spokes are the very same rounded differences as in shape_quotient(); with u the unit roundoff:
 ///   cross: off by at most 2 u |a||b|, both in the rounded quotient and here; |a||b| <= h.
-///   sum: 6 u relative in the rounded quotient, its edge taken from the points and not from the spokes included
+///   sum: 7 u relative in the rounded quotient, its edge taken from the points and not from the spokes included
 ///     (|b - a|^2 off by at most 4 u (|a|^2 + |b|^2)); h: 6 u (|a|^2 + |b|^2) <= 12 u h.
-///   A doubled quotient is at most 0.58; the division and the product add u each, y its own error: u in float, where
+///   A doubled quotient is at most 0.58; the division and the product add u each, y its own error: 2 u in float, where
 ///   rcp.approx.ftz.f32 is within one unit in the last place; below 2^-35 in double, where rcp.approx.ftz.f64 is within
 ///   2^-18 and a Newton step squares that.
 /// Together a doubled quotient is off by less than 24 u, or 24 u + 2^-35. The bands below are more than twice as wide:

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "trismooth/cuda/block_tally.cuh"
+#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/resident.h"
@@ -134,11 +135,7 @@ template <class T, Layout layout, class Slot>
 std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
                                   SweepSums* sums, cudaStream_t stream) {
-  int device = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
-  int processors = 0;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
-  const std::int32_t most_blocks = processors * resident_blocks<T>;
+  const std::int32_t most_blocks = multiprocessor_count() * resident_blocks<T>;
   std::int32_t launches = 0;
   const auto launch_sweep = [&](auto kernel) {
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {

@@ -2,6 +2,7 @@
 
 #include "trismooth/cuda/block_tally.cuh"
 #include "trismooth/cuda/changed_vertices.cuh"
+#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/grid_barrier.cuh"
 #include "trismooth/cuda/resident.h"
@@ -48,7 +49,7 @@ __device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin,
       int left_over = 0;
       for (; listed - decided > (has_register_update<Update, T> ? few : 0); decided += 32) {
         const int i = decided + lane;
-        const std::int32_t v = list[i < listed ? i : 0];
+        const std::int32_t v = i < listed ? list[i] : 0;
         const bool left = visit<Update, true>(v, fetch_record(data.rings, v), i < listed, data, tally);
         __syncwarp();
         add_to_list(left, v, list, left_over);
@@ -88,7 +89,8 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
                                   rules.swaps ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
   std::uint32_t* marks = mesh.first.marks;
   std::int32_t current = state->current;
-  std::int32_t sweep = state->sweeps;
+  const std::int32_t first_sweep = state->sweeps;
+  std::int32_t sweep = first_sweep;
   if (current != 0) {
     swap_values(data.from, data.to);
     swap_values(marks, data.marks);
@@ -140,8 +142,8 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
       current = (rules.remaining - sweep) % 2 == 0 ? current : 1 - current;
     }
   }
-  // Everybody has read the state before the last barrier.
-  if (thread_index() == 0) {
+  // Everybody has read the state before the last barrier; where no sweep was made, there was none, and nothing is new.
+  if (thread_index() == 0 && sweep > first_sweep) {
     state->current = current;
     state->sweeps = sweep;
     state->stop = stop;
@@ -152,11 +154,7 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
 template <class Update, class T, Layout layout, class Slot>
 void launch_with(const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules, std::int32_t largest_batch,
                  LoopState* state, SweepSums* sums, BarrierWord* barriers, cudaStream_t stream) {
-  int device = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
-  int processors = 0;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
-  const int blocks = std::clamp(largest_batch / smallest_share, 1, processors);
+  const int blocks = std::clamp(largest_batch / smallest_share, 1, multiprocessor_count());
   ResidentMesh<T, layout, Slot> mesh_argument = mesh;
   LoopRules rules_argument = rules;
   void* arguments[] = {&mesh_argument, &rules_argument, &state, &sums, &barriers};

@@ -96,8 +96,8 @@ class ResidentEngine final : public SweepEngine<T, layout> {
 
  private:
   static constexpr std::int32_t smallest_launch = 500'000;
-  /// Sweeps in which many vertices of a mesh move, as a rule; where they are more, the sweeps over marked vertices begin
-  /// with one over all.
+  /// Sweeps in which many vertices of a mesh move, as a rule; where they are more, the sweeps over marked vertices
+  /// begin with one over all.
   static constexpr std::int32_t sweeps_of_all = 20;
 
   Context& context_;
@@ -135,7 +135,7 @@ class PatchEngine final : public SweepEngine<T, layout> {
   std::pair<Points, Points> input() override { return {mesh_.first.points, mesh_.second.points}; }
   void begin() override { moved_[0].fill_bytes(1); }
   std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) override {
-    const std::size_t groups = patch_groups(rules.sweeps);
+    const std::size_t groups = static_cast<std::size_t>(rules.sweeps);
     if (words_.size() < 2 * groups) {
       words_ = DeviceBuffer<unsigned long long>(context_, 2 * groups);
     }

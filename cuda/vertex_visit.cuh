@@ -78,6 +78,7 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
   const VertexMove<T> result = evaluate_by_team<Update>(
       position, size, [&](int i) { return data.from.load(numbers[i]); },
       [&] { return update_from_memory<Update>(v, position, data.from, data.rings); });
+  __syncwarp();  // all threads of the team have read the position that is written now
   if (active && team_lane() == 0) {
     settle(v, result.move, data);
   }
@@ -100,8 +101,8 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
 inline constexpr int largest_ring = 12;
 
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
-/// vertex that is left to visit_by_team(). A vertex that is not
-/// evaluated is at the same place in both buffers: a move marks the vertex itself for the next sweep.
+/// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
+/// marks the vertex itself for the next sweep.
 template <class Update, bool marks, class T, Layout layout, class Slot>
 __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active,
                                       const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
