@@ -22,8 +22,8 @@ struct ThreadTally {
 };
 
 /// Whether a move may be longer, relative to its neighbourhood, than `longest_squared`: only then is its quotient
-/// divided. Exact: if the rounded moved / sum exceeds `longest_squared`, then moved > longest_squared * sum, and rounding
-/// the product cannot bring it above `moved`, which is a number itself.
+/// divided. Exact: if the rounded moved / sum exceeds `longest_squared`, then moved > longest_squared * sum, and
+/// rounding the product cannot bring it above `moved`, which is a number itself.
 template <class T>
 __device__ bool may_be_longer(const MoveLength<T>& length, T longest_squared) {
   return length.moved >= longest_squared * length.sum;
