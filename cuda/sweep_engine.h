@@ -75,7 +75,8 @@ class ResidentEngine final : public SweepEngine<T, layout> {
     // The smallest shape is measured by the other kernel alone, and batches that do not fill the GPU are not worth a
     // launch each.
     if (!rules.measures_shape && (rules.evaluates_all || largest_batch_ >= smallest_launch)) {
-      const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, sweeps_of_all);
+      const std::int32_t usual = rules.swaps ? sweeps_of_all_a : sweeps_of_all_b;
+      const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, usual);
       launches = launch_sweeps_of_all(method_, mesh_, rules, batches_, sweeps, state, sums, context_.stream());
       if (rules.evaluates_all) {
         return launches;
@@ -98,7 +99,8 @@ class ResidentEngine final : public SweepEngine<T, layout> {
   static constexpr std::int32_t smallest_launch = 500'000;
   /// Sweeps in which many vertices of a mesh move, as a rule; where they are more, the sweeps over marked vertices
   /// begin with one over all.
-  static constexpr std::int32_t sweeps_of_all = 20;
+  static constexpr std::int32_t sweeps_of_all_a = 18;
+  static constexpr std::int32_t sweeps_of_all_b = 9;
 
   Context& context_;
   Method method_;
