@@ -1,7 +1,7 @@
 // What comes before and after the sweeps on the device: the local frame and the never-worse commit, against the CPU's.
 
 #include <bit>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -20,9 +20,11 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "smoothing_runs.h"
 #include "support/test_meshes.h"
 
 using namespace trismooth;
+using namespace smoothing_runs;
 using test_meshes::Mesh;
 using test_meshes::Random;
 using Points = std::vector<Point2<double>>;
@@ -56,41 +58,6 @@ Points random_points(std::size_t count, Point2<double> low, Point2<double> exten
   }
   return points;
 }
-
-struct Run {
-  std::vector<double> xy;
-  SmoothingResult result;
-};
-
-Run run(const Mesh& mesh, const SmoothingOptions& options, Storage storage = Storage::float64) {
-  Run run{mesh.xy(), {}};
-  run.result = plan(mesh.vertex_count(), mesh.indices(), {}, options).smooth(run.xy, storage);
-  return run;
-}
-
-void require_same(const Run& found, const Run& expected) {
-  REQUIRE(std::memcmp(found.xy.data(), expected.xy.data(), expected.xy.size() * sizeof(double)) == 0);
-  REQUIRE(found.result.stop_reason == expected.result.stop_reason);
-  REQUIRE(found.result.sweeps == expected.result.sweeps);
-  REQUIRE(found.result.moved_vertices == expected.result.moved_vertices);
-  REQUIRE(found.result.guard_rounds == expected.result.guard_rounds);
-  REQUIRE(found.result.reverted_vertices == expected.result.reverted_vertices);
-  REQUIRE(found.result.reverted.size() == expected.result.reverted.size());
-  for (std::size_t i = 0; i < found.result.reverted.size(); ++i) {
-    REQUIRE(found.result.reverted[i].vertex == expected.result.reverted[i].vertex);
-    REQUIRE(found.result.reverted[i].position == expected.result.reverted[i].position);
-  }
-  REQUIRE(found.result.history.size() == expected.result.history.size());
-  for (std::size_t i = 0; i < found.result.history.size(); ++i) {
-    CAPTURE(i);
-    REQUIRE(found.result.history[i].sweep == expected.result.history[i].sweep);
-    REQUIRE(found.result.history[i].moved == expected.result.history[i].moved);
-    REQUIRE(found.result.history[i].max_relative_move == expected.result.history[i].max_relative_move);
-  }
-}
-
-constexpr auto forms = {Form::swap, Form::in_place};
-constexpr auto precisions = {Precision::double_precision, Precision::single_precision};
 
 /// The CPU against the resident execution with the commit queued behind the sweeps, the same with the commit queued
 /// when the host knows of the end (a callback, a time limit), and single-block.
@@ -199,9 +166,9 @@ TEST_CASE("plain averages do damage in many rounds, and the same is taken back i
       const Run expected = run(mesh, options);
       REQUIRE(expected.result.guard_rounds > 1);
       require_cpu_commit(mesh, options, expected);
-      const Run in_float32 = run(mesh, options, Storage::float32);
+      const Run in_float32 = run(mesh, options, {}, Storage::float32);
       options.backend = &cuda::backend();
-      require_same(run(mesh, options, Storage::float32), in_float32);
+      require_same(run(mesh, options, {}, Storage::float32), in_float32);
     }
   }
 }
@@ -288,8 +255,8 @@ TEST_CASE("a plan refuses coordinates that are not finite, names the first, and 
   cuda::Plan plan(device_mesh, {}, context.stream());
   for (int i = 0; i < 3; ++i) {
     std::vector<double> broken = mesh.xy();
-    broken[2 * 17 + 1] = std::numeric_limits<double>::quiet_NaN();
-    broken[2 * 300] = std::numeric_limits<double>::infinity();
+    broken[std::size_t{2} * 17 + 1] = std::numeric_limits<double>::quiet_NaN();
+    broken[std::size_t{2} * 300] = std::numeric_limits<double>::infinity();
     xy.upload(broken);
     CHECK_THROWS_WITH(plan.smooth(xy.data()), "vertex 17 has a coordinate that is not finite");
     std::vector<double> after(broken.size());

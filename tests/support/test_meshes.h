@@ -179,7 +179,7 @@ inline Mesh shuffled(const Mesh& mesh, std::uint64_t seed) {
   }
   for (Triangle& t : result.triangles) {
     t = {number[t[0]], number[t[1]], number[t[2]]};
-    std::ranges::rotate(t, t.begin() + random.below(3));
+    std::rotate(t.begin(), t.begin() + random.below(3), t.end());
   }
   random.shuffle(result.triangles);
   return result;
