@@ -84,9 +84,9 @@ std::string help_hint(const CLI::App& app) {
 }
 
 ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const CommandEnvironment& environment) {
-  const std::array<Subcommand, 4> subcommands{
+  const std::array<Subcommand, 5> subcommands{
       add_smooth_command(app, environment), add_quality_command(app, environment),
-      add_generate_command(app, environment), add_info_command(app, environment)};
+      add_generate_command(app, environment), add_bench_command(app, environment), add_info_command(app, environment)};
   for (const Subcommand& subcommand : subcommands) {
     subcommand.app->group("Commands");
   }

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/pipeline/html_style.h"
+#include "trismooth/pipeline/html_page.h"
 #include "trismooth/pipeline/html_text.h"
 #include "trismooth/pipeline/svg_charts.h"
 #include "trismooth/pipeline/text_report.h"
@@ -29,10 +29,6 @@ const QualityReport* after_of(const PipelineResult& result) {
 
 const QualityReport& final_report(const PipelineResult& result) {
   return result.after ? *result.after : result.before;
-}
-
-std::string section(std::string_view title, const std::string& content) {
-  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
 }
 
 std::string header(const PipelineOptions& options, const PipelineResult& result) {
@@ -126,13 +122,9 @@ std::string cards(const PipelineResult& result) {
   return "<div class=\"cards\">\n" + html + "</div>\n";
 }
 
-std::string cell(const std::string& text, std::string_view classes = "") {
-  return classes.empty() ? fmt::format("<td>{}</td>", text) : fmt::format("<td class=\"{}\">{}</td>", classes, text);
-}
-
 std::string metric_name_cell(const MetricInfo& metric) {
   const std::string unit = metric.unit.empty() ? std::string{} : fmt::format(", {}", escape_html(metric.unit));
-  return cell(fmt::format("{}<small>{}{}</small>", metric.name, escape_html(metric.meaning), unit));
+  return html_cell(fmt::format("{}<small>{}{}</small>", metric.name, escape_html(metric.meaning), unit));
 }
 
 std::string metric_table(const QualityReport& report) {
@@ -143,10 +135,11 @@ std::string metric_table(const QualityReport& report) {
     const MetricSummary& summary = report[metric.metric];
     const int digits = decimals(metric.metric);
     html += "<tr>" + metric_name_cell(metric) +
-            cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "") +
-            cell(number_text(summary.mean, digits)) +
-            cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong") +
-            cell(number_text(summary.stddev, digits)) + cell(percent_text(summary.acceptable_fraction)) + "</tr>\n";
+            html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "") +
+            html_cell(number_text(summary.mean, digits)) +
+            html_cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong") +
+            html_cell(number_text(summary.stddev, digits)) + html_cell(percent_text(summary.acceptable_fraction)) +
+            "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -175,13 +168,14 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
     const auto end_of_range = [&](double MetricSummary::*value, bool is_bad_end) {
       const TextPair texts = is_bad_end ? distinct_texts(from.*value, to.*value, digits)
                                         : TextPair{number_text(from.*value, digits), number_text(to.*value, digits)};
-      return cell(texts.before, "start") + cell(texts.after, is_bad_end ? "strong" : "");
+      return html_cell(texts.before, "start") + html_cell(texts.after, is_bad_end ? "strong" : "");
     };
     const std::string_view judged = verdict(metric.metric, from, to);
     html += "<tr>" + metric_name_cell(metric) + end_of_range(&MetricSummary::min, metric.larger_is_better) +
             end_of_range(&MetricSummary::mean, false) + end_of_range(&MetricSummary::max, !metric.larger_is_better) +
-            cell(percent_text(from.acceptable_fraction), "start") + cell(percent_text(to.acceptable_fraction)) +
-            cell(std::string(judged), verdict_class(judged)) + "</tr>\n";
+            html_cell(percent_text(from.acceptable_fraction), "start") +
+            html_cell(percent_text(to.acceptable_fraction)) + html_cell(std::string(judged), verdict_class(judged)) +
+            "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -202,9 +196,9 @@ std::string worst_table(std::string_view title, const QualityReport& report) {
       "</thead>\n<tbody>\n",
       title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title));
   for (const WorstElement& element : report.worst) {
-    html += "<tr>" + cell(std::to_string(element.triangle)) +
-            cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
-            cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y)) + "</tr>\n";
+    html += "<tr>" + html_cell(std::to_string(element.triangle)) +
+            html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
+            html_cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y)) + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }
@@ -218,7 +212,7 @@ std::string worst_tables(const PipelineResult& result) {
 std::string row_table(const Rows& rows) {
   std::string html = "<table>\n<tbody>\n";
   for (const auto& [name, value] : rows) {
-    html += "<tr>" + cell(name) + cell(value) + "</tr>\n";
+    html += "<tr>" + html_cell(name) + html_cell(value) + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -295,14 +289,6 @@ std::string timings_table(const PipelineTimings& timings) {
          fmt::format("<tr><td>total</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n", duration_text(timings.total));
 }
 
-std::string notes_list(const std::vector<std::string>& notes) {
-  std::string html = "<ul>\n";
-  for (const std::string& note : notes) {
-    html += "<li>" + escape_html(note) + "</li>\n";
-  }
-  return html + "</ul>\n";
-}
-
 std::string footer(const PipelineResult& result) {
   const std::string hash =
       result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
@@ -315,34 +301,31 @@ std::string body(const PipelineOptions& options, const PipelineResult& result) {
   const QualityReport* const after = after_of(result);
   if (result.before.triangles > 0) {
     html += cards(result);
-    html += section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
-    html += section("Distribution of shape", histogram(result));
+    html +=
+        html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
+    html += html_section("Distribution of shape", histogram(result));
   }
   if (result.smoothing && !result.smoothing->history.empty()) {
-    html += section("Convergence", "<h3>vertices moved in each sweep</h3>\n<figure>\n" +
-                                       convergence_svg(result.smoothing->history) + "</figure>\n");
+    html += html_section("Convergence", "<h3>vertices moved in each sweep</h3>\n<figure>\n" +
+                                            convergence_svg(result.smoothing->history) + "</figure>\n");
   }
   if (!result.before.worst.empty()) {
-    html += section("Worst elements", worst_tables(result));
+    html += html_section("Worst elements", worst_tables(result));
   }
   if (!result.notes.empty()) {
-    html += section("Notes", notes_list(result.notes));
+    html += html_section("Notes", html_list(result.notes));
   }
   if (result.smoothing) {
-    html += "<div class=\"two\">\n" + section("Options", options_table(options, *result.smoothing)) +
-            section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
+    html += "<div class=\"two\">\n" + html_section("Options", options_table(options, *result.smoothing)) +
+            html_section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
   }
-  return html + section("Time", timings_table(result.timings_ms)) + footer(result);
+  return html + html_section("Time", timings_table(result.timings_ms)) + footer(result);
 }
 
 }  // namespace
 
 std::string html_report(const PipelineOptions& options, const PipelineResult& result) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{} - trismooth</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-      escape_html(result.input.path.filename().string()), html_style, body(options, result));
+  return html_page(result.input.path.filename().string(), body(options, result));
 }
 
 }  // namespace trismooth

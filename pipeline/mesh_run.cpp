@@ -19,8 +19,6 @@ namespace trismooth {
 
 namespace {
 
-constexpr int most_threads = 4096;
-
 std::string sweep_line(const SweepRecord& record) {
   std::string line = fmt::format("sweep {}: {} evaluated, {} moved, largest move {:.3g} of the edge length",
                                  record.sweep, record.evaluated, record.moved, record.max_relative_move);

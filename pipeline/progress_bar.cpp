@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/progress_bar.h"
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -8,11 +9,6 @@
 namespace trismooth {
 
 namespace {
-
-constexpr std::chrono::milliseconds least_interval{100};
-
-// Back to the start of the line, and erase to its end (ECMA-48 EL).
-constexpr std::string_view clear_line = "\r\x1b[K";
 
 std::string_view describe(Stage stage) {
   switch (stage) {
@@ -35,37 +31,15 @@ std::string_view describe(Stage stage) {
 }  // namespace
 
 ProgressBar::ProgressBar(std::ostream& terminal, std::function<Clock::time_point()> now)
-    : terminal_(terminal), now_(std::move(now)), start_(now_()), last_draw_(start_ - least_interval) {}
-
-ProgressBar::~ProgressBar() {
-  erase();
-}
+    : line_(terminal, std::move(now)) {}
 
 void ProgressBar::stage_started(Stage stage) {
-  draw(std::string(describe(stage)) + " ...", now_());
+  line_.draw(std::string(describe(stage)) + " ...");
 }
 
 void ProgressBar::sweep_done(const SweepRecord& record) {
-  const Clock::time_point now = now_();
-  if (now - last_draw_ >= least_interval) {
-    draw(fmt::format("{}: sweep {}, {} {} moved", describe(Stage::smooth), record.sweep, record.moved,
-                     record.moved == 1 ? "vertex" : "vertices"),
-         now);
-  }
-}
-
-void ProgressBar::erase() {
-  if (visible_) {
-    terminal_ << clear_line << std::flush;
-    visible_ = false;
-  }
-}
-
-void ProgressBar::draw(const std::string& what, Clock::time_point now) {
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  terminal_ << clear_line << fmt::format("{}, {:.1f} s", what, seconds) << std::flush;
-  visible_ = true;
-  last_draw_ = now;
+  line_.draw_now_and_then(fmt::format("{}: sweep {}, {} {} moved", describe(Stage::smooth), record.sweep, record.moved,
+                                      record.moved == 1 ? "vertex" : "vertices"));
 }
 
 }  // namespace trismooth

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trismooth/quality/point2.h"
@@ -30,5 +31,14 @@ inline constexpr std::int64_t max_random_mesh_vertices = (std::int64_t{1} << 31)
 /// Throws std::invalid_argument where `vertices` is below 4 or above max_random_mesh_vertices, or `largest_tile` is
 /// below 256 or above 2^26. Complexity: O(n log n) for the n vertices of the tile, and O(vertices).
 RandomMesh random_delaunay_mesh(std::int64_t vertices, std::uint64_t seed, std::int64_t largest_tile = 1 << 22);
+
+/// The mesh as the library takes it: two coordinates a vertex, three indices a triangle. Views of `mesh`.
+inline std::span<const double> flat_points(const RandomMesh& mesh) {
+  static_assert(sizeof(Point2<double>) == 2 * sizeof(double));
+  return {&mesh.points.front().x, 2 * mesh.points.size()};
+}
+inline std::span<const std::int32_t> flat_triangles(const RandomMesh& mesh) {
+  return {mesh.triangles.front().data(), 3 * mesh.triangles.size()};
+}
 
 }  // namespace trismooth

@@ -1,0 +1,124 @@
+#include "trismooth/pipeline/bench/comparisons.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/bench/tables.h"
+
+namespace trismooth::bench {
+
+namespace {
+
+/// The time of a case that the paper published.
+std::optional<double> published_ms(const Case& what, std::int64_t vertices) {
+  const PublishedRow* const row = is_of_paper(what) ? published_row(what.version, what.form, vertices) : nullptr;
+  if (row == nullptr) {
+    return std::nullopt;
+  }
+  return what.layout == Layout::aos ? row->aos_ms : row->soa_ms;
+}
+
+/// How many times as fast `faster` smooths as `slower`, where both were measured.
+std::optional<Comparison> compare(const ExperimentResult& result, std::int64_t vertices, const Case& faster,
+                                  const Case& slower) {
+  const Measurement* const one = result.find(vertices, faster);
+  const Measurement* const other = result.find(vertices, slower);
+  if (one == nullptr || other == nullptr) {
+    return std::nullopt;
+  }
+  Comparison comparison{full_name(faster), full_name(slower), vertices, ratio(other->smoothing, one->smoothing)};
+  comparison.support = support_of(comparison.factor, 1);
+  const auto published_one = published_ms(faster, vertices);
+  const auto published_other = published_ms(slower, vertices);
+  if (published_one && published_other) {
+    comparison.published = *published_other / *published_one;
+  }
+  if (faster.form != slower.form) {
+    comparison.sweeps = {one->sweeps, other->sweeps};
+  }
+  return comparison;
+}
+
+std::string range_of_published(const std::vector<Comparison>& comparisons) {
+  std::vector<double> factors;
+  for (const Comparison& comparison : comparisons) {
+    if (comparison.published) {
+      factors.push_back(*comparison.published);
+    }
+  }
+  if (factors.empty()) {
+    return {};
+  }
+  const Spread range(std::move(factors));
+  return fmt::format("; in the paper {} ({} to {})", three_digits(range.median), three_digits(range.least),
+                     three_digits(range.most));
+}
+
+}  // namespace
+
+std::string full_name(const Case& what) {
+  return fmt::format("{}, Form {}", name_of(what), form_of(what));
+}
+
+Support support_of(const Spread& factor, double at_least) {
+  if (factor.least > at_least) {
+    return Support::yes;
+  }
+  return factor.most < at_least ? Support::no : Support::undecided;
+}
+
+std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs) {
+  std::vector<Comparison> comparisons;
+  for (const auto& [faster, slower] : pairs) {
+    for (const std::int64_t size : result.options.sizes) {
+      if (auto comparison = compare(result, size, faster, slower)) {
+        comparisons.push_back(std::move(*comparison));
+      }
+    }
+  }
+  return comparisons;
+}
+
+std::int64_t count_of(const std::vector<Comparison>& comparisons, Support support) {
+  return std::ranges::count(comparisons, support, &Comparison::support);
+}
+
+Spread overall(const std::vector<Comparison>& comparisons) {
+  std::vector<double> medians;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const Comparison& comparison : comparisons) {
+    medians.push_back(comparison.factor.median);
+    least = std::min(least, comparison.factor.least);
+    most = std::max(most, comparison.factor.most);
+  }
+  return {Spread(std::move(medians)).median, least, most};
+}
+
+std::string tally(const std::vector<Comparison>& comparisons, std::string_view faster, std::string_view slower) {
+  const Spread factor = overall(comparisons);
+  return fmt::format(
+      "{} faster in {} of {} comparisons, {} in {}; {} within the spread. {} {} times as fast in the median, {} to {} "
+      "over all runs{}.",
+      faster, count_of(comparisons, Support::yes), comparisons.size(), slower, count_of(comparisons, Support::no),
+      count_of(comparisons, Support::undecided), faster, three_digits(factor.median), three_digits(factor.least),
+      three_digits(factor.most), range_of_published(comparisons));
+}
+
+std::string by_size(const ExperimentResult& result, const std::vector<Comparison>& comparisons) {
+  std::string text;
+  for (const std::int64_t size : result.options.sizes) {
+    std::vector<Comparison> here;
+    std::ranges::copy_if(comparisons, std::back_inserter(here),
+                         [&](const Comparison& comparison) { return comparison.vertices == size; });
+    if (!here.empty()) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", size_text(size), three_digits(overall(here).median));
+    }
+  }
+  return "Median factor by size: " + text + ".";
+}
+
+}  // namespace trismooth::bench

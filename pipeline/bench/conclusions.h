@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "trismooth/pipeline/bench/comparisons.h"
+#include "trismooth/pipeline/bench/experiment.h"
+#include "trismooth/smoothing/enum_text.h"
+
+namespace trismooth::bench {
+
+/// Whether something that the paper says shows here.
+enum class Verdict : std::uint8_t {
+  holds,         ///< in every comparison, or none speaks against it
+  in_part,       ///< in some comparisons; the opposite in others
+  does_not,      ///< in none, and the opposite in some
+  undecided,     ///< no difference beyond the spread of the measurements
+  not_measured,  ///< what it takes is missing
+};
+
+/// One of the paper's four claims, judged by what was measured.
+struct Conclusion {
+  int number = 0;
+  std::string claim;
+  Verdict verdict = Verdict::not_measured;
+  std::vector<std::string> findings{};  ///< whole sentences: by what factor, with the spread, and what else bears on it
+  std::vector<Comparison> comparisons{};  ///< that the verdict rests on
+};
+
+/// The conclusions, in the order of the paper's abstract, each computed from `result` alone. Times differ where their
+/// ranges (least to most) are apart. "At least as fast" holds where nothing is slower, "up to 44 times" where one case
+/// reaches that, "always slower" and "slightly faster" where some differ that way and none the other.
+std::vector<Conclusion> conclusions_of(const ExperimentResult& result);
+
+}  // namespace trismooth::bench
+
+template <>
+struct trismooth::EnumText<trismooth::bench::Verdict> {
+  using Verdict = trismooth::bench::Verdict;
+  static constexpr std::string_view what = "verdict";
+  static constexpr std::array<std::pair<Verdict, std::string_view>, 5> texts{{{Verdict::holds, "holds"},
+                                                                              {Verdict::in_part, "holds in part"},
+                                                                              {Verdict::does_not, "does not hold"},
+                                                                              {Verdict::undecided, "cannot be told"},
+                                                                              {Verdict::not_measured, "not measured"}}};
+};

@@ -1,0 +1,152 @@
+#include "trismooth/pipeline/bench/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/bench/log_chart.h"
+
+namespace trismooth::bench {
+
+namespace {
+
+constexpr std::array all_versions{Version::serial, Version::cpu, Version::gpu, Version::cdp, Version::resident};
+constexpr std::array forms{Form::swap, Form::in_place};
+
+/// The colours can be told apart by everybody, the markers without colour.
+LineStyle style_of(Version version) {
+  switch (version) {
+    case Version::serial:
+      return {"#444444", Marker::cross};
+    case Version::cpu:
+      return {"#009e73", Marker::diamond};
+    case Version::gpu:
+      return {"#d55e00", Marker::circle};
+    case Version::cdp:
+      return {"#0072b2", Marker::square};
+    case Version::resident:
+      break;
+  }
+  return {"#8a2f8f", Marker::triangle};
+}
+
+LineStyle style_of(Version version, Form form) {
+  LineStyle style = style_of(version);
+  style.filled = form == Form::swap;
+  style.dashed = form == Form::in_place;
+  return style;
+}
+
+LineStyle faint_style(Version version, Form form) {
+  LineStyle style = style_of(version, form);
+  style.colour = "#9a9a9a";
+  style.faint = true;
+  return style;
+}
+
+std::string label_of(Version version, Form form) {
+  return fmt::format("{}, Form {}", name_of(version), form == Form::swap ? "A" : "B");
+}
+
+/// Form B of the paper's versions is the paper's own.
+Case shown_case(Version version, Form form, Layout layout) {
+  return {version, form, order_of_paper(version, form), runs_on_device(version) ? layout : Layout::aos};
+}
+
+/// A line over the sizes; `value` answers nothing where there is no point.
+template <class Value>
+ChartSeries series_of(const ExperimentResult& result, std::string label, const LineStyle& style, const Value& value) {
+  ChartSeries series{std::move(label), style, {}};
+  std::vector<std::int64_t> sizes = result.options.sizes;
+  std::ranges::sort(sizes);
+  for (const std::int64_t size : sizes) {
+    if (const std::optional<Spread> here = value(size)) {
+      series.points.push_back({static_cast<double>(size), *here});
+    }
+  }
+  return series;
+}
+
+std::optional<Spread> one_value(const PublishedRow* row, double PublishedRow::*aos, double PublishedRow::*soa,
+                                Layout layout) {
+  if (row == nullptr) {
+    return std::nullopt;
+  }
+  const double value = row->*(layout == Layout::aos ? aos : soa);
+  return Spread(value, value, value);
+}
+
+/// Adds a panel whose lines are those that have a point.
+void add_panel(LogChart& chart, std::string title, std::vector<ChartSeries> lines) {
+  std::erase_if(lines, [](const ChartSeries& series) { return series.points.empty(); });
+  chart.panels.push_back({std::move(title), std::move(lines)});
+}
+
+std::string svg_or_nothing(const LogChart& chart) {
+  const bool any = std::ranges::any_of(chart.panels, [](const ChartPanel& panel) { return !panel.series.empty(); });
+  return any ? log_chart_svg(chart) : std::string{};
+}
+
+}  // namespace
+
+std::string forms_figure(const ExperimentResult& result) {
+  LogChart chart{"figure-3",
+                 "Milliseconds of smoothing over the number of vertices, for each version in both forms",
+                 "vertices",
+                 "smoothing, ms",
+                 {}};
+  for (const Layout layout : {Layout::aos, Layout::soa}) {
+    std::vector<ChartSeries> lines;
+    for (const Version version : all_versions) {
+      for (const Form form : forms) {
+        lines.push_back(series_of(
+            result, label_of(version, form), style_of(version, form), [&](std::int64_t size) -> std::optional<Spread> {
+              const Measurement* const measured = result.find(size, shown_case(version, form, layout));
+              return measured == nullptr ? std::nullopt : std::optional(measured->smoothing);
+            }));
+      }
+    }
+    for (const Version version : {Version::gpu, Version::cdp}) {
+      for (const Form form : forms) {
+        lines.push_back(
+            series_of(result, "paper: " + label_of(version, form), faint_style(version, form), [&](std::int64_t size) {
+              return one_value(published_row(version, form, size), &PublishedRow::aos_ms, &PublishedRow::soa_ms,
+                               layout);
+            }));
+      }
+    }
+    add_panel(chart, layout == Layout::aos ? "(a) AoS" : "(b) SoA", std::move(lines));
+  }
+  return svg_or_nothing(chart);
+}
+
+std::string speedup_figure(const ExperimentResult& result) {
+  LogChart chart{"figure-4",
+                 "Speedup over the serial CPU version over the number of vertices, in Form A",
+                 "vertices",
+                 "times faster than the serial CPU version",
+                 {}};
+  for (const Layout layout : {Layout::soa, Layout::aos}) {
+    std::vector<ChartSeries> lines;
+    for (const Version version : {Version::cpu, Version::gpu, Version::cdp, Version::resident}) {
+      lines.push_back(series_of(result, name_of(version), style_of(version), [&](std::int64_t size) {
+        return result.speedup(size, shown_case(version, Form::swap, layout));
+      }));
+    }
+    for (const Version version : {Version::gpu, Version::cdp}) {
+      LineStyle style = faint_style(version, Form::swap);
+      style.dashed = version == Version::cdp;
+      lines.push_back(series_of(result, "paper: " + name_of(version), style, [&](std::int64_t size) {
+        return one_value(published_row(version, Form::swap, size), &PublishedRow::aos_speedup,
+                         &PublishedRow::soa_speedup, layout);
+      }));
+    }
+    add_panel(chart, layout == Layout::soa ? "(a) SoA, Form A" : "(b) AoS, Form A", std::move(lines));
+  }
+  return svg_or_nothing(chart);
+}
+
+}  // namespace trismooth::bench

@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/backend_choice.h"
+#include "trismooth/pipeline/bench/experiment.h"
+#include "trismooth/pipeline/bench/progress_text.h"
+#include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/pipeline/messages.h"
+#include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/report_format.h"
+#include "trismooth/pipeline/subcommands.h"
+#include "trismooth/pipeline/terminal_line.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t least_vertices = 4;
+constexpr int most_runs = 1000;
+
+struct BenchSettings {
+  bench::ExperimentOptions experiment;
+  BackendChoice backend = BackendChoice::automatic;
+  std::vector<std::filesystem::path> reports;
+};
+
+using ReportWriter = std::string (*)(const bench::Report&);
+
+ReportWriter writer_of(const std::filesystem::path& path) {
+  static constexpr std::array<ReportFormat<ReportWriter>, 3> formats{
+      {{".json", &bench::json_of}, {".csv", &bench::csv_of}, {".html", &bench::page_of}}};
+  return writer_for<ReportWriter>(path, formats);
+}
+
+/// "1K", "50k", "2M" or plain digits.
+std::int64_t parse_size(std::string_view text) {
+  std::int64_t factor = 1;
+  if (!text.empty()) {
+    const char last = text.back();
+    factor = last == 'K' || last == 'k' ? 1'000 : last == 'M' || last == 'm' ? 1'000'000 : 1;
+  }
+  const std::string_view digits = factor > 1 ? text.substr(0, text.size() - 1) : text;
+  return factor * parse_integer(digits, (least_vertices + factor - 1) / factor, max_random_mesh_vertices / factor);
+}
+
+/// The parts of "a,b,c", each parsed; every value counts once.
+template <class Parse>
+auto parse_list(std::string_view text, const Parse& parse) {
+  std::vector<decltype(parse(text))> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto value = parse(text.substr(begin, end - begin));
+    if (std::ranges::find(values, value) == values.end()) {
+      values.push_back(value);
+    }
+    begin = end + 1;
+  }
+  return values;
+}
+
+double parse_seconds(const std::string& text) {
+  const double seconds = parse_finite(text);
+  if (seconds <= 0) {
+    throw std::invalid_argument("expected a number above 0, got '" + text + "'");
+  }
+  return seconds;
+}
+
+/// Why what runs on a device is left out, or nothing. Throws DeviceError where the user insists on a device.
+std::string why_no_device(BackendChoice choice, const CudaSupport& cuda) {
+  if (choice == BackendChoice::cpu) {
+    return "left out by --backend cpu";
+  }
+  if (cuda.backend == nullptr) {
+    if (choice == BackendChoice::cuda) {
+      throw DeviceError("this build has no CUDA; --backend auto measures the CPU versions");
+    }
+    return {};
+  }
+  const std::string problem = cuda.problem();
+  if (choice == BackendChoice::cuda && !problem.empty()) {
+    throw DeviceError(problem + "; --backend auto measures the CPU versions");
+  }
+  return problem;
+}
+
+std::string now_text() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+}
+
+/// As it would be typed: with the program's name alone, so that reports hold no path of the machine.
+std::string command_text(const BenchSettings& settings) {
+  const bench::ExperimentOptions& options = settings.experiment;
+  std::string sizes;
+  for (const std::int64_t size : options.sizes) {
+    sizes += fmt::format("{}{}", sizes.empty() ? "" : ",", size);
+  }
+  std::string versions;
+  for (const bench::Version version : options.versions) {
+    versions.append(versions.empty() ? "" : ",").append(to_string(version));
+  }
+  return fmt::format("trismooth bench --sizes {} --versions {} --precision {} --runs {} --seconds {} --seed {}", sizes,
+                     versions, to_string(options.precision), options.runs, options.seconds, options.seed);
+}
+
+bench::ExperimentResult run_watched(bench::ExperimentOptions options, const CudaSupport& cuda,
+                                    const CommandEnvironment& environment) {
+  std::optional<TerminalLine> line;
+  if (environment.err_is_terminal) {
+    line.emplace(environment.err);
+    options.progress = [&line, runs = options.runs](const bench::ExperimentProgress& progress) {
+      line->draw_now_and_then(bench::progress_text(progress, runs));
+    };
+  }
+  return bench::run_experiment(options, cuda);
+}
+
+ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment) {
+  const CudaSupport cuda = environment.cuda();
+  settings.experiment.no_device_reason = why_no_device(settings.backend, cuda);
+  const InterruptGuard guard(OnInterrupt::exit);
+  const bench::Report report =
+      bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
+                         cuda.backend != nullptr ? cuda.lines() : std::string{});
+  for (const std::filesystem::path& path : settings.reports) {
+    write_report_text(path, writer_of(path)(report));
+  }
+  environment.out << bench::text_of(report);
+  for (const std::filesystem::path& path : settings.reports) {
+    environment.out << "report: " << path.string() << '\n';
+  }
+  environment.out << std::flush;
+  if (!report.result.same_bits()) {
+    print_error(environment.err, "runs that must give the same bits did not; please report this");
+    return ExitCode::gate_failed;
+  }
+  if (report.result.device_failed()) {
+    print_error(environment.err, "the device failed; the remarks say where");
+    return ExitCode::device_error;
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environment) {
+  const auto settings = std::make_shared<BenchSettings>();
+  bench::ExperimentOptions& options = settings->experiment;
+  CLI::App& command = *app.add_subcommand("bench", "Repeat the paper's experiments on this machine");
+  add_parsed_option(
+      command, "--sizes", "N,N,...",
+      "Vertices of the meshes, with K and M for thousands and\nmillions [1K,5K,10K,50K,100K, the paper's]",
+      [&options](const std::string& text) { options.sizes = parse_list(text, &parse_size); });
+  add_enum_option(command, "--precision", options.precision, "Of the sweeps; single is the paper's");
+  add_parsed_option(
+      command, "--versions", "V,V,...",
+      "Of " + alternatives<bench::Version>() +
+          ": the paper's\nserial program, the CPU backend, the paper's GPU and\n"
+          "CDP versions, the resident version [all]",
+      [&options](const std::string& text) { options.versions = parse_list(text, &parse_enum<bench::Version>); });
+  add_parsed_option(command, "--runs", "N", "Runs of each, one more to warm up [7]",
+                    [&options](const std::string& text) { options.runs = parse_integer(text, 1, most_runs); });
+  add_parsed_option(command, "--seconds", "S", "Fewer runs where they would take longer together [20]",
+                    [&options](const std::string& text) { options.seconds = parse_seconds(text); });
+  add_parsed_option(command, "--seed", "S", "Of the random meshes [1]", [&options](const std::string& text) {
+    options.seed = parse_integer(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+  });
+  add_parsed_option(command, "--threads", "N", "Of the optimised CPU version [one a core]",
+                    [&options](const std::string& text) { options.threads = parse_integer(text, 0, most_threads); });
+  add_enum_option(command, "--backend", settings->backend,
+                  "auto: the versions for a GPU where there is one; cpu:\nwithout them; cuda: not without them");
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--report", "FILE", "Write a report: FILE.json, FILE.csv or FILE.html. Repeatable",
+      [settings](const std::string& text) {
+        writer_of(text);
+        settings->reports.emplace_back(text);
+      },
+      repeatable);
+  return {&command, [settings, &environment] { return run_bench(*settings, environment); }};
+}
+
+}  // namespace trismooth

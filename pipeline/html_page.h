@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trismooth {
+
+/// The pieces that all pages of the program are made of. Arguments are HTML unless they are said to be text.
+
+/// A whole page with the common style sheet (html_style.h) and `more_style` behind it. `title` is text.
+std::string html_page(std::string_view title, std::string_view body, std::string_view more_style = "");
+
+/// A part of a page under a heading.
+std::string html_section(std::string_view title, std::string_view content);
+
+/// A cell of a table, of these classes.
+std::string html_cell(std::string_view content, std::string_view classes = "");
+
+/// A list of points, each of them text.
+std::string html_list(const std::vector<std::string>& texts);
+
+}  // namespace trismooth

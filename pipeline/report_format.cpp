@@ -1,0 +1,16 @@
+#include "trismooth/pipeline/report_format.h"
+
+#include "trismooth/mesh_io/buffered_writer.h"
+#include "trismooth/mesh_io/output_file.h"
+
+namespace trismooth {
+
+void write_report_text(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  BufferedWriter writer(file.path());
+  writer.write(text);
+  writer.close();
+  file.commit();
+}
+
+}  // namespace trismooth

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace trismooth {
+
+/// A kind of report: the extension of the file name that asks for it (".json"), and the function that writes its text.
+template <class Writer>
+struct ReportFormat {
+  std::string_view extension;
+  Writer write;
+};
+
+/// The function of the format whose extension the path has, in upper or lower case. Throws std::invalid_argument, which
+/// names all that there are.
+template <class Writer>
+Writer writer_for(const std::filesystem::path& path, std::span<const ReportFormat<Writer>> formats) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string known;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (formats[i].extension == extension) {
+      return formats[i].write;
+    }
+    known.append(i == 0 ? "" : i + 1 == formats.size() ? " or " : ", ").append(formats[i].extension);
+  }
+  throw std::invalid_argument("'" + path.string() + "' is no report file; its name must end in " + known);
+}
+
+/// Writes `text` to a file. An old file of that name survives any failure. Throws WriteError.
+void write_report_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace trismooth
