@@ -192,8 +192,10 @@ PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<P
     packed.rings = {};
   }
   const bool has_near_rings = is_resident && !by_colour;
-  order_vertices(context, from, std::move(points), colouring.colours.data(), std::max(1, packed.colours),
-                 has_near_rings ? Windows::far_last : Windows::by_size, packed);
+  // The paper's versions read a neighbour where it lies in memory: being near counts for more than rings of like size.
+  const Windows windows = !is_resident ? Windows::none : has_near_rings ? Windows::far_last : Windows::by_size;
+  order_vertices(context, from, std::move(points), colouring.colours.data(), std::max(1, packed.colours), windows,
+                 packed);
   colouring.colours.reset();
   const Renumbering numbers(context, from, packed.input_index.data(), packed.free_count());
   if (has_near_rings) {
