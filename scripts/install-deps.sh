@@ -11,6 +11,10 @@ packages=(
   libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libxxhash-dev
   catch2
 )
+# For the test that looks at a page. Ubuntu has it as a snap only: there that test is skipped.
+if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
+  packages+=(chromium)
+fi
 
 case "${1:-}" in
   '') ;;

@@ -1,6 +1,5 @@
 """The reports: promised keys, numbers that agree with each other, pages that stand alone."""
 
-import html.parser
 import json
 import os
 import re
@@ -8,6 +7,7 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import mesh_reader
+import page_parser
 import planar_geometry
 import sample_meshes
 import tool
@@ -31,34 +31,6 @@ REPORT_KEYS = {
 MORE_KEYS = {"input": {"region_array"},
              "options": {"output", "guard", "time_limit", "target_quality", "region_array", "fixed_array", "fixed_ids",
                          "annotate"}}
-
-
-class PageParser(html.parser.HTMLParser):
-    """Checks that tags are closed in their order."""
-
-    VOID = {"meta", "link", "br", "hr", "img", "input", "col"}
-
-    def __init__(self):
-        super().__init__()
-        self.open = []
-        self.mistakes = []
-        self.outside = []
-        self.text = ""
-
-    def handle_starttag(self, tag, attrs):
-        if tag not in self.VOID:
-            self.open.append(tag)
-        self.outside += [value for key, value in attrs if key in ("src", "href") and not (value or "#").startswith("#")]
-
-    def handle_startendtag(self, tag, attrs):
-        pass
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.mistakes.append((tag, self.getpos()))
-
-    def handle_data(self, data):
-        self.text += data
 
 
 class Reports(tool.ToolTest):
@@ -132,7 +104,7 @@ class Reports(tool.ToolTest):
         self.write("a&b <c>.off", self.read("plate.off"))
         self.run_tool("smooth", "a&b <c>.off", "out.off", "--report", "run.html", "--report", "run.json")
         page = self.read("run.html").decode()
-        parser = PageParser()
+        parser = page_parser.PageParser()
         parser.feed(page)
         self.assertEqual((parser.mistakes, parser.open), ([], []))
         self.assertEqual(parser.outside, [])
