@@ -36,6 +36,9 @@ std::string full_name(const Case& what);
 /// A factor supports a claim that it is at least so much where all of its range does, and opposes it where none does.
 Support support_of(const Spread& factor, double at_least);
 
+/// The paper's time of a case in milliseconds, where it has one.
+std::optional<double> published_ms(const Case& what, std::int64_t vertices);
+
 /// The times of smoothing of each pair on every mesh where both were measured.
 std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs);
 

@@ -9,12 +9,11 @@
 namespace trismooth::bench {
 
 std::string progress_text(const ExperimentProgress& progress, int runs) {
-  constexpr int width = 20;
+  constexpr int width = 14;
   const double part = std::clamp(progress.part, 0.0, 1.0);
   const auto done = static_cast<std::size_t>(part * width);
-  std::string text =
-      fmt::format("[{}{}] {:.0f} %  {} vertices: {}", std::string(done, '#'), std::string(width - done, '-'),
-                  100 * part, size_text(progress.vertices), progress.what);
+  std::string text = fmt::format("[{}{}] {:.0f} %  {}: {}", std::string(done, '#'), std::string(width - done, '-'),
+                                 100 * part, size_text(progress.vertices), progress.what);
   if (progress.run > 0) {
     text += fmt::format(", run {} of {}", progress.run, runs);
   }

@@ -6,7 +6,7 @@
 
 namespace trismooth::bench {
 
-/// "[########------------] 41 %  100K vertices: GPU-AoS, Form A, run 3 of 7". ASCII, and shorter than 80.
+/// "[#####---------] 41 %  100K: GPU-AoS, Form A, run 3 of 7". ASCII.
 std::string progress_text(const ExperimentProgress& progress, int runs);
 
 }  // namespace trismooth::bench

@@ -23,8 +23,9 @@ constexpr std::string_view bench_style = R"css(
 details { margin-top: 8px; }
 summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 table.wide th, table.wide td { padding: 4px 8px; }
+th.word { text-align: left; }
 table caption { text-align: left; font-weight: 650; padding: 18px 0 4px; }
-table.wide td small { display: inline; white-space: nowrap; }
+table.wide td small { font-size: 11px; white-space: nowrap; }
 td.paper, th.paper { background: #f5f7f9; }
 figure { margin: 0 0 20px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
@@ -111,7 +112,7 @@ std::string table_head(bool with_paper) {
   const auto columns = [](std::string_view classes) {
     std::string html;
     for (const std::string_view name : {"CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"}) {
-      html += fmt::format("<th class=\"{}\">{}</th>", classes, name);
+      html += fmt::format("<th class=\"{}{}\">{}</th>", html.empty() ? "start " : "", classes, name);
     }
     return html;
   };
@@ -121,7 +122,7 @@ std::string table_head(bool with_paper) {
         "<tr><th></th><th class=\"group start\" colspan=\"5\">this machine</th>"
         "<th class=\"group start paper\" colspan=\"5\">the paper</th></tr>\n";
   }
-  return html + "<tr><th>size</th>" + columns("start") + (with_paper ? columns("start paper") : "") + "</tr></thead>\n";
+  return html + "<tr><th>size</th>" + columns("") + (with_paper ? columns("paper") : "") + "</tr></thead>\n";
 }
 
 std::string paper_cells(const PublishedRow* row) {
@@ -180,7 +181,7 @@ std::string mesh_table(const ExperimentResult& result, const MeshCounts& mesh) {
   std::string html = fmt::format(
       "<table class=\"wide\"><caption>{}: {} vertices, {} triangles</caption>\n<thead>"
       "<tr><th></th><th></th><th class=\"group start\" colspan=\"4\">ms</th><th></th>"
-      "<th class=\"group start\" colspan=\"2\">times faster</th></tr>\n<tr><th>version</th><th>form</th>"
+      "<th class=\"group start\" colspan=\"2\">times faster</th></tr>\n<tr><th>version</th><th class=\"word\">form</th>"
       "<th class=\"start\">topology</th><th>transfer</th><th>smoothing</th><th>together</th><th>sweeps</th>"
       "<th class=\"start\">smoothing</th><th>together</th></tr></thead>\n<tbody>\n",
       size_text(mesh.asked), count_text(mesh.vertices), count_text(mesh.triangles));

@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/bench/tables.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,7 @@ std::string title_of(const Table& table) {
   } else if (table.form == Form::in_place) {
     title += ", in colour order";
   }
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
   return title;
 }
 

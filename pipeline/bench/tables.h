@@ -24,7 +24,7 @@ struct TableRow {
 /// A version in one form, over all sizes.
 struct Table {
   int number = 0;     ///< of the paper's table; 0: the paper has none like it
-  std::string title;  ///< "Table 1: GPU version, Form A", "resident version, Form A"
+  std::string title;  ///< "Table 1: GPU version, Form A", "Resident version, Form A"
   Version version = Version::gpu;
   Form form = Form::swap;
   Order order = Order::colour;

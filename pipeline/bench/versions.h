@@ -33,7 +33,7 @@ struct Case {
 
 bool runs_on_device(Version version);
 
-/// Whether the paper measured it. The order matters: its Form B on a device is unordered.
+/// Whether the paper measured it. Its Form B on a device is unordered.
 bool is_of_paper(const Case& what);
 
 /// The order in which the paper runs this form of a version.

@@ -2,63 +2,20 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
-
-#include <expat.h>
 
 #include "trismooth/pipeline/html_text.h"
 #include "trismooth/pipeline/svg_charts.h"
 
 #include "catch.h"
 #include "sample_run.h"
+#include "support/parsed_page.h"
 
+using pages::parse;
+using pages::Parsed;
 using trismooth::escape_html;
 using trismooth::html_report;
-
-namespace {
-
-/// What an XML parser finds in a text.
-struct Parsed {
-  std::string error;  ///< empty where the text is well-formed
-  std::vector<std::string> elements;
-  std::vector<std::string> links;  ///< values of attributes that fetch something
-  std::string text;
-
-  auto count(const std::string& element) const { return std::count(elements.begin(), elements.end(), element); }
-  bool says(const std::string& words) const { return text.find(words) != std::string::npos; }
-};
-
-Parsed parse(const std::string& xml) {
-  Parsed parsed;
-  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate("UTF-8"),
-                                                                                             &XML_ParserFree);
-  XML_SetUserData(parser.get(), &parsed);
-  XML_SetElementHandler(
-      parser.get(),
-      [](void* data, const XML_Char* name, const XML_Char** attributes) {
-        auto& found = *static_cast<Parsed*>(data);
-        found.elements.emplace_back(name);
-        for (; *attributes != nullptr; attributes += 2) {
-          const std::string attribute = attributes[0];
-          if (attribute == "src" || attribute == "href") {
-            found.links.emplace_back(attributes[1]);
-          }
-        }
-      },
-      [](void*, const XML_Char*) {});
-  XML_SetCharacterDataHandler(parser.get(), [](void* data, const XML_Char* text, int length) {
-    static_cast<Parsed*>(data)->text.append(text, static_cast<std::size_t>(length));
-  });
-  if (XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE) == XML_STATUS_ERROR) {
-    parsed.error = std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))) + " in line " +
-                   std::to_string(XML_GetCurrentLineNumber(parser.get()));
-  }
-  return parsed;
-}
-
-}  // namespace
 
 TEST_CASE("text is escaped for content and for attributes") {
   CHECK(escape_html("a < b && \"c\" > 'd'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; &#39;d&#39;");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,7 +13,13 @@
 namespace fakes {
 
 /// Where the device fails.
-enum class Failure : std::uint8_t { none, rings, prepare, smooth };
+enum class Failure : std::uint8_t {
+  none,
+  rings,
+  prepare,
+  smooth,
+  bits,  ///< silently: a coordinate is not the one that it must be
+};
 
 /// Does the CPU's work under the name "cuda".
 class FakeBackend final : public trismooth::Backend {
@@ -26,7 +33,9 @@ class FakeBackend final : public trismooth::Backend {
                                                        const trismooth::SmoothingOptions& options) const override {
     ++prepared;
     fail_at(Failure::prepare);
-    return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(rings, points, options));
+    trismooth::SmoothingOptions on_cpu = options;
+    on_cpu.order = trismooth::Order::colour;  // the CPU has no other
+    return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(rings, points, on_cpu));
   }
 
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
@@ -57,6 +66,9 @@ class FakeBackend final : public trismooth::Backend {
       ++backend_.smoothed;
       trismooth::SmoothingResult result = cpu_->smooth(points, storage, fixed_quotient);
       backend_.fail_at(Failure::smooth);  // with the points written already
+      if (backend_.failure_ == Failure::bits) {
+        points.front().x = std::nextafter(points.front().x, 2.0);
+      }
       result.backend = "cuda";
       return result;
     }

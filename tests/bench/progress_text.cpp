@@ -1,0 +1,21 @@
+#include "trismooth/pipeline/bench/progress_text.h"
+
+#include "catch.h"
+
+using trismooth::bench::ExperimentProgress;
+using trismooth::bench::progress_text;
+
+TEST_CASE("the progress is a bar with the part done, the mesh, the case and the run") {
+  CHECK(progress_text({0.4, 100'000, "GPU-AoS, Form A", 3}, 7) ==
+        "[#####---------] 40 %  100K: GPU-AoS, Form A, run 3 of 7");
+  CHECK(progress_text({0, 1'000, "generating the mesh", 0}, 7) == "[--------------] 0 %  1K: generating the mesh");
+}
+
+TEST_CASE("a bar is never longer than full, nor shorter than empty") {
+  CHECK(progress_text({1.5, 1'000, "x", 0}, 7) == "[##############] 100 %  1K: x");
+  CHECK(progress_text({-1, 1'000, "x", 0}, 7) == "[--------------] 0 %  1K: x");
+}
+
+TEST_CASE("the progress of the paper's experiments fits a narrow terminal, with the seconds behind it") {
+  CHECK(progress_text({1, 100'000, "CDP-SoA, Form B unordered", 7}, 7).size() < 80 - 10);
+}

@@ -1,0 +1,79 @@
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "trismooth/pipeline/bench/report.h"
+
+#include "catch.h"
+#include "sample_experiment.h"
+
+using trismooth::bench::csv_of;
+using trismooth::bench::make_report;
+using trismooth::bench::Report;
+using trismooth::bench::Table;
+using trismooth::bench::TableRow;
+
+namespace {
+
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back(1);
+    for (const char c : line) {
+      if (c == ',') {
+        rows.back().emplace_back();
+      } else {
+        rows.back().back() += c;
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("every row of every table is a line with as many cells as there are columns") {
+  const Report report = make_report(sample::experiment({1'000, 2'000}, &sample::regular_time), "", "", "");
+  const auto rows = cells_of(csv_of(report));
+  REQUIRE(rows.size() == 1 + 8 * 2);
+  for (const auto& row : rows) {
+    CHECK(row.size() == rows.front().size());
+  }
+  std::size_t line = 1;
+  for (const Table& table : report.tables) {
+    for (const TableRow& row : table.rows) {
+      const auto& cells = rows[line++];
+      CHECK(cells[0] == (table.number > 0 ? std::to_string(table.number) : ""));
+      CHECK(cells[1] == trismooth::to_string(table.version));
+      CHECK(cells[2] == trismooth::to_string(table.form));
+      CHECK(cells[3] == trismooth::to_string(table.order));
+      CHECK(std::stoll(cells[4]) == row.vertices);
+      CHECK(std::stod(cells[5]) == row.cpu_ms->median);
+      CHECK(std::stod(cells[9]) == row.aos_ms->least);
+      CHECK(std::stod(cells[13]) == row.soa_ms->most);
+      CHECK(std::stod(cells[14]) == row.aos_speedup->median);
+      CHECK(std::stod(cells[17]) == row.soa_speedup->median);
+      CHECK(cells[20].empty() == (row.published == nullptr));
+      CHECK(cells[24].empty() == (row.published == nullptr));
+    }
+  }
+  CHECK(rows[1][20] == "218");
+  CHECK(rows[1][24] == "11.6");
+}
+
+TEST_CASE("the columns are named") {
+  const auto names = cells_of(csv_of(make_report(sample::experiment({1'000}, &sample::cpu_time), "", "", ""))).front();
+  CHECK(names[4] == "vertices");
+  CHECK(names[9] == "aos_ms_least");
+  CHECK(names[19] == "soa_speedup_most");
+  CHECK(names[24] == "paper_soa_speedup");
+}
+
+TEST_CASE("what was not measured is empty") {
+  const auto rows = cells_of(csv_of(make_report(sample::experiment({1'000}, &sample::cpu_time), "", "", "")));
+  CHECK_FALSE(rows[1][5].empty());
+  for (std::size_t column = 8; column < 20; ++column) {
+    CHECK(rows[1][column].empty());
+  }
+}

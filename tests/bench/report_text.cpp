@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include "trismooth/pipeline/bench/report.h"
+
+#include "catch.h"
+#include "sample_experiment.h"
+
+using trismooth::bench::make_report;
+using trismooth::bench::text_of;
+
+namespace {
+
+std::string text_with(const sample::Times& times) {
+  return text_of(
+      make_report(sample::experiment({1'000, 100'000}, times), "trismooth bench", "2026-01-02 03:04 UTC", ""));
+}
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+/// The line that begins so, with single blanks.
+std::string line(const std::string& text, const std::string& beginning, const std::string& after = "") {
+  std::istringstream lines(text.substr(after.empty() ? 0 : text.find(after)));
+  for (std::string one; std::getline(lines, one);) {
+    std::string words;
+    std::istringstream stream(one);
+    for (std::string word; stream >> word;) {
+      words += (words.empty() ? "" : " ") + word;
+    }
+    if (words.rfind(beginning, 0) == 0) {
+      return words;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a mesh's table has every case with topology, transfer, smoothing, all together, sweeps and speedups") {
+  const std::string text = text_with(&sample::regular_time);
+  CHECK(line(text, "serial CPU A", "1K:") == "serial CPU A 0.250 - 80.0 (70.0-90.0) 80.2 (70.2-90.2) 100 1.00 1.00");
+  CHECK(line(text, "GPU-SoA A", "1K:") == "GPU-SoA A 0.250 0.500 20.0 (17.5-22.5) 20.8 (18.2-23.2) 100 4.00 3.87");
+  CHECK(line(text, "CDP-AoS B unordered", "1K:") ==
+        "CDP-AoS B unordered 0.250 0.500 4.00 (3.50-4.50) 4.75 (4.25-5.25) 80 (75-85) 10.0 8.47");
+  CHECK(line(text, "resident-AoS B", "100K:") ==
+        "resident-AoS B 0.250 0.500 25.0 (21.9-28.1) 25.8 (22.6-28.9) 50 160 155");
+}
+
+TEST_CASE("the paper's tables have the paper's own figures below those measured") {
+  const std::string text = text_with(&sample::regular_time);
+  CHECK(line(text, "1K here", "Table 1:") ==
+        "1K here 80.0 (70.0-90.0) 16.0 (14.0-18.0) 20.0 (17.5-22.5) "
+        "5.00 (3.89-6.43) 4.00 (3.11-5.14)");
+  CHECK(line(text, "paper", "Table 1:") == "paper 218 16.0 18.8 13.63 11.60");
+  CHECK(line(text, "paper 26021", "Table 4:") == "paper 26021 750.2 801.7 34.69 32.46");
+  CHECK(has(text, "Beyond the paper\n\nGPU version, Form B, in colour order\n"));
+  CHECK(has(text, "GeForce GT640"));
+}
+
+TEST_CASE("every claim is there with its verdict and what it rests on") {
+  const std::string text = text_with(&sample::regular_time);
+  CHECK(has(text,
+            "1. The GPU implementation is up to 44 times faster than the serial CPU version.\n   -> does not hold"));
+  CHECK(
+      has(text, "4. The version with CUDA dynamic parallelism is slightly faster than the one without.\n   -> holds"));
+}
+
+TEST_CASE("without a device the text has the CPU's rows, and says what needs one") {
+  const std::string text = text_with(&sample::cpu_time);
+  CHECK(has(text, "GPU:  none\n"));
+  CHECK(line(text, "GPU-AoS").empty());
+  CHECK(line(text, "1K here", "Table 3:") == "1K here 80.0 (70.0-90.0) - - - -");
+  CHECK_FALSE(has(text, "Beyond the paper"));
+  CHECK(has(text, "They need a CUDA\n  device"));
+}
+
+TEST_CASE("sentences are wrapped, and the text is ASCII and ends in a line feed") {
+  const std::string text = text_with(&sample::regular_time);
+  CHECK(text.back() == '\n');
+  CHECK(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+  std::istringstream lines(text.substr(text.find("The paper's claims")));
+  for (std::string one; std::getline(lines, one);) {
+    CAPTURE(one);
+    CHECK(one.size() <= 100);
+    CHECK((one.empty() || one.back() != ' '));
+  }
+}
