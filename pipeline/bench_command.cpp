@@ -14,6 +14,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/backend_choice.h"
 #include "trismooth/pipeline/bench/experiment.h"
 #include "trismooth/pipeline/bench/progress_text.h"
@@ -116,8 +117,16 @@ std::string command_text(const BenchSettings& settings) {
   for (const bench::Version version : options.versions) {
     versions.append(versions.empty() ? "" : ",").append(to_string(version));
   }
-  return fmt::format("trismooth bench --sizes {} --versions {} --precision {} --runs {} --seconds {} --seed {}", sizes,
-                     versions, to_string(options.precision), options.runs, options.seconds, options.seed);
+  std::string text =
+      fmt::format("trismooth bench --sizes {} --versions {} --precision {} --runs {} --seconds {} --seed {}", sizes,
+                  versions, to_string(options.precision), options.runs, options.seconds, options.seed);
+  if (options.threads > 0) {
+    text += fmt::format(" --threads {}", options.threads);
+  }
+  if (settings.backend != BackendChoice::automatic) {
+    text += fmt::format(" --backend {}", to_string(settings.backend));
+  }
+  return text;
 }
 
 bench::ExperimentResult run_watched(bench::ExperimentOptions options, const CudaSupport& cuda,
@@ -135,15 +144,17 @@ bench::ExperimentResult run_watched(bench::ExperimentOptions options, const Cuda
 ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment) {
   const CudaSupport cuda = environment.cuda();
   settings.experiment.no_device_reason = why_no_device(settings.backend, cuda);
+  for (const std::filesystem::path& path : settings.reports) {
+    const OutputFile attempt(path);  // a folder that is not there is told before the work, not after it
+  }
   const InterruptGuard guard(OnInterrupt::exit);
   const bench::Report report =
       bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
                          cuda.backend != nullptr ? cuda.lines() : std::string{});
-  for (const std::filesystem::path& path : settings.reports) {
-    write_report_text(path, writer_of(path)(report));
-  }
+  // First what cannot fail: measuring again would take minutes.
   environment.out << bench::text_of(report);
   for (const std::filesystem::path& path : settings.reports) {
+    write_report_text(path, writer_of(path)(report));
     environment.out << "report: " << path.string() << '\n';
   }
   environment.out << std::flush;

@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/interrupt.h"
 
 #include <atomic>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -18,9 +19,15 @@ std::atomic<bool> requested{false};
 std::atomic<bool> exit_at_once{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+/// Over the line of a terminal on which progress may stand (ECMA-48 EL), or on a line of its own.
+constexpr std::string_view terminal_farewell = "\r\x1b[Ktrismooth: error: cancelled\n";
+constexpr std::string_view farewell = "trismooth: error: cancelled\n";
+
 extern "C" void handle_interrupt(int /*signal*/) {
   if (requested.exchange(true) || exit_at_once) {
     OutputFile::remove_unfinished();
+    const std::string_view words = ::isatty(STDERR_FILENO) != 0 ? terminal_farewell : farewell;
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
     _exit(static_cast<int>(ExitCode::cancelled));
   }
 }

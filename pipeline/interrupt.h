@@ -9,7 +9,7 @@ namespace trismooth {
 /// What the first SIGINT (Ctrl-C) or SIGTERM does.
 enum class OnInterrupt : std::uint8_t {
   ask,   ///< interrupt_requested() answers true from then on; a second signal acts as `exit` does
-  exit,  ///< unfinished output files are removed and the process ends with status 130
+  exit,  ///< unfinished output files are removed and the process says so and ends with status 130
 };
 
 /// Catches SIGINT and SIGTERM while it lives; the destructor puts the handlers back that were there before. A signal

@@ -14,14 +14,14 @@ namespace {
 
 /// How many times as fast `faster` smooths as `slower`, where both were measured.
 std::optional<Comparison> compare(const ExperimentResult& result, std::int64_t vertices, const Case& faster,
-                                  const Case& slower) {
+                                  const Case& slower, double at_least) {
   const Measurement* const one = result.find(vertices, faster);
   const Measurement* const other = result.find(vertices, slower);
   if (one == nullptr || other == nullptr) {
     return std::nullopt;
   }
   Comparison comparison{full_name(faster), full_name(slower), vertices, ratio(other->smoothing, one->smoothing)};
-  comparison.support = support_of(comparison.factor, 1);
+  comparison.support = one->runs > 1 && other->runs > 1 ? support_of(comparison.factor, at_least) : Support::undecided;
   const auto published_one = published_ms(faster, vertices);
   const auto published_other = published_ms(slower, vertices);
   if (published_one && published_other) {
@@ -73,11 +73,11 @@ std::optional<double> published_ms(const Case& what, std::int64_t vertices) {
   return what.layout == Layout::aos ? row->aos_ms : row->soa_ms;
 }
 
-std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs) {
+std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs, double at_least) {
   std::vector<Comparison> comparisons;
   for (const auto& [faster, slower] : pairs) {
     for (const std::int64_t size : result.options.sizes) {
-      if (auto comparison = compare(result, size, faster, slower)) {
+      if (auto comparison = compare(result, size, faster, slower, at_least)) {
         comparisons.push_back(std::move(*comparison));
       }
     }

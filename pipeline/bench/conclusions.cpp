@@ -123,23 +123,15 @@ void add_progress_since_paper(Conclusion& conclusion, const ExperimentResult& re
 
 Conclusion speedup_claim(const ExperimentResult& result) {
   Conclusion conclusion{1, "The GPU implementation is up to 44 times faster than the serial CPU version."};
+  std::vector<Pair> pairs;
   for (const Case& what : cases_of_paper()) {
-    for (const std::int64_t size : result.options.sizes) {
-      if (const auto speedup = result.speedup(size, what)) {
-        const PublishedRow* const published = published_row(what.version, what.form, size);
-        Comparison comparison{full_name(what), full_name({Version::serial, what.form}), size, *speedup,
-                              support_of(*speedup, claimed_speedup)};
-        if (published != nullptr) {
-          comparison.published = what.layout == Layout::aos ? published->aos_speedup : published->soa_speedup;
-        }
-        conclusion.comparisons.push_back(std::move(comparison));
-      }
-    }
+    pairs.emplace_back(what, Case{Version::serial, what.form});
   }
+  conclusion.comparisons = compare_all(result, pairs, claimed_speedup);
   if (const auto best = best_of(result, cases_of_paper())) {
-    conclusion.verdict = best->speedup.least >= claimed_speedup  ? Verdict::holds
-                         : best->speedup.most >= claimed_speedup ? Verdict::undecided
-                                                                 : Verdict::does_not;
+    conclusion.verdict = count_of(conclusion.comparisons, Support::yes) > 0         ? Verdict::holds
+                         : count_of(conclusion.comparisons, Support::undecided) > 0 ? Verdict::undecided
+                                                                                    : Verdict::does_not;
     conclusion.findings.push_back(fmt::format("The most that the paper's versions reach is {}. In the paper it is {}.",
                                               text_of(*best), best_published()));
     if (const auto whole = best_of(result, cases_of_paper(), &ExperimentResult::speedup_together)) {
@@ -263,9 +255,9 @@ Conclusion form_claim(const ExperimentResult& result) {
     conclusion.findings.push_back(sweeps_by_size(result, conclusion.comparisons));
     conclusion.findings.push_back(sweep_cost(conclusion.comparisons));
   }
-  if (on_cpu_only) {
+  if (on_cpu_only && !conclusion.comparisons.empty()) {
     conclusion.findings.emplace_back("Judged by the CPU versions alone: the paper's versions were not measured.");
-  } else {
+  } else if (!on_cpu_only) {
     add_finding(conclusion, result, claim, "With Form B in colour order", both(versions_of_paper, Order::colour));
     add_finding(conclusion, result, claim, "The resident version", form_pairs(Version::resident, Order::colour));
     add_finding(conclusion, result, claim, "The CPU versions", on_cpu);

@@ -118,13 +118,13 @@ class Experiment {
     if (!runs_on_device(version)) {
       return {};
     }
+    if (!result_.options.no_device_reason.empty()) {
+      return result_.options.no_device_reason;
+    }
     if (cuda_.backend == nullptr) {
       return "this build has no CUDA";
     }
-    if (version == Version::cdp && !cuda_.has_cdp) {
-      return "this build has no dynamic parallelism";
-    }
-    return result_.options.no_device_reason;
+    return version == Version::cdp && !cuda_.has_cdp ? "this build has no dynamic parallelism" : "";
   }
 
   void report(std::int64_t size, const std::string& what, int run, double part_of_case = 0, double work = 0) const {

@@ -1,3 +1,6 @@
+#include <sstream>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "trismooth/pipeline/bench/report.h"
@@ -21,6 +24,16 @@ Json text_json(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
+/// The lines of a text; null where there are none.
+Json lines_json(const std::string& text) {
+  Json lines = nullptr;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 template <class Enum>
 Json enum_json(Enum value) {
   return std::string(to_string(value));
@@ -30,7 +43,7 @@ Json machine_json(const Setting& setting) {
   return {{"cpu", setting.cpu},
           {"threads", setting.threads},
           {"gpu", text_json(setting.gpu)},
-          {"cuda", text_json(setting.cuda)}};
+          {"cuda", lines_json(setting.cuda)}};
 }
 
 Json options_json(const ExperimentOptions& options) {

@@ -29,7 +29,9 @@ table.wide td small { font-size: 11px; white-space: nowrap; }
 td.paper, th.paper { background: #f5f7f9; }
 figure { margin: 0 0 20px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
-@media print { table.wide { font-size: 8.5pt; } .conclusions, .figures { break-before: page; } }
+@page { size: A4 landscape; }
+@media print { table.wide { font-size: 8.5pt; } table.wide td, table.wide th { padding: 2px 6px; }
+               .figures { break-before: page; } svg { max-height: 165mm; } }
 )css";
 
 /// A spread as a number with its bounds in small print.
@@ -65,9 +67,9 @@ std::string header(const Report& report) {
   }
   return fmt::format(
       "<header>\n<div class=\"kind\">Smart Laplacian smoothing: the paper's experiments</div>\n<h1>{}</h1>\n"
-      "<div class=\"soft\">CPU: {}. GPU: {}. Smoothing in {} precision, {} runs of each. {}.</div>\n</header>\n",
+      "<div class=\"soft\">CPU: {}. GPU: {}. Smoothing in {} precision, {} of each. {}.</div>\n</header>\n",
       escape_html(where), cpu, setting.gpu.empty() ? "none" : escape_html(setting.gpu),
-      to_string(report.result.options.precision), report.result.options.runs, escape_html(setting.date));
+      to_string(report.result.options.precision), runs_text(report.result.options.runs), escape_html(setting.date));
 }
 
 std::string comparison_table(const std::vector<Comparison>& comparisons) {
@@ -227,8 +229,8 @@ std::string page_of(const Report& report) {
   std::string body = header(report);
   body +=
       section_of_class("conclusions", html_section("The paper's claims on this machine", claims(report.conclusions)));
-  if (!report.tables.empty()) {
-    body += html_section("The paper's tables", paper + tables(report, true));
+  if (const std::string of_paper = tables(report, true); !of_paper.empty()) {
+    body += html_section("The paper's tables", paper + of_paper);
   }
   body += section_of_class("figures", html_section("The paper's figures", figures(report.result)));
   if (const std::string beyond = tables(report, false); !beyond.empty()) {

@@ -1,5 +1,6 @@
 #include "trismooth/quality/report_text.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -47,8 +48,8 @@ std::string median_or_dash(const std::optional<Spread>& spread) {
 std::string heading(const Report& report) {
   const ExperimentOptions& options = report.result.options;
   const Setting& setting = report.setting;
-  std::string text = fmt::format("trismooth {}: the experiments of the paper, {} precision, {} runs each, {}\n",
-                                 version(), to_string(options.precision), options.runs, setting.date);
+  std::string text = fmt::format("trismooth {}: the experiments of the paper, {} precision, {} each, {}\n", version(),
+                                 to_string(options.precision), runs_text(options.runs), setting.date);
   text += fmt::format("CPU:  {}{}\n", setting.cpu,
                       setting.threads > 0 ? fmt::format(", {} threads", setting.threads) : std::string{});
   return text + fmt::format("GPU:  {}\n", setting.gpu.empty() ? "none" : setting.gpu);
@@ -56,6 +57,11 @@ std::string heading(const Report& report) {
 
 /// All cases of one mesh that were measured.
 std::string mesh_text(const ExperimentResult& result, const MeshCounts& mesh) {
+  const std::string title = fmt::format("\n{}: {} vertices, {} triangles\n", size_text(mesh.asked),
+                                        count_text(mesh.vertices), count_text(mesh.triangles));
+  if (std::ranges::none_of(result.rows, [](const Row& row) { return row.measured.has_value(); })) {
+    return title;
+  }
   TextColumns columns({{0, Align::left}, {gap, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}});
   columns.add_row({"", "form", "topology", "transfer", "smoothing", "together", "sweeps", "smoothing", "together"});
   for (const Row& row : result.rows) {
@@ -68,9 +74,7 @@ std::string mesh_text(const ExperimentResult& result, const MeshCounts& mesh) {
                        median_or_dash(result.speedup_together(row.vertices, row.what))});
     }
   }
-  return fmt::format("\n{}: {} vertices, {} triangles\n", size_text(mesh.asked), count_text(mesh.vertices),
-                     count_text(mesh.triangles)) +
-         columns.text({{2, 5, "milliseconds, median (least-most)"}, {7, 8, "times faster"}});
+  return title + columns.text({{2, 5, "milliseconds, median (least-most)"}, {7, 8, "times faster"}});
 }
 
 std::string table_text(const Table& table) {
@@ -91,22 +95,24 @@ std::string table_text(const Table& table) {
   return "\n" + table.title + "\n" + columns.text();
 }
 
-/// Of the paper's, all; of the others, those in which something was measured.
+/// The paper's tables, all of them; of the others those in which something was measured.
 std::string tables_text(const Report& report) {
-  std::string text = fmt::format("\nThe paper's tables: milliseconds of smoothing, here and in the paper ({}; {})\n",
-                                 published_gpu, published_cpu);
-  bool in_paper = true;
+  std::string of_paper;
+  std::string beyond;
   for (const Table& table : report.tables) {
-    if (table.number == 0 && !table.missing.empty()) {
-      continue;
+    if (table.number > 0) {
+      of_paper += table_text(table);
+    } else if (table.missing.empty()) {
+      beyond += table_text(table);
     }
-    if (in_paper && table.number == 0) {
-      text += "\nBeyond the paper\n";
-      in_paper = false;
-    }
-    text += table_text(table);
   }
-  return text;
+  std::string text;
+  if (!of_paper.empty()) {
+    text += fmt::format("\nThe paper's tables: milliseconds of smoothing, here and in the paper ({}; {})\n",
+                        published_gpu, published_cpu) +
+            of_paper;
+  }
+  return beyond.empty() ? text : text + "\nBeyond the paper\n" + beyond;
 }
 
 std::string conclusion_text(const Conclusion& conclusion) {

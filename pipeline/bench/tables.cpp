@@ -86,6 +86,10 @@ std::string size_text(std::int64_t vertices) {
   return count_text(vertices);
 }
 
+std::string runs_text(int runs) {
+  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
+}
+
 std::string sweeps_text(const Spread& sweeps) {
   return sweeps.least == sweeps.most ? fmt::format("{:.0f}", sweeps.median)
                                      : fmt::format("{:.0f} ({:.0f}-{:.0f})", sweeps.median, sweeps.least, sweeps.most);

@@ -39,6 +39,9 @@ std::vector<Table> tables_of(const ExperimentResult& result);
 /// "1K", "50K", "1M"; "1,234" where that would not be exact.
 std::string size_text(std::int64_t vertices);
 
+/// "7 runs", "1 run".
+std::string runs_text(int runs);
+
 /// "49", or "49 (48-52)" where runs differ.
 std::string sweeps_text(const Spread& sweeps);
 

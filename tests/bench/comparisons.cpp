@@ -47,6 +47,15 @@ TEST_CASE("times speak for a claim where their ranges are apart") {
   CHECK(support_with({1, 1, 1}, {1, 1, 1}) == Support::undecided);
 }
 
+TEST_CASE("what was measured once decides nothing") {
+  ExperimentResult result = two_times({1, 1, 1}, {2, 2, 2});
+  CHECK(compare_all(result, {{gpu_aos, gpu_soa}}).at(0).support == Support::yes);
+  for (auto& row : result.rows) {
+    row.measured->runs = row.what == gpu_soa ? 1 : 7;
+  }
+  CHECK(compare_all(result, {{gpu_aos, gpu_soa}}).at(0).support == Support::undecided);
+}
+
 TEST_CASE("a factor is held against a threshold by all of its range") {
   CHECK(support_of({50, 45, 60}, 44) == Support::yes);
   CHECK(support_of({50, 40, 60}, 44) == Support::undecided);

@@ -163,6 +163,7 @@ TEST_CASE("an experiment that was not asked for enough says so") {
   for (const Conclusion& conclusion : conclusions_of(result)) {
     CHECK(conclusion.verdict == Verdict::not_measured);
     CHECK(says(conclusion, "was not asked for what it takes"));
+    CHECK_FALSE(says(conclusion, "Judged by"));
   }
 }
 

@@ -121,10 +121,13 @@ TEST_CASE("without CUDA, a device or dynamic parallelism the cases that need it 
     }
     CHECK_FALSE(result.device_failed());
   };
+  ExperimentOptions left_out = small();
+  left_out.no_device_reason = "left out by a test";
   const std::set on_device{Version::gpu, Version::cdp, Version::resident};
   check(run_experiment(small(), {}), on_device, "this build has no CUDA");
   check(run_experiment(no_device, device(backend)), on_device, "cudaErrorNoDevice from a test");
   CHECK(backend.smoothed == 0);
+  check(run_experiment(left_out, {}), on_device, "left out by a test");
   check(run_experiment(small(), no_cdp), {Version::cdp}, "this build has no dynamic parallelism");
 }
 

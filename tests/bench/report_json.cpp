@@ -15,7 +15,7 @@ namespace {
 
 Json json_with(const sample::Times& times) {
   return Json::parse(json_of(make_report(sample::experiment({1'000, 100'000}, times), "trismooth bench --runs 7",
-                                         "2026-01-02 03:04 UTC", "CUDA")));
+                                         "2026-01-02 03:04 UTC", "CUDA: one\ndevice: two\n")));
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ TEST_CASE("the JSON says what was run, where and when") {
   CHECK(json["date"] == "2026-01-02 03:04 UTC");
   CHECK(json["machine"]["gpu"] == "A <fast> GPU");
   CHECK(json["machine"]["threads"] == 4);
-  CHECK(json["machine"]["cuda"] == "CUDA");
+  CHECK(json["machine"]["cuda"] == Json{"CUDA: one", "device: two"});
   CHECK(json["options"]["sizes"] == Json{1'000, 100'000});
   CHECK(json["options"]["versions"] == Json{"serial", "cpu", "gpu", "cdp", "resident"});
   CHECK(json["options"]["precision"] == "single");

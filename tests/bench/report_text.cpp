@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "trismooth/pipeline/bench/report.h"
 
@@ -75,6 +76,15 @@ TEST_CASE("without a device the text has the CPU's rows, and says what needs one
   CHECK(line(text, "1K here", "Table 3:") == "1K here 80.0 (70.0-90.0) - - - -");
   CHECK_FALSE(has(text, "Beyond the paper"));
   CHECK(has(text, "They need a CUDA\n  device"));
+}
+
+TEST_CASE("what was not asked for leaves no empty headings") {
+  const auto text_of_versions = [](const std::vector<sample::Version>& versions) {
+    return text_of(make_report(sample::experiment({1'000}, &sample::cpu_time, versions), "", "", ""));
+  };
+  CHECK_FALSE(has(text_of_versions({sample::Version::cpu}), "The paper's tables"));
+  CHECK_FALSE(has(text_of_versions({sample::Version::resident}), "Beyond the paper"));
+  CHECK_FALSE(has(text_of_versions({sample::Version::gpu}), "topology"));
 }
 
 TEST_CASE("sentences are wrapped, and the text is ASCII and ends in a line feed") {

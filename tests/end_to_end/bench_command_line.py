@@ -8,7 +8,6 @@ import re
 import resource
 import signal
 import subprocess
-import time
 
 import tool
 
@@ -92,7 +91,8 @@ class Reports(BenchTest):
                 self.write(f"bench.{extension}", "precious")
                 outcome = self.bench(*self.TINY, "--report", f"bench.{extension}", expect=NOT_WRITTEN,
                                      limits={resource.RLIMIT_FSIZE: 100})
-                self.assertRegex(outcome.err, fr"^trismooth: error: \S*bench\S*\.{extension}: .*File too large")
+                self.assertRegex(outcome.err, fr"^trismooth: error: bench\.{extension}: .*File too large")
+                self.assertIn("The paper's claims", outcome.out)  # what was measured is not lost with it
                 self.assertEqual(self.read(f"bench.{extension}"), b"precious")
                 self.assert_no_temporary_files()
 
@@ -137,9 +137,10 @@ class Terminal(BenchTest):
         process, end = self.start_on_terminal("--sizes", "20K", "--versions", "serial,cpu", "--runs", "3")
         text = self.shown(end)
         self.assertEqual(process.wait(), DONE)
-        self.assertRegex(text, rb"\[#+-*\] \d+ %  20K vertices: \w.*Form [AB], run \d of 3")
+        self.assertRegex(text, rb"\[#+-*\] \d+ %  20K: \w.*Form [AB], run \d of 3")
         self.assertTrue(text.endswith(b"\r\x1b[K"), text[-200:])
         drawn = [line for line in text.split(b"\r\x1b[K") if line]
+        self.assertLess(max(map(len, drawn)), 80)  # a longer one would wrap and leave remains
         parts = [int(re.search(rb"(\d+) %", line)[1]) for line in drawn]
         self.assertEqual(parts, sorted(parts))
 
@@ -150,7 +151,7 @@ class Terminal(BenchTest):
             self.assertNotIn(code, outcome.out)
 
     def test_an_interrupt_ends_it_at_once_and_leaves_no_file(self):
-        for moment, number in itertools.product((b"1M vertices: generating", b"1M vertices: serial CPU, Form A"),
+        for moment, number in itertools.product((b"1M: generating", b"1M: serial CPU, Form A"),
                                                 (signal.SIGINT, signal.SIGTERM)):
             with self.subTest(moment, number=number.name):
                 self.write("old.html", "precious")
@@ -158,10 +159,9 @@ class Terminal(BenchTest):
                 self.assertIn(moment, self.shown(end, moment))
                 self.assertIsNone(process.poll())
                 process.send_signal(number)
-                begin = time.monotonic()
                 # The whole run would take minutes.
                 self.assertEqual(process.wait(timeout=30), CANCELLED)
-                self.assertLess(time.monotonic() - begin, 5)
+                self.assertTrue(self.shown(end).endswith(b"\r\x1b[Ktrismooth: error: cancelled\r\n"))
                 self.assertEqual(self.read("old.html"), b"precious")
                 self.assertEqual(os.listdir(self.folder), ["old.html"])
 
