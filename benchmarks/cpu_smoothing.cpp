@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/pipeline/bench/spread.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/smoothing/smooth.h"
@@ -40,25 +41,16 @@ double milliseconds(const std::function<void()>& body) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-struct Spread {
-  double median, low, high;
-};
-
-Spread spread(std::vector<double> values) {
-  std::ranges::sort(values);
-  return {values[values.size() / 2], values.front(), values.back()};
-}
-
 /// Times of one kind of work over several runs.
 class Series {
  public:
   explicit Series(std::string name) : name_(std::move(name)) {}
   void add(double value) { values_.push_back(value); }
   void print() const {
-    const Spread s = spread(values_);
-    fmt::print("  {:<34}{:>10.1f} ms   ({:.1f} to {:.1f})\n", name_, s.median, s.low, s.high);
+    const bench::Spread s(values_);
+    fmt::print("  {:<34}{:>10.1f} ms   ({:.1f} to {:.1f})\n", name_, s.median, s.least, s.most);
   }
-  double median() const { return spread(values_).median; }
+  double median() const { return bench::Spread(values_).median; }
 
  private:
   std::string name_;
@@ -99,21 +91,15 @@ double bench_smoothing(const RandomMesh& mesh, const Settings& settings, int thr
   options.precision = parse_enum<Precision>(settings.precision);
   options.evaluation = settings.evaluation == "all" ? Evaluation::all : Evaluation::changed;
   options.threads = threads;
-  std::vector<std::int32_t> triangles;
-  for (const auto& t : mesh.triangles) {
-    triangles.insert(triangles.end(), t.begin(), t.end());
-  }
   Series prepare("renumber, colour, pack");
   Series sweeps("sweeps");
   Series commit("never-worse commit");
   Series both("sweeps and commit");
   SmoothingResult result;
   for (int run = 0; run < settings.runs; ++run) {
-    std::vector<double> xy;
-    for (const Point2<double> p : mesh.points) {
-      xy.insert(xy.end(), {p.x, p.y});
-    }
-    result = smooth(xy, triangles, {}, options);
+    const auto points = flat_points(mesh);
+    std::vector<double> xy(points.begin(), points.end());
+    result = smooth(xy, flat_triangles(mesh), {}, options);
     hashes.push_back(coordinates_hash(xy));
     prepare.add(result.timings.prepare);
     sweeps.add(result.timings.smooth);

@@ -36,9 +36,9 @@ void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const
                     const std::string& precision) {
   SmoothingOptions options = session.options("resident", session.settings().layouts.front(), form, precision, mesh);
   options.topology = Topology::device;
-  const auto indices = indices_of(mesh);
+  const auto indices = flat_triangles(mesh);
   std::vector<std::int32_t> triangles(indices.begin(), indices.end());
-  std::vector<double> xy(coordinates_of(mesh).size());
+  std::vector<double> xy(flat_points(mesh).size());
   std::optional<PageLocked> locked_triangles;
   std::optional<PageLocked> locked_xy;
   if (locked) {
@@ -51,7 +51,7 @@ void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const
   std::vector<std::vector<double>> parts(5);
   double first = 0;
   for (int run = -1; run < session.settings().runs; ++run) {
-    std::ranges::copy(coordinates_of(mesh), xy.begin());
+    std::ranges::copy(flat_points(mesh), xy.begin());
     const double call = milliseconds_of([&] { result = smooth(xy, triangles, {}, options); });
     bits.compare(xy);
     if (run < 0) {  // it warms up
@@ -82,22 +82,22 @@ void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const
                                              {"topology", "device"},
                                              {"runs", session.settings().runs},
                                              {"sweeps", result.sweeps},
-                                             {"call_ms", Spread(calls).json()},
-                                             {"coordinates_in_ms", Spread(parts[0]).json()},
-                                             {"prepare_ms", Spread(parts[1]).json()},
-                                             {"sweeps_ms", Spread(parts[2]).json()},
-                                             {"commit_ms", Spread(parts[3]).json()},
-                                             {"coordinates_out_ms", Spread(parts[4]).json()},
+                                             {"call_ms", json_of(Spread(calls))},
+                                             {"coordinates_in_ms", json_of(Spread(parts[0]))},
+                                             {"prepare_ms", json_of(Spread(parts[1]))},
+                                             {"sweeps_ms", json_of(Spread(parts[2]))},
+                                             {"commit_ms", json_of(Spread(parts[3]))},
+                                             {"coordinates_out_ms", json_of(Spread(parts[4]))},
                                              {"first_call_ms", first},
                                              {"coordinates_hash", bits.hash()}});
 }
 
 /// Sweeps and commit of one way to smooth.
 Spread to_stop(const RandomMesh& mesh, const SmoothingOptions& options, int runs, SameBits& bits) {
-  SmoothingPlan prepared = plan(vertex_count_of(mesh), indices_of(mesh), {}, options);
+  SmoothingPlan prepared = plan(vertex_count_of(mesh), flat_triangles(mesh), {}, options);
   std::vector<double> total;
   for (int run = 0; run < runs; ++run) {
-    std::vector<double> xy(coordinates_of(mesh).begin(), coordinates_of(mesh).end());
+    std::vector<double> xy(flat_points(mesh).begin(), flat_points(mesh).end());
     const SmoothingResult result = prepared.smooth(xy);
     total.push_back(result.timings.smooth + result.timings.commit);
     bits.compare(xy);
@@ -125,9 +125,9 @@ void measure_serial(Session& session, const RandomMesh& mesh, const std::string&
                                         {"precision", precision},
                                         {"method", session.settings().method},
                                         {"runs", runs},
-                                        {"resident_ms", device.json()},
-                                        {"cpu_one_thread_all_vertices_ms", serial.json()},
-                                        {"cpu_all_threads_changed_ms", best.json()},
+                                        {"resident_ms", json_of(device)},
+                                        {"cpu_one_thread_all_vertices_ms", json_of(serial)},
+                                        {"cpu_all_threads_changed_ms", json_of(best)},
                                         {"times_the_serial", serial.median / device.median},
                                         {"times_all_threads", best.median / device.median},
                                         {"coordinates_hash", bits.hash()}});

@@ -22,12 +22,12 @@ Sweeps run_sweeps(Session& session, const RandomMesh& mesh, SmoothingOptions opt
   options.evaluation = Evaluation::all;
   options.max_sweeps = sweeps;
   options.tolerance = 0;  // so that they are not fewer
-  SmoothingPlan prepared = plan(vertex_count_of(mesh), indices_of(mesh), {}, options);
+  SmoothingPlan prepared = plan(vertex_count_of(mesh), flat_triangles(mesh), {}, options);
   SameBits bits(session);
-  std::vector<double> xy(coordinates_of(mesh).size());
+  std::vector<double> xy(flat_points(mesh).size());
   Sweeps measured;
   for (int run = 0; run < session.settings().runs; ++run) {
-    std::ranges::copy(coordinates_of(mesh), xy.begin());
+    std::ranges::copy(flat_points(mesh), xy.begin());
     measured.last = prepared.smooth(xy);
     measured.milliseconds.push_back(measured.last.timings.smooth);
     bits.compare(xy);
@@ -63,8 +63,8 @@ void measure(Session& session, const RandomMesh& mesh, const std::string& layout
        {"runs", session.settings().runs},
        {"sweeps", {once.last.sweeps, twice.last.sweeps}},
        {"vertex_updates", updates},
-       {"ps_per_vertex_and_sweep", of_sweeps.json()},
-       {"ps_with_entering_the_frame", Spread(with_the_rest).json()},
+       {"ps_per_vertex_and_sweep", json_of(of_sweeps)},
+       {"ps_with_entering_the_frame", json_of(Spread(with_the_rest))},
        {"bytes_per_vertex", bytes},
        {"share_of_copy_bandwidth",
         {{"median", share(of_sweeps.median)}, {"min", share(of_sweeps.most)}, {"max", share(of_sweeps.least)}}}});

@@ -17,10 +17,10 @@ namespace {
 void measure_rings(Session& session, const RandomMesh& mesh) {
   cuda::Context context;
   const double upload = milliseconds_of([&] {
-    const cuda::DeviceBuffer<std::int32_t> copy(context, indices_of(mesh));
+    const cuda::DeviceBuffer<std::int32_t> copy(context, flat_triangles(mesh));
     context.synchronize();
   });
-  const cuda::DeviceBuffer<std::int32_t> triangles(context, indices_of(mesh));
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, flat_triangles(mesh));
   // The unit square is a local frame.
   const cuda::DeviceBuffer<Point2<double>> points(context, mesh.points);
   context.synchronize();
@@ -60,10 +60,10 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
   session.report()["rings"].push_back({{"vertices", vertex_count_of(mesh)},
                                        {"triangles", mesh.triangles.size()},
                                        {"runs", session.settings().runs},
-                                       {"total_ms", Spread(total).json()},
-                                       {"topology_ms", Spread(topology_ms).json()},
-                                       {"orient_ms", Spread(orient_ms).json()},
-                                       {"rings_ms", Spread(rings_ms).json()},
+                                       {"total_ms", json_of(Spread(total))},
+                                       {"topology_ms", json_of(Spread(topology_ms))},
+                                       {"orient_ms", json_of(Spread(orient_ms))},
+                                       {"rings_ms", json_of(Spread(rings_ms))},
                                        {"upload_of_triangles_ms", upload},
                                        {"device_bytes_per_vertex", bytes}});
 }
@@ -71,8 +71,8 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
 void measure_plan(Session& session, const RandomMesh& mesh, const std::string& layout, const std::string& form,
                   const std::string& precision) {
   cuda::Context context;
-  const cuda::DeviceBuffer<std::int32_t> triangles(context, indices_of(mesh));
-  const cuda::DeviceBuffer<double> original(context, coordinates_of(mesh));
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, flat_triangles(mesh));
+  const cuda::DeviceBuffer<double> original(context, flat_points(mesh));
   cuda::DeviceBuffer<double> xy(context, original.size());
   cuda::Plan plan({vertex_count_of(mesh), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}},
                   session.options("resident", layout, form, precision, mesh), context.stream());
@@ -114,10 +114,10 @@ void measure_plan(Session& session, const RandomMesh& mesh, const std::string& l
                                       {"method", session.settings().method},
                                       {"runs", session.settings().runs},
                                       {"sweeps", result.sweeps},
-                                      {"call_ms", Spread(calls).json()},
-                                      {"prepare_ms", Spread(prepare).json()},
-                                      {"sweeps_ms", Spread(sweeps).json()},
-                                      {"commit_ms", Spread(commit).json()},
+                                      {"call_ms", json_of(Spread(calls))},
+                                      {"prepare_ms", json_of(Spread(prepare))},
+                                      {"sweeps_ms", json_of(Spread(sweeps))},
+                                      {"commit_ms", json_of(Spread(commit))},
                                       {"first_call_ms", first},
                                       {"coordinates_hash", bits.hash()}});
 }

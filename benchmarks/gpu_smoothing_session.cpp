@@ -54,16 +54,8 @@ double copy_bandwidth() {
 
 }  // namespace
 
-Spread::Spread(std::vector<double> values) {
-  std::ranges::sort(values);
-  median = values[values.size() / 2];
-  least = values.front();
-  most = values.back();
-}
-
-std::string Spread::text() const {
-  const int digits = median < 10 ? 3 : median < 1000 ? 2 : 0;
-  return fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", median, digits, least, digits, most, digits);
+Json json_of(const Spread& spread) {
+  return {{"median", spread.median}, {"least", spread.least}, {"most", spread.most}};
 }
 
 Session::Session(const Settings& settings) : settings_(settings) {
@@ -124,20 +116,7 @@ void SameBits::compare(std::span<const double> xy) {
 }
 
 std::string SameBits::hash() const {
-  std::vector<double> xyz;
-  xyz.reserve(first_.size() / 2 * 3);
-  for (std::size_t i = 0; i < first_.size(); i += 2) {
-    xyz.insert(xyz.end(), {first_[i], first_[i + 1], 0.0});
-  }
-  return hash_text(coordinates_hash(xyz));
-}
-
-std::span<const std::int32_t> indices_of(const RandomMesh& mesh) {
-  return {mesh.triangles.front().data(), 3 * mesh.triangles.size()};
-}
-
-std::span<const double> coordinates_of(const RandomMesh& mesh) {
-  return {&mesh.points.front().x, 2 * mesh.points.size()};
+  return hash_text(planar_coordinates_hash(first_));
 }
 
 std::int32_t vertex_count_of(const RandomMesh& mesh) {

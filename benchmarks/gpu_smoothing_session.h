@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "trismooth/pipeline/bench/spread.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/smoothing/options.h"
 
@@ -36,17 +37,9 @@ struct Settings {
   std::string json;
 };
 
-/// Several measurements of the same.
-struct Spread {
-  double median = 0;
-  double least = 0;
-  double most = 0;
+using trismooth::bench::Spread;
 
-  explicit Spread(std::vector<double> values);
-  Json json() const { return {{"median", median}, {"min", least}, {"max", most}}; }
-  /// "3.42 (3.41-3.50)".
-  std::string text() const;
-};
+Json json_of(const Spread& spread);
 
 /// One run of the program: the device, the meshes, the report.
 class Session {
@@ -95,8 +88,6 @@ class SameBits {
   std::vector<double> first_;
 };
 
-std::span<const std::int32_t> indices_of(const trismooth::RandomMesh& mesh);
-std::span<const double> coordinates_of(const trismooth::RandomMesh& mesh);
 std::int32_t vertex_count_of(const trismooth::RandomMesh& mesh);
 
 /// Milliseconds that function() takes by the host's clock.

@@ -5,6 +5,7 @@
 #include <bit>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -40,6 +41,15 @@ std::uint64_t coordinates_hash(std::span<const double> xyz) {
   } else {
     return hash_of_reversed_bytes(xyz);
   }
+}
+
+std::uint64_t planar_coordinates_hash(std::span<const double> xy) {
+  std::vector<double> xyz;
+  xyz.reserve(xy.size() / 2 * 3);
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    xyz.insert(xyz.end(), {xy[i], xy[i + 1], 0.0});
+  }
+  return coordinates_hash(xyz);
 }
 
 std::string hash_text(std::uint64_t hash) {

@@ -34,15 +34,6 @@ bool same_bits(const Coordinates& one, const Coordinates& other) {
   return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size() * sizeof(double)) == 0;
 }
 
-std::string hash_of(const Coordinates& xy) {
-  Coordinates xyz;
-  xyz.reserve(xy.size() / 2 * 3);
-  for (std::size_t i = 0; i < xy.size(); i += 2) {
-    xyz.insert(xyz.end(), {xy[i], xy[i + 1], 0.0});
-  }
-  return hash_text(coordinates_hash(xyz));
-}
-
 Run run_once(const RandomMesh& mesh, const SmoothingOptions& options, Coordinates& xy) {
   const auto coordinates = flat_points(mesh);
   xy.assign(coordinates.begin(), coordinates.end());
@@ -177,7 +168,7 @@ class Experiment {
       }
     }
     Measurement measured = summary_of(runs);
-    measured.coordinates_hash = hash_of(first);
+    measured.coordinates_hash = hash_text(planar_coordinates_hash(first));
     measured.same_bits_again = same_again;
     if (what.order == Order::colour) {
       Coordinates& reference = references.of(what.form);

@@ -21,6 +21,12 @@ TEST_CASE("the hash is XXH64 with seed 0 of the little-endian bytes") {
   CHECK(coordinates_hash(many) == 0x1e187e5f62dcece3U);
 }
 
+TEST_CASE("the hash of a mesh in the plane is that with z = 0") {
+  CHECK(trismooth::planar_coordinates_hash(std::array{1.0, 2.0}) == coordinates_hash(std::array{1.0, 2.0, 0.0}));
+  CHECK(trismooth::planar_coordinates_hash(std::array{1.0, 2.0, -0.5, 4.0}) ==
+        coordinates_hash(std::array{1.0, 2.0, 0.0, -0.5, 4.0, 0.0}));
+}
+
 TEST_CASE("the hash tells -0 from 0") {
   CHECK(coordinates_hash(std::array{1.0, 2.0, -0.0}) == 0xab1f266f2ef6da21U);
 }
