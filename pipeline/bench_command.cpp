@@ -2,10 +2,12 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +16,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/backend_choice.h"
 #include "trismooth/pipeline/bench/experiment.h"
@@ -94,7 +97,7 @@ std::string why_no_device(BackendChoice choice, const CudaSupport& cuda) {
     }
     return {};
   }
-  const std::string problem = cuda.problem();
+  std::string problem = cuda.problem();
   if (choice == BackendChoice::cuda && !problem.empty()) {
     throw DeviceError(problem + "; --backend auto measures the CPU versions");
   }
@@ -135,10 +138,28 @@ bench::ExperimentResult run_watched(bench::ExperimentOptions options, const Cuda
   if (environment.err_is_terminal) {
     line.emplace(environment.err);
     options.progress = [&line, runs = options.runs](const bench::ExperimentProgress& progress) {
-      line->draw_now_and_then(bench::progress_text(progress, runs));
+      // Between long runs the line must say what goes on now; between short ones it may lag.
+      const std::string text = bench::progress_text(progress, runs);
+      progress.run == 0 ? line->draw(text) : line->draw_now_and_then(text);
     };
   }
   return bench::run_experiment(options, cuda);
+}
+
+/// All of them, then throws what went wrong with the first that could not be written.
+void write_reports(const std::vector<std::filesystem::path>& paths, const bench::Report& report, std::ostream& out) {
+  std::exception_ptr failure;
+  for (const std::filesystem::path& path : paths) {
+    try {
+      write_report_text(path, writer_of(path)(report));
+      out << "report: " << path.string() << '\n' << std::flush;
+    } catch (const WriteError&) {
+      failure = failure ? failure : std::current_exception();
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
 }
 
 ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment) {
@@ -152,19 +173,19 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
       bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
                          cuda.backend != nullptr ? cuda.lines() : std::string{});
   // First what cannot fail: measuring again would take minutes.
-  environment.out << bench::text_of(report);
-  for (const std::filesystem::path& path : settings.reports) {
-    write_report_text(path, writer_of(path)(report));
-    environment.out << "report: " << path.string() << '\n';
-  }
-  environment.out << std::flush;
+  environment.out << bench::text_of(report) << std::flush;
+  write_reports(settings.reports, report, environment.out);
   if (!report.result.same_bits()) {
     print_error(environment.err, "runs that must give the same bits did not; please report this");
     return ExitCode::gate_failed;
   }
-  if (report.result.device_failed()) {
+  if (report.result.any_lack_of(bench::Lack::working_device)) {
     print_error(environment.err, "the device failed; the remarks say where");
     return ExitCode::device_error;
+  }
+  if (report.result.any_lack_of(bench::Lack::memory)) {
+    print_error(environment.err, "not enough memory; the remarks say where");
+    return ExitCode::bad_input;
   }
   return ExitCode::done;
 }

@@ -34,7 +34,7 @@ constexpr const char* footer =
     "\n"
     "'trismooth COMMAND --help' lists a command's options.\n"
     "\n"
-    "Exit codes: 0 done; 1 a --require failed; 2 wrong usage; 3 the input cannot be used;\n"
+    "Exit codes: 0 done; 1 a --require failed, or bench found other bits; 2 wrong usage; 3 the input cannot be used;\n"
     "4 the output cannot be written; 5 CUDA error or no device; 130 cancelled.";
 
 constexpr std::size_t help_column = 34;

@@ -5,7 +5,7 @@ namespace trismooth {
 /// What the program answers to the shell.
 enum class ExitCode : int {
   done = 0,
-  gate_failed = 1,   ///< the result misses a --require; the output is written
+  gate_failed = 1,   ///< the result misses a --require, or bits differ in `bench`; the output is written
   wrong_usage = 2,   ///< an unknown option, a bad value, options that do not fit the input
   bad_input = 3,     ///< the input cannot be read, is no planar triangle mesh or does not fit into memory
   not_written = 4,   ///< the output, a report or the standard output cannot be written

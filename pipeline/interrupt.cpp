@@ -17,6 +17,7 @@ constexpr std::array<int, 2> caught_signals{SIGINT, SIGTERM};
 // All that the handler touches. Lock-free, or a handler could wait for the code that it interrupted.
 std::atomic<bool> requested{false};
 std::atomic<bool> exit_at_once{false};
+std::atomic<bool> on_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Over the line of a terminal on which progress may stand (ECMA-48 EL), or on a line of its own.
@@ -26,7 +27,7 @@ constexpr std::string_view farewell = "trismooth: error: cancelled\n";
 extern "C" void handle_interrupt(int /*signal*/) {
   if (requested.exchange(true) || exit_at_once) {
     OutputFile::remove_unfinished();
-    const std::string_view words = ::isatty(STDERR_FILENO) != 0 ? terminal_farewell : farewell;
+    const std::string_view words = on_terminal ? terminal_farewell : farewell;
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
     _exit(static_cast<int>(ExitCode::cancelled));
   }
@@ -37,6 +38,7 @@ extern "C" void handle_interrupt(int /*signal*/) {
 InterruptGuard::InterruptGuard(OnInterrupt action) {
   requested = false;
   exit_at_once = action == OnInterrupt::exit;
+  on_terminal = ::isatty(STDERR_FILENO) != 0;
   for (std::size_t i = 0; i < caught_signals.size(); ++i) {
     ::sigaction(caught_signals[i], nullptr, &previous_[i]);
     if (previous_[i].sa_handler == SIG_IGN) {

@@ -2,7 +2,8 @@
 # Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
-#   scripts/install-deps.sh --tools    clang-format and clang-tidy as well
+#   scripts/install-deps.sh --tests    also the browser of the test that looks at a page
+#   scripts/install-deps.sh --tools    also clang-format and clang-tidy
 set -euo pipefail
 
 packages=(
@@ -11,16 +12,18 @@ packages=(
   libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libxxhash-dev
   catch2
 )
-# For the test that looks at a page. Ubuntu has it as a snap only: there that test is skipped.
-if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
-  packages+=(chromium)
-fi
 
 case "${1:-}" in
   '') ;;
+  --tests)
+    # Ubuntu has it as a snap only: there that test is skipped.
+    if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
+      packages+=(chromium)
+    fi
+    ;;
   --tools) packages+=(clang-format-14 clang-tidy-14) ;;
   *)
-    echo "usage: install-deps.sh [--tools]" >&2
+    echo "usage: install-deps.sh [--tests|--tools]" >&2
     exit 2
     ;;
 esac

@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 SECONDS=0
-"$project/scripts/install-deps.sh"
+"$project/scripts/install-deps.sh" --tests
 configure
 configured=$SECONDS
 build_target all

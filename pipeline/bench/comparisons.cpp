@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/bench/tables.h"
+#include "trismooth/pipeline/bench/wording.h"
 
 namespace trismooth::bench {
 
@@ -17,11 +17,11 @@ std::optional<Comparison> compare(const ExperimentResult& result, std::int64_t v
                                   const Case& slower, double at_least) {
   const Measurement* const one = result.find(vertices, faster);
   const Measurement* const other = result.find(vertices, slower);
-  if (one == nullptr || other == nullptr) {
+  if (one == nullptr || other == nullptr || !(one->smoothing.least > 0) || !(other->smoothing.least > 0)) {
     return std::nullopt;
   }
-  Comparison comparison{full_name(faster), full_name(slower), vertices, ratio(other->smoothing, one->smoothing)};
-  comparison.support = one->runs > 1 && other->runs > 1 ? support_of(comparison.factor, at_least) : Support::undecided;
+  Comparison comparison{faster, slower, vertices, ratio(other->smoothing, one->smoothing)};
+  comparison.support = one->runs > 1 && other->runs > 1 ? support_of(comparison.factor, at_least) : Support::unknown;
   const auto published_one = published_ms(faster, vertices);
   const auto published_other = published_ms(slower, vertices);
   if (published_one && published_other) {
@@ -50,15 +50,11 @@ std::string range_of_published(const std::vector<Comparison>& comparisons) {
 
 }  // namespace
 
-std::string full_name(const Case& what) {
-  return fmt::format("{}, Form {}", name_of(what), form_of(what));
-}
-
 Support support_of(const Spread& factor, double at_least) {
   if (factor.least > at_least) {
     return Support::yes;
   }
-  return factor.most < at_least ? Support::no : Support::undecided;
+  return factor.most < at_least ? Support::no : Support::within_spread;
 }
 
 std::optional<double> published_ms(const Case& what, std::int64_t vertices) {
@@ -103,12 +99,15 @@ Spread overall(const std::vector<Comparison>& comparisons) {
 
 std::string tally(const std::vector<Comparison>& comparisons, std::string_view faster, std::string_view slower) {
   const Spread factor = overall(comparisons);
-  return fmt::format(
-      "{} faster in {} of {} comparisons, {} in {}; {} within the spread. {} {} times as fast in the median, {} to {} "
-      "over all runs{}.",
-      faster, count_of(comparisons, Support::yes), comparisons.size(), slower, count_of(comparisons, Support::no),
-      count_of(comparisons, Support::undecided), faster, three_digits(factor.median), three_digits(factor.least),
-      three_digits(factor.most), range_of_published(comparisons));
+  std::string text = fmt::format("{} faster in {} of {} comparisons, {} in {}; {} within the spread", faster,
+                                 count_of(comparisons, Support::yes), comparisons.size(), slower,
+                                 count_of(comparisons, Support::no), count_of(comparisons, Support::within_spread));
+  if (const std::int64_t unknown = count_of(comparisons, Support::unknown); unknown > 0) {
+    text += fmt::format(", {} measured once only", unknown);
+  }
+  return text + fmt::format(". {} {} times as fast in the median, {} to {} over all runs{}.", faster,
+                            three_digits(factor.median), three_digits(factor.least), three_digits(factor.most),
+                            range_of_published(comparisons));
 }
 
 std::string by_size(const ExperimentResult& result, const std::vector<Comparison>& comparisons) {
@@ -118,10 +117,10 @@ std::string by_size(const ExperimentResult& result, const std::vector<Comparison
     std::ranges::copy_if(comparisons, std::back_inserter(here),
                          [&](const Comparison& comparison) { return comparison.vertices == size; });
     if (!here.empty()) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", size_text(size), three_digits(overall(here).median));
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", size_text(size), three_digits(overall(here).median));
     }
   }
-  return "Median factor by size: " + text + ".";
+  return "The median of these factors by size: " + text + ".";
 }
 
 }  // namespace trismooth::bench

@@ -14,15 +14,20 @@
 namespace trismooth::bench {
 
 /// What one comparison says of a claim.
-enum class Support : std::uint8_t { yes, no, undecided };
+enum class Support : std::uint8_t {
+  yes,
+  no,
+  within_spread,  ///< it may be either: the ranges of the measurements overlap
+  unknown,        ///< a time was measured once, so its range is not known
+};
 
 /// Two cases on a mesh: how many times as fast the one is that the paper says is faster.
 struct Comparison {
-  std::string faster;  ///< by the paper
-  std::string slower;
+  Case claimed_faster;
+  Case claimed_slower;
   std::int64_t vertices = 0;
   Spread factor;
-  Support support = Support::undecided;
+  Support support = Support::unknown;
   std::optional<double> published{};              ///< the paper's factor
   std::optional<std::array<Spread, 2>> sweeps{};  ///< of the faster and the slower, where they differ in the form
 };
@@ -30,17 +35,15 @@ struct Comparison {
 /// Two cases to compare: the one that the paper calls faster comes first.
 using Pair = std::pair<Case, Case>;
 
-/// "GPU-AoS, Form A".
-std::string full_name(const Case& what);
-
-/// A factor supports a claim that it is at least so much where all of its range does, and opposes it where none does.
+/// What a factor says of a claim that it is at least so much: yes where all of its range is above, no where all is
+/// below.
 Support support_of(const Spread& factor, double at_least);
 
 /// The paper's time of a case in milliseconds, where it has one.
 std::optional<double> published_ms(const Case& what, std::int64_t vertices);
 
-/// The times of smoothing of each pair on every mesh where both were measured, held against a claim that the first is
-/// `at_least` so many times as fast. What was measured once has no spread, and decides nothing.
+/// The times of smoothing of each pair on every mesh where both were measured, and took some time, held against a claim
+/// that the first is `at_least` so many times as fast.
 std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs,
                                     double at_least = 1);
 
@@ -62,6 +65,9 @@ template <>
 struct trismooth::EnumText<trismooth::bench::Support> {
   using Support = trismooth::bench::Support;
   static constexpr std::string_view what = "support";
-  static constexpr std::array<std::pair<Support, std::string_view>, 3> texts{
-      {{Support::yes, "yes"}, {Support::no, "no"}, {Support::undecided, "undecided"}}};
+  static constexpr std::array<std::pair<Support, std::string_view>, 4> texts{
+      {{Support::yes, "yes"},
+       {Support::no, "no"},
+       {Support::within_spread, "within the spread"},
+       {Support::unknown, "measured once"}}};
 };

@@ -1,12 +1,13 @@
 #include "trismooth/pipeline/bench/conclusions.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/bench/tables.h"
+#include "trismooth/pipeline/bench/wording.h"
 
 namespace trismooth::bench {
 
@@ -17,21 +18,19 @@ constexpr std::array versions_of_paper{Version::gpu, Version::cdp};
 constexpr std::array forms{Form::swap, Form::in_place};
 constexpr std::array layouts{Layout::aos, Layout::soa};
 
-Case case_of_paper(Version version, Form form, Layout layout) {
-  return {version, form, order_of_paper(version, form), layout};
-}
-
-/// `or_equal`: the claim is that nothing is slower, so it holds where no difference can be told.
+/// `or_equal`: the claim is that nothing is slower, so what is within the spread agrees with it.
 Verdict verdict_of(const std::vector<Comparison>& comparisons, bool or_equal) {
   if (comparisons.empty()) {
     return Verdict::not_measured;
   }
-  const bool any_for = count_of(comparisons, Support::yes) > 0;
-  const bool any_against = count_of(comparisons, Support::no) > 0;
-  if (any_against) {
-    return any_for ? Verdict::in_part : Verdict::does_not;
+  const std::int64_t equal = count_of(comparisons, Support::within_spread);
+  const std::int64_t against = count_of(comparisons, Support::no);
+  const std::int64_t agree = count_of(comparisons, Support::yes) + (or_equal ? equal : 0);
+  const std::int64_t known = std::ssize(comparisons) - count_of(comparisons, Support::unknown);
+  if (known == 0 || (agree == 0 && against == 0)) {
+    return Verdict::undecided;
   }
-  return any_for || or_equal ? Verdict::holds : Verdict::undecided;
+  return agree == known ? Verdict::holds : agree > 0 ? Verdict::in_part : Verdict::does_not;
 }
 
 /// The largest speedup over the serial CPU version among these cases.
@@ -97,7 +96,8 @@ std::string range_over_published(const ExperimentResult& result, const std::vect
   for (const Case& what : cases) {
     for (const std::int64_t size : result.options.sizes) {
       const Measurement* const measured = result.find(size, what);
-      if (const auto published = published_ms(what, size); published && measured != nullptr) {
+      const auto published = published_ms(what, size);
+      if (published && measured != nullptr && measured->smoothing.least > 0) {
         factors.push_back(*published / measured->smoothing.median);
       }
     }
@@ -129,9 +129,11 @@ Conclusion speedup_claim(const ExperimentResult& result) {
   }
   conclusion.comparisons = compare_all(result, pairs, claimed_speedup);
   if (const auto best = best_of(result, cases_of_paper())) {
-    conclusion.verdict = count_of(conclusion.comparisons, Support::yes) > 0         ? Verdict::holds
-                         : count_of(conclusion.comparisons, Support::undecided) > 0 ? Verdict::undecided
-                                                                                    : Verdict::does_not;
+    // It takes one case.
+    const std::int64_t against = count_of(conclusion.comparisons, Support::no);
+    conclusion.verdict = count_of(conclusion.comparisons, Support::yes) > 0 ? Verdict::holds
+                         : against < std::ssize(conclusion.comparisons)     ? Verdict::undecided
+                                                                            : Verdict::does_not;
     conclusion.findings.push_back(fmt::format("The most that the paper's versions reach is {}. In the paper it is {}.",
                                               text_of(*best), best_published()));
     if (const auto whole = best_of(result, cases_of_paper(), &ExperimentResult::speedup_together)) {
@@ -180,11 +182,10 @@ void add_finding(Conclusion& conclusion, const ExperimentResult& result, const F
 Conclusion layout_claim(const ExperimentResult& result) {
   const FasterClaim claim{2, "The layout AoS is at least as fast as SoA.", "AoS is", "SoA", true};
   const auto pairs_of = [](Version version) {
-    std::vector<Pair> pairs;
-    for (const Form form : forms) {
-      pairs.emplace_back(case_of_paper(version, form, Layout::aos), case_of_paper(version, form, Layout::soa));
-    }
-    return pairs;
+    const auto pair_of = [version](Form form) {
+      return Pair(case_of_paper(version, form, Layout::aos), case_of_paper(version, form, Layout::soa));
+    };
+    return std::vector<Pair>{pair_of(Form::swap), pair_of(Form::in_place)};
   };
   std::vector<Pair> pairs = pairs_of(Version::gpu);
   std::ranges::copy(pairs_of(Version::cdp), std::back_inserter(pairs));
@@ -217,7 +218,7 @@ std::string sweeps_by_size(const ExperimentResult& result, const std::vector<Com
       }
     }
     if (!sweeps[0].empty()) {
-      text += fmt::format("{}{} {} and {}", text.empty() ? "" : "; ", size_text(size), sweeps_text(Spread(sweeps[1])),
+      text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", size_text(size), sweeps_text(Spread(sweeps[1])),
                           sweeps_text(Spread(sweeps[0])));
     }
   }
@@ -233,7 +234,7 @@ std::string sweep_cost(const std::vector<Comparison>& comparisons) {
     }
   }
   const Spread factor(std::move(factors));
-  return fmt::format("One sweep of Form A takes {} times as long as one of Form B ({} to {}).",
+  return fmt::format("For each sweep, smoothing in Form A takes {} times as long as in Form B ({} to {}).",
                      three_digits(factor.median), three_digits(factor.least), three_digits(factor.most));
 }
 
@@ -256,7 +257,8 @@ Conclusion form_claim(const ExperimentResult& result) {
     conclusion.findings.push_back(sweep_cost(conclusion.comparisons));
   }
   if (on_cpu_only && !conclusion.comparisons.empty()) {
-    conclusion.findings.emplace_back("Judged by the CPU versions alone: the paper's versions were not measured.");
+    conclusion.findings.insert(conclusion.findings.begin(),
+                               "Judged by the CPU versions alone: the paper's versions were not measured.");
   } else if (!on_cpu_only) {
     add_finding(conclusion, result, claim, "With Form B in colour order", both(versions_of_paper, Order::colour));
     add_finding(conclusion, result, claim, "The resident version", form_pairs(Version::resident, Order::colour));
@@ -269,17 +271,25 @@ Conclusion cdp_claim(const ExperimentResult& result) {
   const FasterClaim claim{4, "The version with CUDA dynamic parallelism is slightly faster than the one without.",
                           "CDP is", "GPU"};
   const auto pairs_in = [](Form form, Order order) {
-    std::vector<Pair> pairs;
-    for (const Layout layout : layouts) {
-      pairs.push_back({{Version::cdp, form, order, layout}, {Version::gpu, form, order, layout}});
-    }
-    return pairs;
+    const auto pair_of = [&](Layout layout) {
+      return Pair{{Version::cdp, form, order, layout}, {Version::gpu, form, order, layout}};
+    };
+    return std::vector<Pair>{pair_of(Layout::aos), pair_of(Layout::soa)};
   };
   std::vector<Pair> pairs = pairs_in(Form::swap, Order::colour);
   std::ranges::copy(pairs_in(Form::in_place, Order::unordered), std::back_inserter(pairs));
   Conclusion conclusion = judge(result, claim, pairs);
   add_finding(conclusion, result, claim, "With Form B in colour order", pairs_in(Form::in_place, Order::colour));
   return conclusion;
+}
+
+/// Why the paper's versions were not measured.
+std::string why_not_measured(const ExperimentResult& result) {
+  const auto row = std::ranges::find_if(result.rows, [](const Row& candidate) {
+    return std::ranges::find(versions_of_paper, candidate.what.version) != versions_of_paper.end() &&
+           candidate.lack != Lack::nothing;
+  });
+  return row == result.rows.end() ? "the experiment was not asked for what it takes" : row->missing_reason;
 }
 
 }  // namespace
@@ -289,13 +299,8 @@ std::vector<Conclusion> conclusions_of(const ExperimentResult& result) {
                                       cdp_claim(result)};
   for (Conclusion& conclusion : conclusions) {
     if (conclusion.verdict == Verdict::not_measured) {
-      std::string reason = "the experiment was not asked for what it takes";
-      for (const Row& row : result.rows) {
-        if (!row.missing.empty() && runs_on_device(row.what.version)) {
-          reason = row.missing;
-        }
-      }
-      conclusion.findings.insert(conclusion.findings.begin(), fmt::format("Not measured: {}.", reason));
+      conclusion.findings.insert(conclusion.findings.begin(),
+                                 fmt::format("Not measured: {}.", why_not_measured(result)));
     }
   }
   return conclusions;

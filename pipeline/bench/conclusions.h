@@ -13,9 +13,9 @@ namespace trismooth::bench {
 
 /// Whether something that the paper says shows here.
 enum class Verdict : std::uint8_t {
-  holds,         ///< in every comparison, or none speaks against it
-  in_part,       ///< in some comparisons; the opposite in others
-  does_not,      ///< in none, and the opposite in some
+  holds,         ///< every comparison agrees
+  in_part,       ///< some do
+  does_not,      ///< none does, and some say the opposite
   undecided,     ///< no difference beyond the spread of the measurements
   not_measured,  ///< what it takes is missing
 };
@@ -30,8 +30,9 @@ struct Conclusion {
 };
 
 /// The conclusions, in the order of the paper's abstract, each computed from `result` alone. Times differ where their
-/// ranges (least to most) are apart. "At least as fast" holds where nothing is slower, "up to 44 times" where one case
-/// reaches that, "always slower" and "slightly faster" where some differ that way and none the other.
+/// ranges (least to most) are apart; a time that was measured once decides nothing. With "at least as fast" agrees what
+/// is within the spread, too; for "up to 44 times" one case suffices; what "slightly" means is left to the reader, who
+/// has the factors.
 std::vector<Conclusion> conclusions_of(const ExperimentResult& result);
 
 }  // namespace trismooth::bench

@@ -33,7 +33,7 @@ struct ExperimentOptions {
   double seconds = 20;
   int threads = 0;  ///< of Version::cpu; 0: one for each core
   /// Why the versions that run on a device are left out although they are asked for; empty: they are run.
-  std::string no_device_reason;
+  std::string no_device_reason{};
   std::function<void(const ExperimentProgress&)> progress{};  ///< called before every run
 };
 
@@ -48,20 +48,28 @@ struct Measurement {
   StopReason stop_reason = StopReason::fixed_point;  ///< of the last run
   std::int64_t vertex_updates = 0;                   ///< of the last run
   std::int64_t free_vertices = 0;
-  int threads = 0;                ///< of the CPU
-  std::string device;             ///< processor or GPU
-  std::string coordinates_hash;   ///< of the first run's result, as in reports
-  bool same_bits_again = true;    ///< every run gave the first one's bits
-  bool same_bits_as_rest = true;  ///< and so did the other cases of the form; means nothing in Order::unordered
+  int threads = 0;                 ///< of the CPU
+  std::string device;              ///< processor or GPU
+  std::string coordinates_hash;    ///< of the first run's result, as in reports
+  bool same_bits_again = true;     ///< every run gave the first one's bits
+  bool same_bits_as_first = true;  ///< and those are the bits of the first case of the form; true in Order::unordered
+};
+
+/// Why a case was not measured.
+enum class Lack : std::uint8_t {
+  nothing,  ///< it was
+  device,   ///< it runs on a device, and there is none for it
+  working_device,
+  memory,  ///< of the host
 };
 
 /// A case on a mesh.
 struct Row {
   std::int64_t vertices = 0;  ///< as asked for
   Case what;
-  std::optional<Measurement> measured;
-  std::string missing;         ///< why it was not measured
-  bool device_failed = false;  ///< that is why
+  std::optional<Measurement> measured{};
+  Lack lack = Lack::nothing;
+  std::string missing_reason{};  ///< empty where it was measured
 };
 
 /// A mesh of the experiment.
@@ -78,18 +86,19 @@ struct ExperimentResult {
 
   /// The measurement of a case; null where there is none.
   const Measurement* find(std::int64_t vertices, const Case& what) const;
-  /// How many times faster than the serial CPU version of the same form it smooths, or does everything.
+  /// How many times faster than the serial CPU version of the same form it smooths, or does everything. Nothing where
+  /// one of both was not measured, or took no time that could be measured.
   std::optional<Spread> speedup(std::int64_t vertices, const Case& what) const;
   std::optional<Spread> speedup_together(std::int64_t vertices, const Case& what) const;
   /// Every run gave the bits that it must give. Order::unordered may give any.
   bool same_bits() const;
-  /// There is a device, and it failed in a case.
-  bool device_failed() const;
+  /// Whether a case is missing for want of this.
+  bool any_lack_of(Lack what) const;
 };
 
-/// Generates the meshes (random_delaunay_mesh()), smooths each in every case several times, and compares the results
-/// bit for bit. Cases that run on a device are missing where there is none, and say why; so is a case on which the
-/// device fails. Throws std::invalid_argument for options out of range.
+/// Generates the meshes (random_delaunay_mesh()), smooths each in every case several times, and compares the results'
+/// bits by their hash. Cases that run on a device are missing where there is none, and say why; so is a case on which
+/// the device or the memory fails. Throws std::invalid_argument for options out of range.
 ExperimentResult run_experiment(const ExperimentOptions& options, const CudaSupport& cuda);
 
 }  // namespace trismooth::bench

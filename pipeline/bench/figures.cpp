@@ -48,12 +48,7 @@ LineStyle faint_style(Version version, Form form) {
 }
 
 std::string label_of(Version version, Form form) {
-  return fmt::format("{}, Form {}", name_of(version), form == Form::swap ? "A" : "B");
-}
-
-/// Form B of the paper's versions is the paper's own.
-Case shown_case(Version version, Form form, Layout layout) {
-  return {version, form, order_of_paper(version, form), runs_on_device(version) ? layout : Layout::aos};
+  return fmt::format("{}, Form {}", name_of(version), letter_of(form));
 }
 
 /// A line over the sizes; `value` answers nothing where there is no point.
@@ -63,7 +58,8 @@ ChartSeries series_of(const ExperimentResult& result, std::string label, const L
   std::vector<std::int64_t> sizes = result.options.sizes;
   std::ranges::sort(sizes);
   for (const std::int64_t size : sizes) {
-    if (const std::optional<Spread> here = value(size)) {
+    // No time at all, of a mesh without free vertices, has no place on a logarithmic axis.
+    if (const std::optional<Spread> here = value(size); here && here->least > 0) {
       series.points.push_back({static_cast<double>(size), *here});
     }
   }
@@ -86,8 +82,10 @@ void add_panel(LogChart& chart, std::string title, std::vector<ChartSeries> line
 }
 
 std::string svg_or_nothing(const LogChart& chart) {
-  const bool any = std::ranges::any_of(chart.panels, [](const ChartPanel& panel) { return !panel.series.empty(); });
-  return any ? log_chart_svg(chart) : std::string{};
+  const bool any_measured = std::ranges::any_of(chart.panels, [](const ChartPanel& panel) {
+    return std::ranges::any_of(panel.series, [](const ChartSeries& series) { return !series.style.faint; });
+  });
+  return any_measured ? log_chart_svg(chart) : std::string{};
 }
 
 }  // namespace
@@ -104,7 +102,7 @@ std::string forms_figure(const ExperimentResult& result) {
       for (const Form form : forms) {
         lines.push_back(series_of(
             result, label_of(version, form), style_of(version, form), [&](std::int64_t size) -> std::optional<Spread> {
-              const Measurement* const measured = result.find(size, shown_case(version, form, layout));
+              const Measurement* const measured = result.find(size, case_of_paper(version, form, layout));
               return measured == nullptr ? std::nullopt : std::optional(measured->smoothing);
             }));
       }
@@ -133,7 +131,7 @@ std::string speedup_figure(const ExperimentResult& result) {
     std::vector<ChartSeries> lines;
     for (const Version version : {Version::cpu, Version::gpu, Version::cdp, Version::resident}) {
       lines.push_back(series_of(result, name_of(version), style_of(version), [&](std::int64_t size) {
-        return result.speedup(size, shown_case(version, Form::swap, layout));
+        return result.speedup(size, case_of_paper(version, Form::swap, layout));
       }));
     }
     for (const Version version : {Version::gpu, Version::cdp}) {

@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/bench/log_chart.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/pipeline/bench/wording.h"
 #include "trismooth/pipeline/html_text.h"
 #include "trismooth/quality/report_text.h"
 
@@ -50,10 +52,8 @@ std::string grid_style(bool major) {
   return fmt::format("stroke=\"{}\" stroke-width=\"1\"", major ? "#c6c6c6" : "#ececec");
 }
 
-/// 1000 is 1K, 1000000 is 1M.
-std::string size_text(double value) {
-  const double unit = value < 1e3 ? 1 : value < 1e6 ? 1e3 : 1e6;
-  return fmt::format("{:.10g}{}", value / unit, value < 1e3 ? "" : value < 1e6 ? "K" : "M");
+std::string tick_text(double size) {
+  return size_text(std::llround(size));
 }
 
 std::string value_text(double value) {
@@ -66,9 +66,9 @@ std::string value_text(double value) {
 constexpr int steps_per_decade = 3;
 
 double step_value(int step) {
-  static constexpr double digits[steps_per_decade] = {1, 2, 5};
+  static constexpr std::array<double, steps_per_decade> digits{1, 2, 5};
   const int decade = (step < 0 ? step - (steps_per_decade - 1) : step) / steps_per_decade;
-  return digits[step - steps_per_decade * decade] * std::pow(10.0, decade);
+  return digits[static_cast<std::size_t>(step - steps_per_decade * decade)] * std::pow(10.0, decade);
 }
 
 int first_step_from(double value) {
@@ -131,7 +131,7 @@ std::vector<Tick> ticks_at(const std::set<double>& values, const Axis& axis) {
   std::vector<Tick> ticks;
   double free_from = -std::numeric_limits<double>::infinity();
   for (const double value : values) {
-    const double half = text_width(size_text(value)) / 2;
+    const double half = text_width(tick_text(value)) / 2;
     if (axis.place(value) - half < free_from) {
       return step_ticks(axis);
     }
@@ -198,7 +198,7 @@ std::string series_svg(const ChartSeries& series, const Axis& x_axis, const Axis
     path += fmt::format("{}{:.2f},{:.2f}", path.empty() ? "" : " ", x, y);
     whiskers += whisker(style, x, y_axis.place(point.y.least), y_axis.place(point.y.most));
     markers += marker(style, x, y,
-                      fmt::format("<title>{}, {}: {}</title>", escape_html(series.label), size_text(point.x),
+                      fmt::format("<title>{}, {}: {}</title>", escape_html(series.label), tick_text(point.x),
                                   escape_html(point.y.text())));
   }
   const std::string curve =
@@ -236,7 +236,7 @@ std::string panel_svg(const LogChart& chart, const ChartPanel& panel, Axis x_axi
   }
   for (const Tick& tick : frame.x_ticks) {
     if (tick.labelled) {
-      svg += text(x_axis.place(tick.value), bottom + 19, "middle", size_text(tick.value));
+      svg += text(x_axis.place(tick.value), bottom + 19, "middle", tick_text(tick.value));
     }
   }
   svg += fmt::format(
@@ -287,7 +287,8 @@ Legend legend(const std::vector<const ChartSeries*>& entries) {
   Legend legend{"", static_cast<double>(rows) * legend_row};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const LineStyle& style = entries[i]->style;
-    const double x = left + static_cast<double>(i / rows) * entry_width;
+    const std::size_t column = i / rows;
+    const double x = left + static_cast<double>(column) * entry_width;
     const double y = legend_top + static_cast<double>(i % rows) * legend_row;
     legend.svg += line(x, y, x + legend_sample, y, line_paint(style));
     if (style.marker != Marker::none) {
@@ -314,6 +315,9 @@ Frame make_frame(const LogChart& chart) {
   }
   if (sizes.empty()) {
     throw std::invalid_argument("a chart needs a point");
+  }
+  if (!(*sizes.begin() > 0) || !(least > 0)) {
+    throw std::invalid_argument("a logarithmic axis has no place for what is not positive");
   }
   Frame frame;
   // Markers at the ends of the range are not to touch the frame.

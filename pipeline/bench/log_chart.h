@@ -48,7 +48,7 @@ struct LogChart {
 /// The chart as one SVG element that needs no style sheet and no font of its own: it may stand in an HTML page or be a
 /// file. A point carries its numbers as a tooltip, and a bar from its least to its most. Labels, titles and the
 /// description are escaped. The legend names a label once, however many panels have it. Throws std::invalid_argument
-/// where no series has a point.
+/// where no series has a point, or one is not positive.
 std::string log_chart_svg(const LogChart& chart);
 
 }  // namespace trismooth::bench

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/bench/tables.h"
+#include "trismooth/pipeline/bench/wording.h"
 
 namespace trismooth::bench {
 

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/pipeline/bench/wording.h"
+#include "trismooth/quality/report_text.h"
+#include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/processor_name.h"
 
 namespace trismooth::bench {
@@ -34,17 +37,25 @@ std::string case_text(const Row& row) {
   return fmt::format("{} {}", size_text(row.vertices), full_name(row.what));
 }
 
-std::vector<std::string> missing_remarks(const ExperimentResult& result) {
+std::string version_text(const Row& row) {
+  return name_of(row.what);
+}
+
+/// What was not measured, a sentence for each reason.
+std::vector<std::string> lack_remarks(const ExperimentResult& result) {
   std::vector<std::string> remarks;
   std::vector<std::string> reasons;
   for (const Row& row : result.rows) {
-    if (!row.missing.empty() && std::ranges::find(reasons, row.missing) == reasons.end()) {
-      reasons.push_back(row.missing);
-      const std::string names = list_of(
-          result, [&](const Row& other) { return other.missing == row.missing; },
-          [](const Row& other) { return name_of(other.what); });
-      remarks.push_back(fmt::format("Not measured: {}. They need a CUDA device: {}.", names, row.missing));
+    if (row.lack == Lack::nothing || std::ranges::find(reasons, row.missing_reason) != reasons.end()) {
+      continue;
     }
+    reasons.push_back(row.missing_reason);
+    const auto for_this_reason = [&](const Row& other) { return other.missing_reason == row.missing_reason; };
+    remarks.push_back(
+        row.lack == Lack::device
+            ? fmt::format("Not measured, for they need a CUDA device: {} ({}).",
+                          list_of(result, for_this_reason, &version_text), row.missing_reason)
+            : fmt::format("Failed: {} ({}).", list_of(result, for_this_reason, &case_text), row.missing_reason));
   }
   return remarks;
 }
@@ -63,6 +74,39 @@ std::vector<std::string> run_remarks(const ExperimentResult& result) {
       [](const Row& row) { return fmt::format("{} ({})", case_text(row), row.measured->runs); });
   if (!hurried.empty()) {
     remarks.push_back(fmt::format("Fewer runs than {}, for want of time: {}.", result.options.runs, hurried));
+  }
+  for (const MeshCounts& mesh : result.meshes) {
+    if (mesh.vertices != mesh.asked) {
+      remarks.push_back(fmt::format("The mesh of {} vertices is made of mirrored tiles and has {}.",
+                                    size_text(mesh.asked), count_text(mesh.vertices)));
+    }
+  }
+  return remarks;
+}
+
+std::vector<std::string> bit_remarks(const ExperimentResult& result) {
+  const auto is_measured_in = [](Order order) {
+    return [order](const Row& row) { return row.measured && row.what.order == order; };
+  };
+  std::vector<std::string> remarks;
+  if (!result.same_bits()) {
+    const std::string different = list_of(
+        result,
+        [](const Row& row) {
+          return row.measured && row.what.order == Order::colour &&
+                 !(row.measured->same_bits_again && row.measured->same_bits_as_first);
+        },
+        &case_text);
+    remarks.push_back(fmt::format("THESE GAVE OTHER BITS THAN THEY MUST: {}. Please report it.", different));
+  } else if (std::ranges::any_of(result.rows, is_measured_in(Order::colour))) {
+    remarks.emplace_back(
+        "All runs of a mesh in the same form gave the same coordinates bit for bit, whichever the version and the "
+        "layout.");
+  }
+  if (std::ranges::any_of(result.rows, is_measured_in(Order::unordered))) {
+    remarks.emplace_back(
+        "Form B unordered is the exception, and the paper to the letter: threads see each other's moves as they "
+        "happen, so every run gives another result.");
   }
   return remarks;
 }
@@ -86,45 +130,41 @@ Report make_report(ExperimentResult result, std::string command, std::string dat
 }
 
 std::vector<std::string> remarks_on(const Report& report) {
-  const ExperimentResult& result = report.result;
-  std::vector<std::string> remarks = missing_remarks(result);
-  std::ranges::move(run_remarks(result), std::back_inserter(remarks));
-  for (const MeshCounts& mesh : result.meshes) {
-    if (mesh.vertices != mesh.asked) {
-      remarks.push_back(fmt::format("The mesh of {} vertices is made of mirrored tiles and has {}.",
-                                    size_text(mesh.asked), mesh.vertices));
-    }
-  }
-  remarks.emplace_back(result.same_bits()
-                           ? "All runs of a mesh in the same form gave the same coordinates bit for bit, whichever the "
-                             "version and the layout."
-                           : "RUNS THAT MUST GIVE THE SAME BITS DID NOT. Please report this.");
-  if (std::ranges::any_of(result.rows,
-                          [](const Row& row) { return row.measured && row.what.order == Order::unordered; })) {
-    remarks.emplace_back(
-        "Form B unordered is the exception, and the paper to the letter: threads see each other's moves as they "
-        "happen, so every run gives another result.");
-  }
+  std::vector<std::string> remarks = lack_remarks(report.result);
+  std::ranges::move(run_remarks(report.result), std::back_inserter(remarks));
+  std::ranges::move(bit_remarks(report.result), std::back_inserter(remarks));
   return remarks;
 }
 
 std::vector<std::string> how_it_is_measured() {
-  return {
+  const SmoothingOptions defaults;
+  std::vector<std::string> sentences;
+  sentences.emplace_back(
       "Meshes: uniformly random points in the unit square, Delaunay triangulation, numbered at random; the boundary is "
-      "fixed. Smoothing runs to its stop: no vertex moves by more than 1e-6 of its edge length.",
+      "fixed.");
+  sentences.push_back(
+      fmt::format("Smoothing runs until no vertex moves by more than {} of its edge length, {} sweeps at most.",
+                  defaults.tolerance, defaults.max_sweeps));
+  sentences.emplace_back(
       "Smoothing is the sweeps and the never-worse check, which the paper does not have. On a device its own clock "
-      "measures it.",
+      "measures it. What the paper's running time takes in, it does not say; it is in single precision.");
+  sentences.emplace_back(
       "Transfer is that of the coordinates to the device and back. Topology is all that comes before the coordinates: "
       "neighbours, constraints, orientation, order in memory, memory itself, the copy of the triangles. On a device it "
-      "is found there, in the GPU version by one thread as in the paper, in the others in parallel.",
-      "Together is the whole call, by the host's clock. Every run starts from the triangles anew; a first one is not "
-      "counted.",
+      "is found there, in the GPU version by one thread as in the paper, in the others in parallel.");
+  sentences.emplace_back(
+      "Together is the whole call, by the host's clock. Every run starts from the triangles anew. A first one is not "
+      "counted, unless it took all the time that there was.");
+  sentences.emplace_back(
       "The serial CPU version is one thread that evaluates every vertex in every sweep, as the paper's. It is "
       "trismooth's own CPU code, in an order that is good for caches: a plainer one is slower, and speedups over it "
-      "are "
-      "larger. In Form B it visits vertices colour by colour.",
-      "Spreads are the least and the most of all runs. A speedup's spread is what both spreads allow.",
-  };
+      "larger. In Form B it visits vertices colour by colour.");
+  sentences.emplace_back(
+      "Spreads are the least and the most of all runs; that of a quotient is what both spreads allow. Times differ "
+      "where "
+      "their spreads do not overlap. A claim holds where every comparison agrees, and in part where some do; a time "
+      "measured once decides nothing. What \"slightly\" means is not judged: the factors are there.");
+  return sentences;
 }
 
 }  // namespace trismooth::bench

@@ -41,7 +41,7 @@ Json enum_json(Enum value) {
 
 Json machine_json(const Setting& setting) {
   return {{"cpu", setting.cpu},
-          {"threads", setting.threads},
+          {"threads", setting.threads > 0 ? Json(setting.threads) : Json(nullptr)},
           {"gpu", text_json(setting.gpu)},
           {"cuda", lines_json(setting.cuda)}};
 }
@@ -56,7 +56,8 @@ Json options_json(const ExperimentOptions& options) {
           {"precision", enum_json(options.precision)},
           {"seed", options.seed},
           {"runs", options.runs},
-          {"seconds", options.seconds}};
+          {"seconds", options.seconds},
+          {"threads", options.threads}};
 }
 
 Json meshes_json(const std::vector<MeshCounts>& meshes) {
@@ -87,7 +88,8 @@ Json measurement_json(const Measurement& measured) {
           {"vertex_updates", measured.vertex_updates},
           {"free_vertices", measured.free_vertices},
           {"coordinates_hash", measured.coordinates_hash},
-          {"same_bits_in_every_run", measured.same_bits_again}};
+          {"same_bits_in_every_run", measured.same_bits_again},
+          {"same_bits_as_first_case", measured.same_bits_as_first}};
 }
 
 Json rows_json(const ExperimentResult& result) {
@@ -95,7 +97,7 @@ Json rows_json(const ExperimentResult& result) {
   for (const Row& row : result.rows) {
     Json json{{"size", row.vertices}};
     json.update(case_json(row.what));
-    json["missing"] = text_json(row.missing);
+    json["missing_reason"] = text_json(row.missing_reason);
     json["measured"] = row.measured ? measurement_json(*row.measured) : Json(nullptr);
     json["speedup"] = spread_json(result.speedup(row.vertices, row.what));
     json["speedup_together"] = spread_json(result.speedup_together(row.vertices, row.what));
@@ -106,7 +108,7 @@ Json rows_json(const ExperimentResult& result) {
 
 Json published_json(const PublishedRow* row) {
   return row == nullptr ? Json(nullptr)
-                        : Json{{"cpu_ms", row->cpu_ms},
+                        : Json{{"serial_ms", row->cpu_ms},
                                {"aos_ms", row->aos_ms},
                                {"soa_ms", row->soa_ms},
                                {"aos_speedup", row->aos_speedup},
@@ -119,7 +121,7 @@ Json tables_json(const std::vector<Table>& tables) {
     Json rows = Json::array();
     for (const TableRow& row : table.rows) {
       rows.push_back({{"size", row.vertices},
-                      {"cpu_ms", spread_json(row.cpu_ms)},
+                      {"serial_ms", spread_json(row.serial_ms)},
                       {"aos_ms", spread_json(row.aos_ms)},
                       {"soa_ms", spread_json(row.soa_ms)},
                       {"aos_speedup", spread_json(row.aos_speedup)},
@@ -131,21 +133,21 @@ Json tables_json(const std::vector<Table>& tables) {
                     {"version", enum_json(table.version)},
                     {"form", enum_json(table.form)},
                     {"order", enum_json(table.order)},
-                    {"missing", text_json(table.missing)},
+                    {"missing_reason", text_json(table.missing_reason)},
                     {"rows", std::move(rows)}});
   }
   return list;
 }
 
 Json comparison_json(const Comparison& comparison) {
-  return {{"faster", comparison.faster},
-          {"slower", comparison.slower},
+  return {{"claimed_faster", case_json(comparison.claimed_faster)},
+          {"claimed_slower", case_json(comparison.claimed_slower)},
           {"size", comparison.vertices},
           {"factor", spread_json(comparison.factor)},
           {"support", enum_json(comparison.support)},
           {"paper_factor", comparison.published ? Json(*comparison.published) : Json(nullptr)},
-          {"sweeps", comparison.sweeps ? Json{{"faster", spread_json((*comparison.sweeps)[0])},
-                                              {"slower", spread_json((*comparison.sweeps)[1])}}
+          {"sweeps", comparison.sweeps ? Json{{"claimed_faster", spread_json((*comparison.sweeps)[0])},
+                                              {"claimed_slower", spread_json((*comparison.sweeps)[1])}}
                                        : Json(nullptr)}};
 }
 

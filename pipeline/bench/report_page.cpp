@@ -1,9 +1,12 @@
-#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/bench/figures.h"
 #include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/bench/wording.h"
 #include "trismooth/pipeline/html_page.h"
 #include "trismooth/pipeline/html_text.h"
 #include "trismooth/pipeline/version.h"
@@ -67,18 +70,19 @@ std::string header(const Report& report) {
   }
   return fmt::format(
       "<header>\n<div class=\"kind\">Smart Laplacian smoothing: the paper's experiments</div>\n<h1>{}</h1>\n"
-      "<div class=\"soft\">CPU: {}. GPU: {}. Smoothing in {} precision, {} of each. {}.</div>\n</header>\n",
-      escape_html(where), cpu, setting.gpu.empty() ? "none" : escape_html(setting.gpu),
+      "<div class=\"soft\">CPU: {}. GPU: {}. Smoothing in {} precision, up to {} of each. {}.</div>\n</header>\n",
+      escape_html(where), cpu, setting.gpu.empty() ? "none used" : escape_html(setting.gpu),
       to_string(report.result.options.precision), runs_text(report.result.options.runs), escape_html(setting.date));
 }
 
 std::string comparison_table(const std::vector<Comparison>& comparisons) {
   std::string html =
-      "<table>\n<thead><tr><th>expected to be faster</th><th>than</th><th>size</th><th>times as fast</th>"
+      "<table>\n<thead><tr><th>claimed to be faster</th><th class=\"word\">than</th><th>size</th><th>times as fast</th>"
       "<th>in the paper</th><th>sweeps</th><th>supports the claim</th></tr></thead>\n<tbody>\n";
   for (const Comparison& comparison : comparisons) {
-    html += "<tr>" + html_cell(escape_html(comparison.faster)) + html_cell(escape_html(comparison.slower), "word") +
-            html_cell(size_text(comparison.vertices)) + html_cell(spread_html(comparison.factor)) +
+    html += "<tr>" + html_cell(full_name(comparison.claimed_faster)) +
+            html_cell(full_name(comparison.claimed_slower), "word") + html_cell(size_text(comparison.vertices)) +
+            html_cell(spread_html(comparison.factor)) +
             html_cell(comparison.published ? three_digits(*comparison.published) : "-") +
             html_cell(comparison.sweeps ? fmt::format("{:.0f} / {:.0f}", (*comparison.sweeps)[0].median,
                                                       (*comparison.sweeps)[1].median)
@@ -113,7 +117,7 @@ std::string claims(const std::vector<Conclusion>& conclusions) {
 std::string table_head(bool with_paper) {
   const auto columns = [](std::string_view classes) {
     std::string html;
-    for (const std::string_view name : {"CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"}) {
+    for (const std::string_view name : {"serial CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"}) {
       html += fmt::format("<th class=\"{}{}\">{}</th>", html.empty() ? "start " : "", classes, name);
     }
     return html;
@@ -147,9 +151,9 @@ std::string table_html(const Table& table) {
   std::string html = fmt::format("<table class=\"wide\"><caption>{}</caption>\n{}<tbody>\n", escape_html(table.title),
                                  table_head(with_paper));
   for (const TableRow& row : table.rows) {
-    html += "<tr>" + html_cell(size_text(row.vertices)) + spread_cell(row.cpu_ms, "start") + spread_cell(row.aos_ms) +
-            spread_cell(row.soa_ms) + spread_cell(row.aos_speedup, "start") + spread_cell(row.soa_speedup) +
-            (with_paper ? paper_cells(row.published) : std::string{}) + "</tr>\n";
+    html += "<tr>" + html_cell(size_text(row.vertices)) + spread_cell(row.serial_ms, "start") +
+            spread_cell(row.aos_ms) + spread_cell(row.soa_ms) + spread_cell(row.aos_speedup, "start") +
+            spread_cell(row.soa_speedup) + (with_paper ? paper_cells(row.published) : std::string{}) + "</tr>\n";
   }
   return html + "</tbody></table>\n";
 }
@@ -158,7 +162,7 @@ std::string table_html(const Table& table) {
 std::string tables(const Report& report, bool of_paper) {
   std::string html;
   for (const Table& table : report.tables) {
-    if (of_paper ? table.number > 0 : table.number == 0 && table.missing.empty()) {
+    if (of_paper ? table.number > 0 : table.number == 0 && table.missing_reason.empty()) {
       html += table_html(table);
     }
   }
@@ -205,7 +209,9 @@ std::string mesh_table(const ExperimentResult& result, const MeshCounts& mesh) {
 std::string mesh_tables(const ExperimentResult& result) {
   std::string html;
   for (const MeshCounts& mesh : result.meshes) {
-    html += mesh_table(result, mesh);
+    if (any_measured_on(result, mesh)) {
+      html += mesh_table(result, mesh);
+    }
   }
   return html;
 }
@@ -223,8 +229,8 @@ std::string section_of_class(std::string_view name, const std::string& section) 
 
 std::string page_of(const Report& report) {
   const std::string paper = fmt::format(
-      "<p class=\"soft\">Milliseconds of smoothing, median (least-most), and speedups over the serial CPU version. The "
-      "paper: {}; {}.</p>\n",
+      "<p class=\"soft\">Milliseconds of smoothing, median (least-most), and speedups over the serial CPU version. In "
+      "the paper: running times ({}; {}).</p>\n",
       published_gpu, published_cpu);
   std::string body = header(report);
   body +=

@@ -1,11 +1,14 @@
 #include "trismooth/quality/report_text.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/bench/wording.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/quality/text_columns.h"
 
@@ -48,19 +51,19 @@ std::string median_or_dash(const std::optional<Spread>& spread) {
 std::string heading(const Report& report) {
   const ExperimentOptions& options = report.result.options;
   const Setting& setting = report.setting;
-  std::string text = fmt::format("trismooth {}: the experiments of the paper, {} precision, {} each, {}\n", version(),
-                                 to_string(options.precision), runs_text(options.runs), setting.date);
+  std::string text = fmt::format("trismooth {}: the experiments of the paper, {} precision, up to {} each, {}\n",
+                                 version(), to_string(options.precision), runs_text(options.runs), setting.date);
   text += fmt::format("CPU:  {}{}\n", setting.cpu,
                       setting.threads > 0 ? fmt::format(", {} threads", setting.threads) : std::string{});
-  return text + fmt::format("GPU:  {}\n", setting.gpu.empty() ? "none" : setting.gpu);
+  return text + fmt::format("GPU:  {}\n", setting.gpu.empty() ? "none used" : setting.gpu);
 }
 
 /// All cases of one mesh that were measured.
 std::string mesh_text(const ExperimentResult& result, const MeshCounts& mesh) {
-  const std::string title = fmt::format("\n{}: {} vertices, {} triangles\n", size_text(mesh.asked),
-                                        count_text(mesh.vertices), count_text(mesh.triangles));
-  if (std::ranges::none_of(result.rows, [](const Row& row) { return row.measured.has_value(); })) {
-    return title;
+  std::string title = fmt::format("\n{}: {} vertices, {} triangles\n", size_text(mesh.asked), count_text(mesh.vertices),
+                                  count_text(mesh.triangles));
+  if (!any_measured_on(result, mesh)) {
+    return title + "nothing was measured\n";
   }
   TextColumns columns({{0, Align::left}, {gap, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}});
   columns.add_row({"", "form", "topology", "transfer", "smoothing", "together", "sweeps", "smoothing", "together"});
@@ -80,9 +83,9 @@ std::string mesh_text(const ExperimentResult& result, const MeshCounts& mesh) {
 std::string table_text(const Table& table) {
   TextColumns columns({{0, Align::left}, {gap, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}});
   const bool is_of_paper = table.number > 0;
-  columns.add_row({"size", "", "CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"});
+  columns.add_row({"size", "", "serial CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"});
   for (const TableRow& row : table.rows) {
-    columns.add_row({size_text(row.vertices), is_of_paper ? "here" : "", text_or_dash(row.cpu_ms),
+    columns.add_row({size_text(row.vertices), is_of_paper ? "here" : "", text_or_dash(row.serial_ms),
                      text_or_dash(row.aos_ms), text_or_dash(row.soa_ms), text_or_dash(row.aos_speedup),
                      text_or_dash(row.soa_speedup)});
     if (row.published != nullptr) {
@@ -102,13 +105,13 @@ std::string tables_text(const Report& report) {
   for (const Table& table : report.tables) {
     if (table.number > 0) {
       of_paper += table_text(table);
-    } else if (table.missing.empty()) {
+    } else if (table.missing_reason.empty()) {
       beyond += table_text(table);
     }
   }
   std::string text;
   if (!of_paper.empty()) {
-    text += fmt::format("\nThe paper's tables: milliseconds of smoothing, here and in the paper ({}; {})\n",
+    text += fmt::format("\nThe paper's tables: milliseconds of smoothing here, running time in the paper ({}; {})\n",
                         published_gpu, published_cpu) +
             of_paper;
   }

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/quality/report_text.h"
-
 namespace trismooth::bench {
 
 namespace {
@@ -18,7 +16,7 @@ std::optional<Spread> smoothing_ms(const ExperimentResult& result, std::int64_t 
 
 std::string title_of(const Table& table) {
   std::string title = table.number > 0 ? fmt::format("Table {}: ", table.number) : std::string{};
-  title += fmt::format("{}, Form {}", name_of(table.version), table.form == Form::swap ? "A" : "B");
+  title += fmt::format("{}, Form {}", name_of(table.version), letter_of(table.form));
   if (table.order == Order::unordered) {
     title += ", unordered as in the paper";
   } else if (table.form == Form::in_place) {
@@ -35,7 +33,7 @@ std::string missing_in(const ExperimentResult& result, const Table& table) {
       if (row.measured) {
         return {};
       }
-      reason = row.missing;
+      reason = row.missing_reason;
     }
   }
   return reason;
@@ -44,7 +42,7 @@ std::string missing_in(const ExperimentResult& result, const Table& table) {
 Table table_of(const ExperimentResult& result, int number, Version version, Form form, Order order) {
   Table table{number, {}, version, form, order, {}, {}};
   table.title = title_of(table);
-  table.missing = missing_in(result, table);
+  table.missing_reason = missing_in(result, table);
   const Case aos{version, form, order, Layout::aos};
   const Case soa{version, form, order, Layout::soa};
   for (const std::int64_t size : result.options.sizes) {
@@ -56,6 +54,10 @@ Table table_of(const ExperimentResult& result, int number, Version version, Form
 }
 
 }  // namespace
+
+bool any_measured_on(const ExperimentResult& result, const MeshCounts& mesh) {
+  return std::ranges::any_of(result.rows, [&](const Row& row) { return row.vertices == mesh.asked && row.measured; });
+}
 
 std::vector<Table> tables_of(const ExperimentResult& result) {
   std::vector<Table> tables;
@@ -72,27 +74,6 @@ std::vector<Table> tables_of(const ExperimentResult& result) {
   add(0, Version::resident, Form::swap, Order::colour);
   add(0, Version::resident, Form::in_place, Order::colour);
   return tables;
-}
-
-std::string size_text(std::int64_t vertices) {
-  constexpr std::int64_t thousand = 1'000;
-  constexpr std::int64_t million = thousand * thousand;
-  if (vertices >= million && vertices % (million / 10) == 0) {
-    return fmt::format("{}M", static_cast<double>(vertices) / million);
-  }
-  if (vertices >= thousand && vertices % (thousand / 10) == 0) {
-    return fmt::format("{}K", static_cast<double>(vertices) / thousand);
-  }
-  return count_text(vertices);
-}
-
-std::string runs_text(int runs) {
-  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
-}
-
-std::string sweeps_text(const Spread& sweeps) {
-  return sweeps.least == sweeps.most ? fmt::format("{:.0f}", sweeps.median)
-                                     : fmt::format("{:.0f} ({:.0f}-{:.0f})", sweeps.median, sweeps.least, sweeps.most);
 }
 
 }  // namespace trismooth::bench

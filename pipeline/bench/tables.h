@@ -13,7 +13,7 @@ namespace trismooth::bench {
 /// version that is. What was not measured is empty.
 struct TableRow {
   std::int64_t vertices = 0;
-  std::optional<Spread> cpu_ms;
+  std::optional<Spread> serial_ms;  ///< of the serial CPU version
   std::optional<Spread> aos_ms;
   std::optional<Spread> soa_ms;
   std::optional<Spread> aos_speedup;
@@ -29,20 +29,14 @@ struct Table {
   Form form = Form::swap;
   Order order = Order::colour;
   std::vector<TableRow> rows;  ///< one a size
-  std::string missing;         ///< why nothing in it was measured beside the CPU; empty where something was
+  std::string missing_reason;  ///< why nothing in it was measured beside the CPU; empty where something was
 };
+
+/// Whether any case was measured on this mesh.
+bool any_measured_on(const ExperimentResult& result, const MeshCounts& mesh);
 
 /// The paper's four tables in its order, then those like them for what the paper does not have: Form B of its versions
 /// in colour order, the resident version. Versions that the experiment was not asked for have no table.
 std::vector<Table> tables_of(const ExperimentResult& result);
-
-/// "1K", "50K", "1M"; "1,234" where that would not be exact.
-std::string size_text(std::int64_t vertices);
-
-/// "7 runs", "1 run".
-std::string runs_text(int runs);
-
-/// "49", or "49 (48-52)" where runs differ.
-std::string sweeps_text(const Spread& sweeps);
 
 }  // namespace trismooth::bench

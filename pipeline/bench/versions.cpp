@@ -34,6 +34,10 @@ Order order_of_paper(Version version, Form form) {
   return has_unordered(version) && form == Form::in_place ? Order::unordered : Order::colour;
 }
 
+Case case_of_paper(Version version, Form form, Layout layout) {
+  return {version, form, order_of_paper(version, form), runs_on_device(version) ? layout : Layout::aos};
+}
+
 std::vector<Case> cases_of(std::span<const Version> versions) {
   std::vector<Case> cases;
   for (const Version version : versions) {
@@ -85,11 +89,16 @@ std::string name_of(Version version) {
   return "resident version";
 }
 
+std::string_view letter_of(Form form) {
+  return form == Form::swap ? "A" : "B";
+}
+
 std::string form_of(const Case& what) {
-  if (what.form == Form::swap) {
-    return "A";
-  }
-  return what.order == Order::unordered ? "B unordered" : "B";
+  return std::string(letter_of(what.form)) + (what.order == Order::unordered ? " unordered" : "");
+}
+
+std::string full_name(const Case& what) {
+  return name_of(what) + ", Form " + form_of(what);
 }
 
 SmoothingOptions options_of(const Case& what, Precision precision, int threads, const CudaSupport& cuda) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trismooth/pipeline/cuda_support.h"
@@ -39,6 +42,9 @@ bool is_of_paper(const Case& what);
 /// The order in which the paper runs this form of a version.
 Order order_of_paper(Version version, Form form);
 
+/// A version in one form and layout as the paper runs it; on the CPU, where there are no layouts, always AoS.
+Case case_of_paper(Version version, Form form, Layout layout);
+
 /// All cases of these versions, in the order of `versions`. Form B of `gpu` and `cdp` comes in both orders.
 std::vector<Case> cases_of(std::span<const Version> versions);
 
@@ -46,8 +52,12 @@ std::vector<Case> cases_of(std::span<const Version> versions);
 std::string name_of(const Case& what);
 /// The same without the layout: "GPU version".
 std::string name_of(Version version);
+/// "A", "B".
+std::string_view letter_of(Form form);
 /// "A", "B", "B unordered".
 std::string form_of(const Case& what);
+/// "GPU-AoS, Form A".
+std::string full_name(const Case& what);
 
 /// The options that make a smoothing run as this case. `threads` are those of Version::cpu, and of the copies to a
 /// device. `cuda.backend` must be there for versions that run on a device.

@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/bench/conclusions.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,7 +101,7 @@ TEST_CASE("AoS at least as fast as SoA holds where it is faster or cannot be tol
     return scaled(vertices == 1'000 ? 0.25 : 2, soa)(vertices, what);
   });
   CHECK(part.verdict == Verdict::in_part);
-  CHECK(says(part, "1K 0.312, 100K 2.50"));
+  CHECK(says(part, "1K: 0.312; 100K: 2.50"));
 }
 
 TEST_CASE("layouts of the resident version are told, and decide nothing") {
@@ -116,9 +117,9 @@ TEST_CASE("Form A slower than Form B is judged by the paper's literal Form B, wi
   const Conclusion conclusion = conclude(form, &sample::regular_time);
   CHECK(conclusion.verdict == Verdict::holds);
   CHECK(conclusion.comparisons.size() == 8);
-  CHECK(says(conclusion, "1K 100 and 80 (75-85); 100K 100 and 80 (75-85)"));
+  CHECK(says(conclusion, "1K: 100 and 80 (75-85); 100K: 100 and 80 (75-85)"));
   // Twice the time for 100 sweeps instead of 80.
-  CHECK(says(conclusion, "One sweep of Form A takes 1.60 times as long"));
+  CHECK(says(conclusion, "smoothing in Form A takes 1.60 times as long"));
   const auto literal = [](std::int64_t, const Case& what) { return what.order == Order::unordered; };
   CHECK(conclude(form, scaled(8, literal)).verdict == Verdict::does_not);
   CHECK(conclude(form, scaled(2, literal)).verdict == Verdict::undecided);
@@ -154,8 +155,53 @@ TEST_CASE("without a device the forms are judged by the CPU, and the rest says w
   const Conclusion forms = conclude(form, result);
   CHECK(forms.verdict == Verdict::holds);
   CHECK(forms.comparisons.size() == 4);
-  CHECK(says(forms, "Judged by the CPU versions alone"));
-  CHECK(says(forms, "1K 100 and 50; 100K 100 and 50"));
+  CHECK(forms.findings.front().find("Judged by the CPU versions alone") == 0);
+  CHECK(says(forms, "1K: 100 and 50; 100K: 100 and 50"));
+}
+
+TEST_CASE("one comparison against a claim leaves it in part where others agree, whatever agreeing means") {
+  const auto soa_at = [](std::int64_t size) {
+    return [size](std::int64_t vertices, const Case& what) {
+      return vertices == size && what.version == Version::gpu && what.layout == Layout::soa;
+    };
+  };
+  // Regular layouts are within their spread, which agrees with "at least as fast".
+  CHECK(conclude(layout, scaled(0.25, soa_at(1'000))).verdict == Verdict::in_part);
+  // Being faster takes more: a version that is within the spread at one size is not always faster.
+  const auto gpu_form_b_at_1k = [](std::int64_t vertices, const Case& what) {
+    return vertices == 1'000 && what.version == Version::gpu && what.order == Order::unordered;
+  };
+  CHECK(conclude(form, scaled(2, gpu_form_b_at_1k)).verdict == Verdict::in_part);
+}
+
+TEST_CASE("what was measured once decides on no claim") {
+  ExperimentResult result = sample::experiment({1'000, 100'000}, &sample::regular_time);
+  for (auto& row : result.rows) {
+    row.measured->runs = 1;
+  }
+  for (const Conclusion& conclusion : conclusions_of(result)) {
+    CHECK(conclusion.verdict == Verdict::undecided);
+  }
+}
+
+TEST_CASE("times of nothing make no speedups and no verdicts") {
+  const std::vector<Conclusion> all =
+      conclusions_of(sample::experiment({1'000}, [](std::int64_t size, const Case& what) -> std::optional<Spread> {
+        return runs_on_device(what.version) ? sample::exactly(0) : *sample::regular_time(size, what);
+      }));
+  for (const Conclusion& conclusion : all) {
+    for (const std::string& finding : conclusion.findings) {
+      CHECK(finding.find("inf") == std::string::npos);
+      CHECK(finding.find("nan") == std::string::npos);
+    }
+  }
+  CHECK(all[speedup].verdict == Verdict::not_measured);
+}
+
+TEST_CASE("reasons are those of the paper's versions") {
+  const ExperimentResult result =
+      sample::experiment({1'000}, &sample::cpu_time, {Version::serial, Version::cpu, Version::resident});
+  CHECK(conclude(speedup, result).findings.front() == "Not measured: the experiment was not asked for what it takes.");
 }
 
 TEST_CASE("an experiment that was not asked for enough says so") {

@@ -20,6 +20,7 @@ using trismooth::bench::Case;
 using trismooth::bench::ExperimentOptions;
 using trismooth::bench::ExperimentProgress;
 using trismooth::bench::ExperimentResult;
+using trismooth::bench::Lack;
 using trismooth::bench::Measurement;
 using trismooth::bench::Row;
 using trismooth::bench::run_experiment;
@@ -55,7 +56,8 @@ TEST_CASE("every case is measured on every mesh where there is a device") {
   CHECK(result.meshes[1].vertices == 200);
   for (const Row& row : result.rows) {
     CAPTURE(row.vertices, name_of(row.what), form_of(row.what));
-    CHECK(row.missing.empty());
+    CHECK(row.missing_reason.empty());
+    CHECK(row.lack == Lack::nothing);
     REQUIRE(row.measured);
     const Measurement& measured = *row.measured;
     CHECK(measured.runs == 2);
@@ -68,7 +70,7 @@ TEST_CASE("every case is measured on every mesh where there is a device") {
     CHECK(measured.sweeps.least >= 1);
   }
   CHECK(result.same_bits());
-  CHECK_FALSE(result.device_failed());
+  CHECK_FALSE(result.any_lack_of(Lack::working_device));
   // One run to warm up and two that count, of sixteen cases on two meshes.
   CHECK(backend.smoothed == 3 * 16 * 2);
 }
@@ -113,9 +115,9 @@ TEST_CASE("without CUDA, a device or dynamic parallelism the cases that need it 
     for (const Row& row : result.rows) {
       CAPTURE(name_of(row.what));
       CHECK(row.measured.has_value() == !missing.contains(row.what.version));
-      CHECK(row.missing == (missing.contains(row.what.version) ? reason : ""));
+      CHECK(row.missing_reason == (missing.contains(row.what.version) ? reason : ""));
     }
-    CHECK_FALSE(result.device_failed());
+    CHECK_FALSE(result.any_lack_of(Lack::working_device));
   };
   ExperimentOptions left_out = small();
   left_out.no_device_reason = "left out by a test";
@@ -130,12 +132,55 @@ TEST_CASE("without CUDA, a device or dynamic parallelism the cases that need it 
 TEST_CASE("a device that fails leaves the rest standing") {
   const fakes::FakeBackend backend(fakes::Failure::smooth);
   const ExperimentResult result = run_experiment(small(), device(backend));
-  CHECK(result.device_failed());
+  CHECK(result.any_lack_of(Lack::working_device));
   for (const Row& row : result.rows) {
     CHECK(row.measured.has_value() == !runs_on_device(row.what.version));
-    CHECK(row.device_failed == runs_on_device(row.what.version));
-    CHECK((row.missing.find("cudaErrorMemoryAllocation") != std::string::npos) == runs_on_device(row.what.version));
+    CHECK((row.lack == Lack::working_device) == runs_on_device(row.what.version));
+    CHECK((row.missing_reason.find("cudaErrorMemoryAllocation") != std::string::npos) ==
+          runs_on_device(row.what.version));
   }
+}
+
+TEST_CASE("a lack of memory on the device's side of the work leaves the rest standing") {
+  const fakes::FakeBackend backend(fakes::Failure::host_memory);
+  const ExperimentResult result = run_experiment(small(), device(backend));
+  CHECK(result.any_lack_of(Lack::memory));
+  for (const Row& row : result.rows) {
+    CHECK(row.measured.has_value() == !runs_on_device(row.what.version));
+    CHECK(row.missing_reason == (runs_on_device(row.what.version) ? "not enough memory" : ""));
+  }
+}
+
+TEST_CASE("where no case can run, no mesh is made") {
+  ExperimentOptions options = small();
+  options.versions = {Version::gpu};
+  const ExperimentResult result = run_experiment(options, {});
+  CHECK(result.meshes.empty());
+  CHECK(result.rows.size() == 2 * 6);
+}
+
+TEST_CASE("a mesh without free vertices takes no time, and has no speedup") {
+  const fakes::FakeBackend backend(fakes::Failure::no_time);
+  ExperimentOptions options = small();
+  options.sizes = {4};
+  const ExperimentResult result = run_experiment(options, device(backend));
+  const Case resident{Version::resident, Form::swap};
+  REQUIRE(result.find(4, resident) != nullptr);
+  CHECK(result.find(4, resident)->smoothing.most == 0);
+  CHECK_FALSE(result.speedup(4, resident));
+  CHECK(result.speedup_together(4, resident));
+}
+
+TEST_CASE("the serial version is as fast as itself") {
+  const ExperimentResult result = run_experiment(small(), {});
+  const Spread speedup = *result.speedup(60, {Version::serial, Form::swap});
+  CHECK((speedup.least == 1 && speedup.median == 1 && speedup.most == 1));
+}
+
+TEST_CASE("the result does not hold on to who watched") {
+  ExperimentOptions options = small();
+  options.progress = [](const ExperimentProgress&) {};
+  CHECK_FALSE(run_experiment(options, {}).options.progress);
 }
 
 TEST_CASE("other bits than those of the first case are noticed") {
@@ -144,7 +189,8 @@ TEST_CASE("other bits than those of the first case are noticed") {
   CHECK_FALSE(result.same_bits());
   for (const Row& row : result.rows) {
     CHECK(row.measured->same_bits_again);
-    CHECK(row.measured->same_bits_as_rest == (!runs_on_device(row.what.version) || row.what.order == Order::unordered));
+    CHECK(row.measured->same_bits_as_first ==
+          (!runs_on_device(row.what.version) || row.what.order == Order::unordered));
   }
 }
 

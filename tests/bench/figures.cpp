@@ -70,7 +70,16 @@ TEST_CASE("what was not measured has no line, and sizes are in order whatever wa
 
 TEST_CASE("there is no figure where there is nothing to draw") {
   const ExperimentResult nothing =
-      sample::experiment({2'000}, [](std::int64_t, const sample::Case&) { return std::optional<sample::Spread>{}; });
+      sample::experiment({1'000}, [](std::int64_t, const sample::Case&) { return std::optional<sample::Spread>{}; });
   CHECK(forms_figure(nothing).empty());
   CHECK(speedup_figure(nothing).empty());
+}
+
+TEST_CASE("a time of nothing has no place on a logarithmic axis, and leaves the rest standing") {
+  const ExperimentResult result = sample::experiment({4, 1'000}, [](std::int64_t size, const sample::Case& what) {
+    return size == 4 ? sample::exactly(0) : *sample::regular_time(size, what);
+  });
+  CHECK(count_of(forms_figure(result), ", 4: ") == 0);
+  CHECK(count_of(forms_figure(result), "GPU version, Form A, 1K: ") > 0);
+  CHECK(count_of(speedup_figure(result), ", 4: ") == 0);
 }

@@ -447,3 +447,13 @@ TEST_CASE("a panel without points is drawn empty, a chart without points is refu
   CHECK_THROWS_AS(log_chart_svg(chart({{"", {}}})), std::invalid_argument);
   CHECK_THROWS_AS(log_chart_svg(chart({{"", {series("a", {})}}})), std::invalid_argument);
 }
+
+TEST_CASE("what is not positive is refused") {
+  const auto chart_with = [](double x, const Spread& y) {
+    return LogChart{"id", "a chart", "x", "y", {{"panel", {{"line", {}, {{x, y}}}}}}};
+  };
+  CHECK_NOTHROW(log_chart_svg(chart_with(1, {1, 1, 1})));
+  CHECK_THROWS_AS(log_chart_svg(chart_with(0, {1, 1, 1})), std::invalid_argument);
+  CHECK_THROWS_AS(log_chart_svg(chart_with(1, {1, 0, 1})), std::invalid_argument);
+  CHECK_THROWS_AS(log_chart_svg(chart_with(1, {-1, -1, -1})), std::invalid_argument);
+}

@@ -42,18 +42,34 @@ TEST_CASE("the remarks name each version that was not measured, once, and why") 
   const auto remarks = remarks_on(report_of(sample::experiment({1'000, 5'000}, &sample::cpu_time)));
   CHECK(
       says(remarks,
-           "Not measured: GPU-AoS, GPU-SoA, CDP-AoS, CDP-SoA, resident-AoS, resident-SoA. They need a CUDA device: no "
-           "device: for a <test>."));
+           "Not measured, for they need a CUDA device: GPU-AoS, GPU-SoA, CDP-AoS, CDP-SoA, resident-AoS, resident-SoA "
+           "(no device: for a <test>)."));
   CHECK_FALSE(says(remarks, "unordered"));
   CHECK_FALSE(says(remarks_on(report_of(sample::experiment({1'000}, &sample::regular_time))), "Not measured"));
+}
+
+TEST_CASE("the remarks name each case that failed, with its size") {
+  ExperimentResult result = sample::experiment({1'000, 5'000}, &sample::regular_time);
+  Row& row = result.rows.back();
+  row.measured.reset();
+  row.lack = trismooth::bench::Lack::working_device;
+  row.missing_reason = "cudaErrorMemoryAllocation";
+  CHECK(says(remarks_on(report_of(result)), "Failed: 5K resident-SoA, Form B (cudaErrorMemoryAllocation)."));
+  CHECK_FALSE(says(remarks_on(report_of(result)), "need a CUDA device"));
+}
+
+TEST_CASE("where nothing was measured the remarks say nothing of bits") {
+  const auto remarks =
+      remarks_on(report_of(sample::experiment({1'000}, &sample::cpu_time, {Version::gpu, Version::resident})));
+  CHECK(remarks.size() == 1);
 }
 
 TEST_CASE("the remarks say whether the bits were the same, and that unordered ones differ") {
   ExperimentResult result = sample::experiment({1'000}, &sample::regular_time);
   CHECK(says(remarks_on(report_of(result)), "gave the same coordinates bit for bit"));
   CHECK(says(remarks_on(report_of(result)), "every run gives another result"));
-  result.rows.back().measured->same_bits_as_rest = false;
-  CHECK(says(remarks_on(report_of(result)), "DID NOT"));
+  result.rows.back().measured->same_bits_as_first = false;
+  CHECK(says(remarks_on(report_of(result)), "THESE GAVE OTHER BITS THAN THEY MUST: 1K resident-SoA, Form B."));
   CHECK_FALSE(says(remarks_on(report_of(result)), "gave the same coordinates"));
 }
 
@@ -68,5 +84,5 @@ TEST_CASE("the remarks name what did not settle, what ran fewer times, and meshe
   const auto remarks = remarks_on(report_of(result));
   CHECK(says(remarks, "Never settled, 1000 sweeps are the limit: 1K serial CPU, Form A."));
   CHECK(says(remarks, "Fewer runs than 7, for want of time: 1K serial CPU, Form B (3)."));
-  CHECK(says(remarks, "The mesh of 1K vertices is made of mirrored tiles and has 1024."));
+  CHECK(says(remarks, "The mesh of 1K vertices is made of mirrored tiles and has 1,024."));
 }

@@ -48,32 +48,33 @@ TEST_CASE("every row of every table is a line with as many cells as there are co
       CHECK(cells[1] == trismooth::to_string(table.version));
       CHECK(cells[2] == trismooth::to_string(table.form));
       CHECK(cells[3] == trismooth::to_string(table.order));
-      CHECK(std::stoll(cells[4]) == row.vertices);
-      CHECK(std::stod(cells[5]) == row.cpu_ms->median);
-      CHECK(std::stod(cells[9]) == row.aos_ms->least);
-      CHECK(std::stod(cells[13]) == row.soa_ms->most);
-      CHECK(std::stod(cells[14]) == row.aos_speedup->median);
-      CHECK(std::stod(cells[17]) == row.soa_speedup->median);
-      CHECK(cells[20].empty() == (row.published == nullptr));
-      CHECK(cells[24].empty() == (row.published == nullptr));
+      CHECK(cells[4] == "single");
+      CHECK(std::stoll(cells[5]) == row.vertices);
+      CHECK(std::stod(cells[6]) == row.serial_ms->median);
+      CHECK(std::stod(cells[10]) == row.aos_ms->least);
+      CHECK(std::stod(cells[14]) == row.soa_ms->most);
+      CHECK(std::stod(cells[15]) == row.aos_speedup->median);
+      CHECK(std::stod(cells[18]) == row.soa_speedup->median);
+      CHECK(cells[21].empty() == (row.published == nullptr));
+      CHECK(cells[25].empty() == (row.published == nullptr));
     }
   }
-  CHECK(rows[1][20] == "218");
-  CHECK(rows[1][24] == "11.6");
+  CHECK(rows[1][21] == "218");
+  CHECK(rows[1][25] == "11.6");
 }
 
 TEST_CASE("the columns are named") {
   const auto names = cells_of(csv_of(make_report(sample::experiment({1'000}, &sample::cpu_time), "", "", ""))).front();
-  CHECK(names[4] == "vertices");
-  CHECK(names[9] == "aos_ms_least");
-  CHECK(names[19] == "soa_speedup_most");
-  CHECK(names[24] == "paper_soa_speedup");
+  CHECK(names[5] == "size");
+  CHECK(names[10] == "aos_ms_least");
+  CHECK(names[20] == "soa_speedup_most");
+  CHECK(names[25] == "paper_soa_speedup");
 }
 
 TEST_CASE("what was not measured is empty") {
   const auto rows = cells_of(csv_of(make_report(sample::experiment({1'000}, &sample::cpu_time), "", "", "")));
-  CHECK_FALSE(rows[1][5].empty());
-  for (std::size_t column = 8; column < 20; ++column) {
+  CHECK_FALSE(rows[1][6].empty());
+  for (std::size_t column = 9; column < 21; ++column) {
     CHECK(rows[1][column].empty());
   }
 }

@@ -43,7 +43,7 @@ TEST_CASE("the JSON has every case on every mesh") {
   CHECK(row["form"] == "a");
   CHECK(row["order"] == "colour");
   CHECK(row["size"] == 1'000);
-  CHECK(row["missing"].is_null());
+  CHECK(row["missing_reason"].is_null());
   CHECK(row["measured"]["smoothing_ms"] == Json{{"median", 20.0}, {"least", 17.5}, {"most", 22.5}});
   CHECK(row["measured"]["transfer_ms"]["median"] == 0.5);
   CHECK(row["measured"]["topology_ms"]["median"] == 0.25);
@@ -64,18 +64,20 @@ TEST_CASE("the JSON has the tables beside the paper's, and the conclusions with 
   CHECK(json["tables"][6]["table"].is_null());
   REQUIRE(json["conclusions"].size() == 4);
   CHECK(json["conclusions"][0]["verdict"] == "does not hold");
-  CHECK(json["conclusions"][2]["comparisons"][0]["sweeps"]["slower"]["median"] == 100.0);
+  CHECK(json["conclusions"][2]["comparisons"][0]["sweeps"]["claimed_slower"]["median"] == 100.0);
+  CHECK(json["conclusions"][1]["comparisons"][0]["claimed_slower"] ==
+        Json{{"version", "gpu"}, {"layout", "soa"}, {"form", "a"}, {"order", "colour"}});
   CHECK(json["conclusions"][1]["comparisons"][0]["paper_factor"] == 18.8 / 16.0);
-  CHECK(json["conclusions"][1]["comparisons"][0]["support"] == "undecided");
+  CHECK(json["conclusions"][1]["comparisons"][0]["support"] == "within the spread");
 }
 
 TEST_CASE("what was not measured is null, with the reason") {
   const Json json = json_with(&sample::cpu_time);
   CHECK(json["machine"]["gpu"].is_null());
   CHECK(json["rows"][5]["measured"].is_null());
-  CHECK(json["rows"][5]["missing"] == "no device: for a <test>");
+  CHECK(json["rows"][5]["missing_reason"] == "no device: for a <test>");
   CHECK(json["rows"][5]["speedup"].is_null());
-  CHECK(json["tables"][0]["missing"] == "no device: for a <test>");
+  CHECK(json["tables"][0]["missing_reason"] == "no device: for a <test>");
   CHECK(json["tables"][0]["rows"][0]["aos_ms"].is_null());
   CHECK(json["conclusions"][1]["verdict"] == "not measured");
 }

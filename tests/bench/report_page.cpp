@@ -64,8 +64,8 @@ TEST_CASE("the page has the claims, the paper's tables beside its figures, the f
 
 TEST_CASE("without a device the page has the CPU's numbers and no empty tables beyond the paper's") {
   const pages::Parsed page = pages::parse(page_with(&sample::cpu_time).substr(15));
-  CHECK(page.says("GPU: none"));
+  CHECK(page.says("GPU: none used"));
   CHECK(page.says("Table 4"));
   CHECK_FALSE(page.says("Beyond the paper"));
-  CHECK(page.says("They need a CUDA device"));
+  CHECK(page.says("they need a CUDA device"));
 }

@@ -71,11 +71,11 @@ TEST_CASE("every claim is there with its verdict and what it rests on") {
 
 TEST_CASE("without a device the text has the CPU's rows, and says what needs one") {
   const std::string text = text_with(&sample::cpu_time);
-  CHECK(has(text, "GPU:  none\n"));
+  CHECK(has(text, "GPU:  none used\n"));
   CHECK(line(text, "GPU-AoS").empty());
   CHECK(line(text, "1K here", "Table 3:") == "1K here 80.0 (70.0-90.0) - - - -");
   CHECK_FALSE(has(text, "Beyond the paper"));
-  CHECK(has(text, "They need a CUDA\n  device"));
+  CHECK(has(text, "Not measured, for they need a CUDA device: GPU-AoS"));
 }
 
 TEST_CASE("what was not asked for leaves no empty headings") {

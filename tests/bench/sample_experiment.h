@@ -37,7 +37,7 @@ inline ExperimentResult experiment(
   for (const std::int64_t size : sizes) {
     result.meshes.push_back({size, size, 2 * size});
     for (const Case& what : trismooth::bench::cases_of(versions)) {
-      trismooth::bench::Row row{size, what, std::nullopt, {}};
+      trismooth::bench::Row row{size, what};
       if (const auto time = times(size, what)) {
         const double transfer = runs_on_device(what.version) ? 0.5 : 0;
         Measurement measured;
@@ -58,7 +58,8 @@ inline ExperimentResult experiment(
         measured.coordinates_hash = "0123456789abcdef";
         row.measured = measured;
       } else {
-        row.missing = "no device: for a <test>";
+        row.lack = trismooth::bench::Lack::device;
+        row.missing_reason = "no device: for a <test>";
       }
       result.rows.push_back(row);
     }

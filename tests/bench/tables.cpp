@@ -14,8 +14,6 @@ using sample::Layout;
 using sample::Order;
 using sample::Spread;
 using sample::Version;
-using trismooth::bench::size_text;
-using trismooth::bench::sweeps_text;
 using trismooth::bench::Table;
 using trismooth::bench::TableRow;
 using trismooth::bench::tables_of;
@@ -54,11 +52,11 @@ TEST_CASE("a table's cells are the measurements of its cases, and the paper's ro
   for (const Table& table : tables_of(result)) {
     CAPTURE(table.title);
     REQUIRE(table.rows.size() == 3);
-    CHECK(table.missing.empty());
+    CHECK(table.missing_reason.empty());
     for (const TableRow& row : table.rows) {
       const Case aos{table.version, table.form, table.order, Layout::aos};
       const Case soa{table.version, table.form, table.order, Layout::soa};
-      check_equal(row.cpu_ms, sample::regular_time(row.vertices, {Version::serial, table.form}));
+      check_equal(row.serial_ms, sample::regular_time(row.vertices, {Version::serial, table.form}));
       check_equal(row.aos_ms, sample::regular_time(row.vertices, aos));
       check_equal(row.soa_ms, sample::regular_time(row.vertices, soa));
       check_equal(row.aos_speedup, result.speedup(row.vertices, aos));
@@ -70,8 +68,8 @@ TEST_CASE("a table's cells are the measurements of its cases, and the paper's ro
 
 TEST_CASE("without a device the tables have the CPU's column and the paper's, and say what is missing") {
   for (const Table& table : tables_of(sample::experiment({1'000}, &sample::cpu_time))) {
-    CHECK(table.missing == "no device: for a <test>");
-    CHECK(table.rows.front().cpu_ms);
+    CHECK(table.missing_reason == "no device: for a <test>");
+    CHECK(table.rows.front().serial_ms);
     CHECK_FALSE(table.rows.front().aos_ms);
     CHECK_FALSE(table.rows.front().soa_speedup);
   }
@@ -83,23 +81,7 @@ TEST_CASE("versions that were not asked for have no table, and without the seria
   for (const Table& table : tables) {
     CHECK(table.version == Version::cdp);
     CHECK(table.rows.front().aos_ms);
-    CHECK_FALSE(table.rows.front().cpu_ms);
+    CHECK_FALSE(table.rows.front().serial_ms);
     CHECK_FALSE(table.rows.front().aos_speedup);
   }
-}
-
-TEST_CASE("sizes are written short where that is exact") {
-  CHECK(size_text(4) == "4");
-  CHECK(size_text(1'000) == "1K");
-  CHECK(size_text(1'500) == "1.5K");
-  CHECK(size_text(1'234) == "1,234");
-  CHECK(size_text(50'000) == "50K");
-  CHECK(size_text(1'000'000) == "1M");
-  CHECK(size_text(2'500'000) == "2.5M");
-  CHECK(size_text(9'999'000) == "9999K");
-}
-
-TEST_CASE("sweeps that differ between runs have their bounds") {
-  CHECK(sweeps_text({49, 49, 49}) == "49");
-  CHECK(sweeps_text({80.5, 75, 86}) == "80 (75-86)");
 }

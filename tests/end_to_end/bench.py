@@ -39,21 +39,22 @@ PAPER = {
                    (11918, 404.4, 424.8, 29.47, 28.06),
                    (26021, 750.2, 801.7, 34.69, 32.46)],
 }
-COLUMNS = ("cpu_ms", "aos_ms", "soa_ms", "aos_speedup", "soa_speedup")
+COLUMNS = ("serial_ms", "aos_ms", "soa_ms", "aos_speedup", "soa_speedup")
 
 KEYS = {
     "": {"trismooth", "date", "command", "machine", "options", "meshes", "rows", "tables", "conclusions", "same_bits",
          "remarks"},
     "machine": {"cpu", "threads", "gpu", "cuda"},
-    "options": {"sizes", "versions", "precision", "seed", "runs", "seconds"},
+    "options": {"sizes", "versions", "precision", "seed", "runs", "seconds", "threads"},
     "mesh": {"size", "vertices", "triangles"},
-    "row": {"size", "version", "layout", "form", "order", "missing", "measured", "speedup", "speedup_together"},
+    "row": {"size", "version", "layout", "form", "order", "missing_reason", "measured", "speedup", "speedup_together"},
     "measured": {"runs", "device", "threads", "topology_ms", "transfer_ms", "smoothing_ms", "together_ms", "sweeps",
-                 "stop_reason", "vertex_updates", "free_vertices", "coordinates_hash", "same_bits_in_every_run"},
-    "table": {"table", "title", "version", "form", "order", "missing", "rows"},
+                 "stop_reason", "vertex_updates", "free_vertices", "coordinates_hash", "same_bits_in_every_run",
+                 "same_bits_as_first_case"},
+    "table": {"table", "title", "version", "form", "order", "missing_reason", "rows"},
     "table row": {"size", "paper", *COLUMNS},
     "conclusion": {"number", "claim", "verdict", "findings", "comparisons"},
-    "comparison": {"faster", "slower", "size", "factor", "support", "paper_factor", "sweeps"},
+    "comparison": {"claimed_faster", "claimed_slower", "size", "factor", "support", "paper_factor", "sweeps"},
 }
 ON_THE_CPU, ON_A_DEVICE = ("serial", "cpu"), ("gpu", "cdp", "resident")
 VERDICTS = {"holds", "holds in part", "does not hold", "cannot be told", "not measured"}
@@ -65,13 +66,6 @@ def expected_cases(version):
     layouts = (None,) if version in ON_THE_CPU else ("aos", "soa")
     kinds = [("a", "colour"), ("b", "colour")] + [("b", "unordered")] * (version in ("gpu", "cdp"))
     return {(layout, *kind) for layout in layouts for kind in kinds}
-
-
-def full_name(row):
-    """As conclusions name it."""
-    layout = {None: "", "aos": "-AoS", "soa": "-SoA"}[row["layout"]]
-    form = row["form"].upper() + (" unordered" if row["order"] == "unordered" else "")
-    return f"{NAMES[row['version']]}{layout}, Form {form}"
 
 
 def ratio(one, other):
@@ -139,7 +133,7 @@ class Numbers(BenchTest):
             self.assertEqual({*part}, KEYS[name], name)
         self.assertEqual(self.json["options"],
                          {"sizes": [200, 1000], "versions": [*NAMES], "precision": "single", "seed": 1, "runs": 2,
-                          "seconds": 20})
+                          "seconds": 20, "threads": 0})
         self.assertRegex(self.json["date"], r"^\d{4}-\d\d-\d\d \d\d:\d\d UTC$")
         self.assertRegex(self.json["command"], "^trismooth bench .*--sizes 200,1000 ")
         self.assertIs(self.json["same_bits"], True)
@@ -154,7 +148,7 @@ class Numbers(BenchTest):
         self.assertEqual({*self.rows}, {(size, version, *case) for size in (200, 1000) for version in NAMES
                                         for case in expected_cases(version)})
         for row in self.json["rows"]:
-            self.assertNotEqual(row["measured"] is None, row["missing"] is None, row)
+            self.assertNotEqual(row["measured"] is None, row["missing_reason"] is None, row)
             if row["version"] in ON_THE_CPU:
                 self.assertIsNotNone(row["measured"])
 
@@ -194,6 +188,9 @@ class Numbers(BenchTest):
         for (size, version, layout, form, order), row in self.rows.items():
             what = (size, version, layout, form, order)
             for key, time_key in {"speedup": "smoothing_ms", "speedup_together": "together_ms"}.items():
+                if version == "serial":
+                    self.assertEqual(row[key], {"median": 1, "least": 1, "most": 1})
+                    continue
                 self.assert_ratio(row[key], self.time_of(time_key, size, "serial", None, form, "colour"),
                                   self.time_of(time_key, *what))
 
@@ -207,14 +204,14 @@ class Numbers(BenchTest):
             what = (table["form"], table["order"])
             self.assertEqual([row["size"] for row in table["rows"]], [200, 1000])
             for row in table["rows"]:
-                self.assertEqual(row["cpu_ms"],
+                self.assertEqual(row["serial_ms"],
                                  self.time_of("smoothing_ms", row["size"], "serial", None, table["form"], "colour"))
                 for layout in ("aos", "soa"):
                     case = (row["size"], table["version"], layout, *what)
                     self.assertEqual(row[f"{layout}_ms"], self.time_of("smoothing_ms", *case))
                     self.assertEqual(row[f"{layout}_speedup"], self.rows[case]["speedup"])
             measured = [row["aos_ms"] or row["soa_ms"] for row in table["rows"]]
-            self.assertEqual(table["missing"] is None, any(measured))
+            self.assertEqual(table["missing_reason"] is None, any(measured))
             self.assertRegex(table["title"], f"(?i)^(Table {table['table']}: )?{NAMES[table['version']]} version, "
                                              f"Form {table['form']}")
 
@@ -228,7 +225,8 @@ class Numbers(BenchTest):
             self.assertEqual(number(line.pop("table")), table["table"])
             for key in ("version", "form", "order"):
                 self.assertEqual(line.pop(key), table[key])
-            self.assertEqual(int(line.pop("vertices")), row["size"])
+            self.assertEqual(int(line.pop("size")), row["size"])
+            self.assertEqual(line.pop("precision"), "single")
             for key in COLUMNS:
                 spread = row[key] or {"median": None, "least": None, "most": None}
                 self.assertEqual(number(line.pop(key)), spread["median"])
@@ -239,7 +237,6 @@ class Numbers(BenchTest):
 
     def test_conclusions_follow_from_the_rows(self):
         self.assertEqual([claim["number"] for claim in self.json["conclusions"]], [1, 2, 3, 4])
-        by_name = {(row["size"], full_name(row)): row["measured"] for row in self.json["rows"]}
         for claim in self.json["conclusions"]:
             self.assertIn(claim["verdict"], VERDICTS)
             self.assertEqual(claim["verdict"] == "not measured", not claim["comparisons"])
@@ -248,17 +245,21 @@ class Numbers(BenchTest):
             at_least = 44 if claim["number"] == 1 else 1
             support = []
             for comparison in claim["comparisons"]:
-                one, other = (by_name[comparison["size"], comparison[key]] for key in ("faster", "slower"))
+                one, other = (self.rows[comparison["size"], case["version"], case["layout"], case["form"], case["order"]]
+                              ["measured"] for case in (comparison["claimed_faster"], comparison["claimed_slower"]))
                 factor = comparison["factor"]
                 self.assert_ratio(factor, other["smoothing_ms"], one["smoothing_ms"])
                 support.append("yes" if factor["least"] > at_least else "no" if factor["most"] < at_least else
-                               "undecided")
+                               "within the spread")
                 self.assertEqual(comparison["support"], support[-1])
                 if comparison["sweeps"]:
-                    self.assertEqual(comparison["sweeps"], {"faster": one["sweeps"], "slower": other["sweeps"]})
+                    self.assertEqual(comparison["sweeps"], {"claimed_faster": one["sweeps"],
+                                                            "claimed_slower": other["sweeps"]})
             if claim["number"] > 1 and support:
-                verdict = ("does not hold", "holds in part")["yes" in support] if "no" in support else \
-                    "holds" if "yes" in support or claim["number"] == 2 else "cannot be told"
+                agree = [answer for answer in support
+                         if answer == "yes" or (claim["number"] == 2 and answer == "within the spread")]
+                verdict = "holds" if len(agree) == len(support) else "holds in part" if agree else \
+                    "does not hold" if "no" in support else "cannot be told"
                 self.assertEqual(claim["verdict"], verdict)
 
     def test_the_text_and_the_page_say_what_the_json_says(self):
@@ -367,11 +368,11 @@ class WithoutADevice(backends.BackendTest):
         """Every version that needs a device is named with why it is missing, wherever it would be."""
         for row in report["rows"]:
             if row["version"] in ON_A_DEVICE:
-                self.assertRegex(row["missing"], reason)
+                self.assertRegex(row["missing_reason"], reason)
                 self.assertIsNone(row["speedup"])
         for table in report["tables"]:
-            self.assertRegex(table["missing"], reason)
-            self.assertIsNotNone(table["rows"][0]["cpu_ms"])
+            self.assertRegex(table["missing_reason"], reason)
+            self.assertIsNotNone(table["rows"][0]["serial_ms"])
         remarks = " ".join(report["remarks"])
         self.assertRegex(remarks, reason)
         for name in self.DEVICE_NAMES:

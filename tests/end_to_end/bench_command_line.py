@@ -102,7 +102,7 @@ class Reports(BenchTest):
         self.bench(*self.TINY, "--report", "a.HTML", "--report", "a.csv", "--report", "a.json", "--report", "b.json")
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.HTML", "a.csv", "a.json", "b.json"])
         self.assertTrue(self.read("a.HTML").startswith(b"<!DOCTYPE html>"))
-        self.assertTrue(self.read("a.csv").startswith(b"table,version,form,order,vertices,"))
+        self.assertTrue(self.read("a.csv").startswith(b"table,version,form,order,precision,size,"))
         self.assertEqual(self.read("a.json"), self.read("b.json"))
 
 

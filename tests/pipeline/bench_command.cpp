@@ -80,7 +80,7 @@ TEST_CASE("bench prints the tables and the claims, and writes the reports") {
   CHECK(outcome.err.empty());
   CHECK(outcome.shows("200: 200 vertices"));
   CHECK(outcome.shows("Table 4: CDP version"));
-  CHECK(outcome.shows("Not measured: GPU-AoS, GPU-SoA, CDP-AoS"));
+  CHECK(outcome.shows("Not measured, for they need a CUDA device: GPU-AoS, GPU-SoA, CDP-AoS"));
   CHECK(outcome.shows("report: " + html.string()));
   CHECK(json_of(json)["rows"].size() == 40);
   CHECK(std::filesystem::file_size(csv) > 500);
@@ -162,7 +162,7 @@ TEST_CASE("other bits than the CPU's end in 1, with all that was measured printe
   const Outcome outcome = bench({}, cuda_with(backend));
   CHECK(outcome.code == 1);
   CHECK(outcome.says("must give the same bits"));
-  CHECK(outcome.shows("DID NOT"));
+  CHECK(outcome.shows("OTHER BITS THAN THEY MUST: 60 GPU-AoS, Form A, 60 GPU-SoA, Form A"));
 }
 
 TEST_CASE("a bar is drawn on a terminal, and nowhere else") {
@@ -178,4 +178,31 @@ TEST_CASE("a report that cannot be written is told by its name") {
   const Outcome outcome = bench({"--report", (folder.path() / "none" / "b.json").string()});
   CHECK(outcome.code == 4);
   CHECK(outcome.says("none/b.json"));
+}
+
+TEST_CASE("a report that cannot be written in the end keeps no other from being written") {
+  const ScratchFolder folder;
+  const auto bad = folder.path() / "gone" / "a.json";
+  const auto good = folder.path() / "b.json";
+  std::filesystem::create_directories(bad.parent_path());
+  fakes::FakeBackend backend;
+  CudaSupport cuda = cuda_with(backend);
+  // The folder goes away while the experiment runs.
+  cuda.lines = [&] {
+    std::filesystem::remove_all(bad.parent_path());
+    return std::string("CUDA: lines of a test\n");
+  };
+  const Outcome outcome = bench({"--report", bad.string(), "--report", good.string()}, cuda);
+  CHECK(outcome.code == 4);
+  CHECK(outcome.says("gone/a.json"));
+  CHECK(outcome.shows("Table 1"));
+  CHECK(std::filesystem::exists(good));
+}
+
+TEST_CASE("a lack of memory on the way ends in 3, with all that was measured printed") {
+  const fakes::FakeBackend backend(fakes::Failure::host_memory);
+  const Outcome outcome = bench({}, cuda_with(backend));
+  CHECK(outcome.code == 3);
+  CHECK(outcome.says("not enough memory"));
+  CHECK(outcome.shows("optimised CPU"));
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +19,9 @@ enum class Failure : std::uint8_t {
   rings,
   prepare,
   smooth,
-  bits,  ///< silently: a coordinate is not the one that it must be
+  host_memory,
+  bits,     ///< silently: a coordinate is not the one that it must be
+  no_time,  ///< not at all, but its clock stands still
 };
 
 /// Does the CPU's work under the name "cuda".
@@ -68,6 +71,12 @@ class FakeBackend final : public trismooth::Backend {
       backend_.fail_at(Failure::smooth);  // with the points written already
       if (backend_.failure_ == Failure::bits) {
         points.front().x = std::nextafter(points.front().x, 2.0);
+      }
+      if (backend_.failure_ == Failure::host_memory) {
+        throw std::bad_alloc();
+      }
+      if (backend_.failure_ == Failure::no_time) {
+        result.timings = {};
       }
       result.backend = "cuda";
       return result;
