@@ -26,6 +26,7 @@ constexpr std::string_view bench_style = R"css(
 details { margin-top: 8px; }
 summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 table.wide th, table.wide td { padding: 4px 8px; }
+table.wide th { white-space: normal; }
 th.word { text-align: left; }
 table caption { text-align: left; font-weight: 650; padding: 18px 0 4px; }
 table.wide td small { font-size: 11px; white-space: nowrap; }
@@ -33,7 +34,7 @@ td.paper, th.paper { background: #f5f7f9; }
 figure { margin: 0 0 20px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
 @page { size: A4 landscape; }
-@media print { table.wide { font-size: 8.5pt; } table.wide td, table.wide th { padding: 2px 6px; }
+@media print { table.wide, table.wide th { font-size: 8.5pt; } table.wide td, table.wide th { padding: 2px 6px; }
                .figures { break-before: page; } svg { max-height: 165mm; } }
 )css";
 
