@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts the committed results of `trismooth bench` into the README: its table, and docs/images/bench_speedup.svg.
+"""Puts the committed results of `trismooth bench` into the README, and their figure into docs/images/bench_speedup.svg.
 
     docs/make_bench_summary.py            writes them
     docs/make_bench_summary.py --check    changes nothing; fails where they are not what the results say
@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks/results/paper"
 README = ROOT / "README.md"
 PICTURE = ROOT / "docs/images/bench_speedup.svg"
-MARKS = ("<!-- bench table: docs/make_bench_summary.py -->\n", "<!-- end of bench table -->\n")
+MARKS = ("<!-- written by docs/make_bench_summary.py -->\n", "<!-- end of what docs/make_bench_summary.py writes -->\n")
 COLUMNS = (("serial", None), ("cpu", None), ("gpu", "aos"), ("cdp", "aos"), ("resident", "aos"))
 
 
@@ -50,6 +50,12 @@ def table(results, form):
     return "\n".join(lines) + "\n"
 
 
+def claims(results):
+    """The paper's claims with what became of them."""
+    return "".join(f"{claim['number']}. {claim['claim']} **{claim['verdict'].capitalize()}.** {claim['findings'][0]}\n"
+                   for claim in results["conclusions"])
+
+
 def readme_with(text):
     begin, end = (README.read_text().index(mark) for mark in MARKS)
     whole = README.read_text()
@@ -63,7 +69,10 @@ def picture():
 
 
 def main():
-    wanted = {README: readme_with(table(json.loads((RESULTS / "bench.json").read_text()), "a")), PICTURE: picture()}
+    results = json.loads((RESULTS / "bench.json").read_text())
+    shown = (table(results, "a") + f"\n![Speedup over the serial CPU version]({PICTURE.relative_to(ROOT)})\n\n"
+             "The paper's claims on this machine:\n\n" + claims(results))
+    wanted = {README: readme_with(shown), PICTURE: picture()}
     for path, text in wanted.items():
         if sys.argv[1:] == ["--check"]:
             if not path.exists() or path.read_text() != text:

@@ -7,22 +7,11 @@
 #include "sample_experiment.h"
 #include "support/parsed_page.h"
 
+using pages::count_of;
 using sample::ExperimentResult;
 using sample::Version;
 using trismooth::bench::forms_figure;
 using trismooth::bench::speedup_figure;
-
-namespace {
-
-std::size_t count_of(const std::string& text, const std::string& words) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
-}  // namespace
 
 TEST_CASE("the figure of forms has every version in both forms in each layout's panel, and the paper's") {
   const std::string figure = forms_figure(sample::experiment({1'000, 5'000}, &sample::regular_time));

@@ -7,6 +7,7 @@
 #include "sample_experiment.h"
 #include "support/parsed_page.h"
 
+using pages::count_of;
 using trismooth::bench::make_report;
 using trismooth::bench::page_of;
 
@@ -15,14 +16,6 @@ namespace {
 std::string page_with(const sample::Times& times) {
   return page_of(make_report(sample::experiment({1'000, 5'000, 100'000}, times), "trismooth bench --sizes <1K>",
                              "2026-01-02 03:04 UTC", ""));
-}
-
-std::size_t count_of(const std::string& text, const std::string& words) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
-    ++count;
-  }
-  return count;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -48,6 +49,15 @@ inline Parsed parse(const std::string& xml) {
                    std::to_string(XML_GetCurrentLineNumber(parser.get()));
   }
   return parsed;
+}
+
+/// How often the words stand in a text.
+inline std::size_t count_of(const std::string& text, const std::string& words) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace pages
