@@ -54,7 +54,7 @@ class Page(tool.ToolTest):
         # Lines need two sizes, the paper's own too.
         self.run_tool("bench", "--sizes", "200,1K,5K", "--runs", "2", "--report", "bench.html", "--report",
                       "bench.json")
-        self.browser = browser.Browser(self.folder)
+        self.browser = browser.Browser()
         self.addCleanup(self.browser.close)
 
     def page_with(self, addition):

@@ -1,6 +1,7 @@
 """A headless Chromium, driven over a pipe in its DevTools protocol: that tells what a log keeps to itself."""
 
 import base64
+import contextlib
 import fcntl
 import json
 import os
@@ -9,6 +10,7 @@ import select
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -23,8 +25,8 @@ def find():
 class Browser:
     """One window. Must be closed."""
 
-    def __init__(self, folder):
-        """`folder` is for all that the browser writes."""
+    def __init__(self):
+        folder = self.folder = tempfile.mkdtemp(prefix="trismooth-browser-")
         commands_out, self.commands = os.pipe()
         self.messages, messages_in = os.pipe()
         # The browser wants the pipes as 3 and 4. Both numbers are taken here, by these pipes or by others, so that no
@@ -50,9 +52,10 @@ class Browser:
             for domain in ("Page", "Runtime", "Log", "Network"):
                 self.ask(f"{domain}.enable")
         except OSError as error:
-            self.close()
             with open(os.path.join(folder, "browser.log"), encoding="utf-8", errors="replace") as log:
-                raise RuntimeError(f"{error}\n{log.read()[-4000:]}") from error
+                told = log.read()[-4000:]
+            self.close()
+            raise RuntimeError(f"{error}\n{told}") from error
 
     def close(self):
         self.session = None
@@ -62,11 +65,13 @@ class Browser:
         except (OSError, subprocess.TimeoutExpired):
             pass  # it has ended, or does not listen
         finally:
-            if self.process.poll() is None:
+            # Its helpers may outlive it for a moment, and go on writing.
+            with contextlib.suppress(ProcessLookupError):
                 os.killpg(self.process.pid, signal.SIGKILL)
-                self.process.wait()
+            self.process.wait()
             os.close(self.commands)
             os.close(self.messages)
+            shutil.rmtree(self.folder, ignore_errors=True)
 
     def message(self, deadline):
         """The next one."""
