@@ -73,8 +73,8 @@ std::vector<Comparison> compare_all(const ExperimentResult& result, const std::v
   std::vector<Comparison> comparisons;
   for (const auto& [faster, slower] : pairs) {
     for (const std::int64_t size : result.options.sizes) {
-      if (auto comparison = compare(result, size, faster, slower, at_least)) {
-        comparisons.push_back(std::move(*comparison));
+      if (const auto comparison = compare(result, size, faster, slower, at_least)) {
+        comparisons.push_back(*comparison);
       }
     }
   }

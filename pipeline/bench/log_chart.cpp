@@ -49,7 +49,7 @@ std::string line(double x1, double y1, double x2, double y2, std::string_view st
 }
 
 std::string grid_style(bool major) {
-  return fmt::format("stroke=\"{}\" stroke-width=\"1\"", major ? "#c6c6c6" : "#ececec");
+  return fmt::format(R"(stroke="{}" stroke-width="1")", major ? "#c6c6c6" : "#ececec");
 }
 
 std::string tick_text(double size) {
@@ -159,16 +159,15 @@ std::string_view shape(Marker marker) {
 
 /// `content` is the tooltip, as an element. A marker that is none takes the pointer all the same.
 std::string marker(const LineStyle& style, double x, double y, std::string_view content) {
-  const std::string paint = style.marker == Marker::none ? "fill=\"none\" stroke=\"none\" pointer-events=\"all\""
-                            : style.filled
-                                ? fmt::format("fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.8\"", style.colour)
-                                : fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.8\"", style.colour);
+  const std::string paint = style.marker == Marker::none ? R"(fill="none" stroke="none" pointer-events="all")"
+                            : style.filled ? fmt::format(R"(fill="{}" stroke="#fff" stroke-width="0.8")", style.colour)
+                                           : fmt::format(R"(fill="#fff" stroke="{}" stroke-width="1.8")", style.colour);
   return fmt::format("<path transform=\"translate({:.2f} {:.2f}){}\" d=\"{}\" {}>{}</path>\n", x, y,
                      style.faint ? " scale(0.72)" : "", shape(style.marker), paint, content);
 }
 
 std::string line_paint(const LineStyle& style) {
-  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", style.colour, style.faint ? 1.1 : 2,
+  return fmt::format(R"(fill="none" stroke="{}" stroke-width="{}"{})", style.colour, style.faint ? 1.1 : 2,
                      style.dashed ? " stroke-dasharray=\"6 4\"" : "");
 }
 
@@ -219,7 +218,7 @@ struct Frame {
 std::string panel_svg(const LogChart& chart, const ChartPanel& panel, Axis x_axis, const Frame& frame) {
   const double middle = (x_axis.begin + x_axis.end) / 2;
   std::string svg =
-      text(middle, top - 14, "middle", panel.title, fmt::format(" font-size=\"{}\" font-weight=\"bold\"", title_size));
+      text(middle, top - 14, "middle", panel.title, fmt::format(R"( font-size="{}" font-weight="bold")", title_size));
   for (const bool major : {false, true}) {
     for (const Tick& tick : frame.y_ticks) {
       if (tick.major == major) {
