@@ -4,22 +4,9 @@
 
 namespace trismooth::cuda {
 
-/// SweepTally of one thread in a launch.
+/// What one thread did in a launch.
 template <class T>
-struct ThreadTally {
-  unsigned evaluated = 0;
-  unsigned moved = 0;
-  bool within_tolerance = true;
-  T max_relative_squared = 0;
-
-  __device__ void join(const ThreadTally& other) {
-    evaluated += other.evaluated;
-    moved += other.moved;
-    within_tolerance = within_tolerance && other.within_tolerance;
-    max_relative_squared =
-        other.max_relative_squared > max_relative_squared ? other.max_relative_squared : max_relative_squared;
-  }
-};
+using ThreadTally = SweepTally<T, unsigned>;
 
 /// Whether a move may be longer, relative to its neighbourhood, than `longest_squared`: only then is its quotient
 /// divided. Exact: if the rounded moved / sum exceeds `longest_squared`, then moved > longest_squared * sum, and

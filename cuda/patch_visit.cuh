@@ -7,6 +7,7 @@
 #include "trismooth/cuda/patch_memory.cuh"
 #include "trismooth/cuda/team_update.cuh"
 #include "trismooth/cuda/vertex_update.cuh"
+#include "trismooth/cuda/warp_list.cuh"
 
 /// How the warps of a block evaluate vertices of its patch.
 namespace trismooth::cuda::patch {
@@ -16,8 +17,6 @@ constexpr int threads_for = sizeof(T) == sizeof(float) ? 768 : 512;
 /// Places in a warp's list.
 constexpr int list_size = 96;
 constexpr unsigned all_lanes = 0xffffffffU;
-/// So many of a warp's vertices are evaluated by teams, more by one thread each.
-constexpr int few = 8;
 
 /// What a block's vertices did in one sweep.
 struct PatchSums {
@@ -85,11 +84,7 @@ __device__ __forceinline__ void mark_moved(std::int32_t v, const PatchSweep<T>& 
 /// The update of a vertex by one thread, for rings of any size.
 template <class Update, class T>
 __device__ __noinline__ VertexMove<T> update_alone(Point2<T> position, RingInPatch<T> ring) {
-  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
-  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
-    result.squares += squared_length(ring[i] - position);
-  }
-  return result;
+  return update_over<Update>(position, ring);
 }
 
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
@@ -102,7 +97,7 @@ __device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, con
   VertexMove<T> result;
   Point2<T> position;
   if constexpr (has_register_update<Update, T>) {
-    constexpr int capacity = 12;
+    constexpr int capacity = largest_register_ring;
     RegisterRing<T, capacity> ring;
     ring.size = size <= capacity ? size : 0;
     ring.longest = __reduce_max_sync(all_lanes, ring.size);
@@ -177,15 +172,6 @@ __device__ __forceinline__ void visit_by_teams(const std::uint16_t* list, int be
   }
 }
 
-/// Adds the vertices of the threads that say `adds` to the warp's list.
-__device__ __forceinline__ int added_to_list(std::uint16_t* list, int listed, bool adds, std::int32_t v) {
-  const unsigned lanes = __ballot_sync(all_lanes, adds);
-  if (adds) {
-    list[listed + __popc(lanes & ((1U << (threadIdx.x % 32)) - 1))] = static_cast<std::uint16_t>(v);
-  }
-  return listed + __popc(lanes);
-}
-
 /// Evaluates the vertices of the warp's list: 32 at a time by threads while there are more than a few, what is left and
 /// what threads have left by teams. All threads of the warp call it.
 template <class Update, class T>
@@ -193,7 +179,7 @@ __device__ __forceinline__ void visit_list(std::uint16_t* list, int listed, cons
   __syncwarp();
   int begin = 0;
   int left_over = 0;
-  while (listed - begin > (has_register_update<Update, T> ? few : 0)) {
+  while (listed - begin > (has_register_update<Update, T> ? few_for_teams : 0)) {
     const int i = begin + static_cast<int>(threadIdx.x % 32);
     const std::int32_t v = i < listed ? list[i] : 0;
     const bool left = visit_by_thread<Update>(v, i < listed, sweep);

@@ -38,6 +38,9 @@ struct RegisterRing {
   }
 };
 
+/// Of the rings that one thread updates in registers: those of more neighbours are left to teams.
+inline constexpr int largest_register_ring = 12;
+
 /// Fetches the ring with this record into registers. All threads of the warp call it; those that are not `active`, or
 /// whose ring is longer than the capacity, fetch nothing: their ring has size 0.
 template <class T, int capacity, Layout layout, class Slot>

@@ -5,7 +5,9 @@
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/resident.h"
+#include "trismooth/cuda/resident_instances.h"
 #include "trismooth/cuda/vertex_visit.cuh"
+#include "trismooth/cuda/warp_list.cuh"
 
 namespace trismooth::cuda {
 
@@ -77,7 +79,7 @@ __device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepDa
       const RingRecord<Slot> next = fetch(next_first);
       const bool active = first + thread < pieces.end;
       const std::int32_t v = static_cast<std::int32_t>(first) + thread;
-      add_to_list(visit<Update, marks>(v, record, active, data, tally), v, list, listed);
+      listed = added_to_list(list, listed, visit<Update, marks>(v, record, active, data, tally), v);
       record = next;
       first = next_first;
     } while (listed < enough_left_over && first < pieces.end);
@@ -165,13 +167,6 @@ std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, S
   template std::int32_t launch_sweeps_of_all(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&,      \
                                              std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*, \
                                              cudaStream_t)
-INSTANTIATE(float, Layout::aos, std::int16_t);
-INSTANTIATE(float, Layout::aos, std::int32_t);
-INSTANTIATE(float, Layout::soa, std::int16_t);
-INSTANTIATE(float, Layout::soa, std::int32_t);
-INSTANTIATE(double, Layout::aos, std::int16_t);
-INSTANTIATE(double, Layout::aos, std::int32_t);
-INSTANTIATE(double, Layout::soa, std::int16_t);
-INSTANTIATE(double, Layout::soa, std::int32_t);
+TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
 
 }  // namespace trismooth::cuda

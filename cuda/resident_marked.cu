@@ -6,9 +6,11 @@
 #include "trismooth/cuda/error.h"
 #include "trismooth/cuda/grid_barrier.cuh"
 #include "trismooth/cuda/resident.h"
+#include "trismooth/cuda/resident_instances.h"
 #include "trismooth/cuda/smallest_quotient.cuh"
 #include "trismooth/cuda/thread_index.cuh"
 #include "trismooth/cuda/vertex_visit.cuh"
+#include "trismooth/cuda/warp_list.cuh"
 
 namespace trismooth::cuda {
 
@@ -19,8 +21,6 @@ constexpr int threads = 512;
 /// Vertices that a block looks after at least: fewer blocks rather than idle ones.
 constexpr std::int32_t smallest_share = 128;
 
-/// So many vertices of a warp are evaluated by teams, more by one thread each.
-constexpr int few = 8;
 /// Of so many sweeps the last two are looked at whether they only go to and fro.
 constexpr std::int32_t sweeps_to_look = 16;
 
@@ -45,14 +45,14 @@ __device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin,
         list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
     tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
     int decided = 0;
-    if (!has_register_update<Update, T> || listed > few) {
+    if (!has_register_update<Update, T> || listed > few_for_teams) {
       int left_over = 0;
-      for (; listed - decided > (has_register_update<Update, T> ? few : 0); decided += 32) {
+      for (; listed - decided > (has_register_update<Update, T> ? few_for_teams : 0); decided += 32) {
         const int i = decided + lane;
         const std::int32_t v = i < listed ? list[i] : 0;
         const bool left = visit<Update, true>(v, fetch_record(data.rings, v), i < listed, data, tally);
         __syncwarp();
-        add_to_list(left, v, list, left_over);
+        left_over = added_to_list(list, left_over, left, v);
       }
       __syncwarp();
       visit_by_teams<Update, true>(left_over, data, tally, [&](int i) { return list[i]; });
@@ -181,13 +181,6 @@ void launch_sweeps_of_marked(Method method, const ResidentMesh<T, layout, Slot>&
 #define INSTANTIATE(T, layout, Slot)                                                                                  \
   template void launch_sweeps_of_marked(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&, std::int32_t, \
                                         LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
-INSTANTIATE(float, Layout::aos, std::int16_t);
-INSTANTIATE(float, Layout::aos, std::int32_t);
-INSTANTIATE(float, Layout::soa, std::int16_t);
-INSTANTIATE(float, Layout::soa, std::int32_t);
-INSTANTIATE(double, Layout::aos, std::int16_t);
-INSTANTIATE(double, Layout::aos, std::int32_t);
-INSTANTIATE(double, Layout::soa, std::int16_t);
-INSTANTIATE(double, Layout::soa, std::int32_t);
+TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
 
 }  // namespace trismooth::cuda

@@ -20,6 +20,8 @@ inline constexpr int team_size = 8;
 inline constexpr int usual_rounds = 8 / team_size;
 /// Teams of a warp.
 inline constexpr int teams = 32 / team_size;
+/// So many vertices of a warp are evaluated by teams, more by one thread each.
+inline constexpr int few_for_teams = 8;
 
 /// The place of the thread in its team.
 __device__ inline int team_lane() {

@@ -15,6 +15,16 @@ struct VertexMove {
   T squares;
 };
 
+/// The update of a vertex with a ring of any kind and size, as the method is defined.
+template <class Update, class T, class Ring>
+__device__ __forceinline__ VertexMove<T> update_over(Point2<T> position, const Ring& ring) {
+  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
+  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
+    result.squares += squared_length(ring[i] - position);
+  }
+  return result;
+}
+
 /// laplacian_position(), by the same operations in the same order.
 template <class T, int capacity>
 __device__ Point2<T> laplacian_position(const RegisterRing<T, capacity>& ring) {

@@ -59,12 +59,7 @@ __device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, cons
 template <class Update, class T, Layout layout, class Slot>
 __device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position,
                                                          PointArrays<T, layout> points, SlottedRingsView<Slot> rings) {
-  const auto ring = ring_in_memory(points, rings, v);
-  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
-  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
-    result.squares += squared_length(ring[i] - position);
-  }
-  return result;
+  return update_over<Update>(position, ring_in_memory(points, rings, v));
 }
 
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
@@ -97,9 +92,6 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
   }
 }
 
-/// Rings of more neighbours are left to teams.
-inline constexpr int largest_ring = 12;
-
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
 /// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
 /// marks the vertex itself for the next sweep.
@@ -111,7 +103,7 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
   VertexMove<T> result;
   int size = 0;
   if constexpr (has_register_update<Update, T>) {
-    RegisterRing<T, largest_ring> ring;
+    RegisterRing<T, largest_register_ring> ring;
     fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
     size = ring.size;
     if (size == 0) {
@@ -151,16 +143,6 @@ __device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, lay
       visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
     }
   }
-}
-
-/// Adds the values of the threads that say `adds` to a list of their warp. All threads of the warp call it; what is in
-/// the list is there after a __syncwarp().
-__device__ __forceinline__ void add_to_list(bool adds, std::int32_t value, std::int32_t* list, int& count) {
-  const unsigned lanes = __ballot_sync(0xffffffffU, adds);
-  if (adds) {
-    list[count + __popc(lanes & ((1U << (threadIdx.x % 32)) - 1))] = value;
-  }
-  count += __popc(lanes);
 }
 
 }  // namespace trismooth::cuda

@@ -7,11 +7,11 @@
 namespace trismooth {
 
 /// What a part of a sweep did. All of it is independent of the order in which parts are joined, so it is the same for
-/// every number of threads and on every backend.
-template <class T>
+/// every number of threads and on every backend. `Count` suffices for the vertices of the part.
+template <class T, class Count = std::int64_t>
 struct SweepTally {
-  std::int64_t evaluated = 0;
-  std::int64_t moved = 0;
+  Count evaluated = 0;
+  Count moved = 0;
   bool within_tolerance = true;
   T max_relative_squared = 0;  ///< of move^2 * k / sum |n_i - v|^2
 
