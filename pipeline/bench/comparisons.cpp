@@ -57,18 +57,6 @@ Support support_of(const Spread& factor, double at_least) {
   return factor.most < at_least ? Support::no : Support::within_spread;
 }
 
-std::optional<double> published_ms(const Case& what, std::int64_t vertices) {
-  if (what.version == Version::serial) {
-    const PublishedRow* const row = published_row(Version::gpu, what.form, vertices);  // every table repeats it
-    return row == nullptr ? std::nullopt : std::optional(row->cpu_ms);
-  }
-  const PublishedRow* const row = is_of_paper(what) ? published_row(what.version, what.form, vertices) : nullptr;
-  if (row == nullptr) {
-    return std::nullopt;
-  }
-  return what.layout == Layout::aos ? row->aos_ms : row->soa_ms;
-}
-
 std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs, double at_least) {
   std::vector<Comparison> comparisons;
   for (const auto& [faster, slower] : pairs) {

@@ -39,9 +39,6 @@ using Pair = std::pair<Case, Case>;
 /// below.
 Support support_of(const Spread& factor, double at_least);
 
-/// The paper's time of a case in milliseconds, where it has one.
-std::optional<double> published_ms(const Case& what, std::int64_t vertices);
-
 /// The times of smoothing of each pair on every mesh where both were measured, and took some time, held against a claim
 /// that the first is `at_least` so many times as fast.
 std::vector<Comparison> compare_all(const ExperimentResult& result, const std::vector<Pair>& pairs,

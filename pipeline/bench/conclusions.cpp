@@ -75,15 +75,11 @@ std::vector<Case> cases_of_paper() {
 std::string best_published() {
   double best = 0;
   std::string where;
-  for (const PublishedTable& table : published_tables()) {
-    for (const PublishedRow& row : table.rows) {
-      for (const auto& [speedup, layout] :
-           {std::pair(row.aos_speedup, Layout::aos), std::pair(row.soa_speedup, Layout::soa)}) {
-        if (speedup > best) {
-          best = speedup;
-          where = full_name(case_of_paper(table.version, table.form, layout));
-          where += fmt::format(", {}", size_text(row.vertices));
-        }
+  for (const Case& what : cases_of_paper()) {
+    for (const std::int64_t size : published_sizes) {
+      if (const auto speedup = published_speedup(what, size); speedup && *speedup > best) {
+        best = *speedup;
+        where = fmt::format("{}, {}", full_name(what), size_text(size));
       }
     }
   }

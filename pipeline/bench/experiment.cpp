@@ -222,6 +222,11 @@ const Measurement* ExperimentResult::find(std::int64_t vertices, const Case& wha
   return row != rows.end() && row->measured ? &*row->measured : nullptr;
 }
 
+std::optional<Spread> ExperimentResult::smoothing_ms(std::int64_t vertices, const Case& what) const {
+  const Measurement* const measured = find(vertices, what);
+  return measured == nullptr ? std::nullopt : std::optional(measured->smoothing);
+}
+
 std::optional<Spread> ExperimentResult::speedup(std::int64_t vertices, const Case& what) const {
   return times_faster(*this, vertices, what, &Measurement::smoothing);
 }

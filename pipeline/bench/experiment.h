@@ -86,6 +86,8 @@ struct ExperimentResult {
 
   /// The measurement of a case; null where there is none.
   const Measurement* find(std::int64_t vertices, const Case& what) const;
+  /// The milliseconds of its smoothing; nothing where it was not measured.
+  std::optional<Spread> smoothing_ms(std::int64_t vertices, const Case& what) const;
   /// How many times faster than the serial CPU version of the same form it smooths, or does everything. Nothing where
   /// one of both was not measured, or took no time that could be measured.
   std::optional<Spread> speedup(std::int64_t vertices, const Case& what) const;

@@ -66,13 +66,13 @@ ChartSeries series_of(const ExperimentResult& result, std::string label, const L
   return series;
 }
 
-std::optional<Spread> one_value(const PublishedRow* row, double PublishedRow::*aos, double PublishedRow::*soa,
-                                Layout layout) {
-  if (row == nullptr) {
-    return std::nullopt;
-  }
-  const double value = row->*(layout == Layout::aos ? aos : soa);
-  return Spread(value, value, value);
+/// A line of the paper's own, through what `value` answers for a case.
+ChartSeries published_series(const ExperimentResult& result, std::string label, const LineStyle& style,
+                             const Case& what, std::optional<double> (*value)(const Case&, std::int64_t)) {
+  return series_of(result, std::move(label), style, [&](std::int64_t size) -> std::optional<Spread> {
+    const std::optional<double> one = value(what, size);
+    return one ? std::optional(Spread(*one, *one, *one)) : std::nullopt;
+  });
 }
 
 /// Adds a panel whose lines are those that have a point.
@@ -100,20 +100,15 @@ std::string forms_figure(const ExperimentResult& result) {
     std::vector<ChartSeries> lines;
     for (const Version version : all_versions) {
       for (const Form form : forms) {
-        lines.push_back(series_of(
-            result, label_of(version, form), style_of(version, form), [&](std::int64_t size) -> std::optional<Spread> {
-              const Measurement* const measured = result.find(size, case_of_paper(version, form, layout));
-              return measured == nullptr ? std::nullopt : std::optional(measured->smoothing);
-            }));
+        lines.push_back(series_of(result, label_of(version, form), style_of(version, form), [&](std::int64_t size) {
+          return result.smoothing_ms(size, case_of_paper(version, form, layout));
+        }));
       }
     }
     for (const Version version : {Version::gpu, Version::cdp}) {
       for (const Form form : forms) {
-        lines.push_back(
-            series_of(result, "paper: " + label_of(version, form), faint_style(version, form), [&](std::int64_t size) {
-              return one_value(published_row(version, form, size), &PublishedRow::aos_ms, &PublishedRow::soa_ms,
-                               layout);
-            }));
+        lines.push_back(published_series(result, "paper: " + label_of(version, form), faint_style(version, form),
+                                         case_of_paper(version, form, layout), &published_ms));
       }
     }
     add_panel(chart, layout == Layout::aos ? "(a) AoS" : "(b) SoA", std::move(lines));
@@ -137,10 +132,8 @@ std::string speedup_figure(const ExperimentResult& result) {
     for (const Version version : {Version::gpu, Version::cdp}) {
       LineStyle style = faint_style(version, Form::swap);
       style.dashed = version == Version::cdp;
-      lines.push_back(series_of(result, "paper: " + name_of(version), style, [&](std::int64_t size) {
-        return one_value(published_row(version, Form::swap, size), &PublishedRow::aos_speedup,
-                         &PublishedRow::soa_speedup, layout);
-      }));
+      lines.push_back(published_series(result, "paper: " + name_of(version), style,
+                                       case_of_paper(version, Form::swap, layout), &published_speedup));
     }
     add_panel(chart, layout == Layout::soa ? "(a) SoA, Form A" : "(b) AoS, Form A", std::move(lines));
   }

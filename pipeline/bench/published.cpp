@@ -41,6 +41,11 @@ constexpr std::array<PublishedTable, 4> tables{{
        {100'000, 26021, 750.2, 801.7, 34.69, 32.46}}}},
 }};
 
+/// The row that a case of the paper on a device stands in, or null.
+const PublishedRow* row_of_paper(const Case& what, std::int64_t vertices) {
+  return is_of_paper(what) ? published_row(what.version, what.form, vertices) : nullptr;
+}
+
 }  // namespace
 
 std::span<const PublishedTable> published_tables() {
@@ -55,6 +60,26 @@ const PublishedRow* published_row(Version version, Form form, std::int64_t verti
   }
   const auto* const row = std::ranges::find(table->rows, vertices, &PublishedRow::vertices);
   return row == table->rows.end() ? nullptr : row;
+}
+
+std::optional<double> published_ms(const Case& what, std::int64_t vertices) {
+  if (what.version == Version::serial) {
+    const PublishedRow* const row = published_row(Version::gpu, what.form, vertices);  // every table repeats it
+    return row == nullptr ? std::nullopt : std::optional(row->cpu_ms);
+  }
+  const PublishedRow* const row = row_of_paper(what, vertices);
+  if (row == nullptr) {
+    return std::nullopt;
+  }
+  return what.layout == Layout::aos ? row->aos_ms : row->soa_ms;
+}
+
+std::optional<double> published_speedup(const Case& what, std::int64_t vertices) {
+  const PublishedRow* const row = row_of_paper(what, vertices);
+  if (row == nullptr) {
+    return std::nullopt;
+  }
+  return what.layout == Layout::aos ? row->aos_speedup : row->soa_speedup;
 }
 
 }  // namespace trismooth::bench

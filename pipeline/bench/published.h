@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -31,6 +32,11 @@ std::span<const PublishedTable> published_tables();
 
 /// The paper's row for this number of vertices; null where it has none.
 const PublishedRow* published_row(Version version, Form form, std::int64_t vertices);
+
+/// The paper's time of a case in milliseconds, and its speedup over the serial version of the same form. Nothing where
+/// it has none: of cases that are not its own (is_of_paper()), and of other sizes.
+std::optional<double> published_ms(const Case& what, std::int64_t vertices);
+std::optional<double> published_speedup(const Case& what, std::int64_t vertices);
 
 /// The sizes of the paper's meshes.
 inline constexpr std::array<std::int64_t, 5> published_sizes{1'000, 5'000, 10'000, 50'000, 100'000};

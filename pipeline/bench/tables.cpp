@@ -9,11 +9,6 @@ namespace trismooth::bench {
 
 namespace {
 
-std::optional<Spread> smoothing_ms(const ExperimentResult& result, std::int64_t vertices, const Case& what) {
-  const Measurement* const measured = result.find(vertices, what);
-  return measured == nullptr ? std::nullopt : std::optional(measured->smoothing);
-}
-
 std::string title_of(const Table& table) {
   std::string title = table.number > 0 ? fmt::format("Table {}: ", table.number) : std::string{};
   title += fmt::format("{}, Form {}", name_of(table.version), letter_of(table.form));
@@ -46,8 +41,8 @@ Table table_of(const ExperimentResult& result, int number, Version version, Form
   const Case aos{version, form, order, Layout::aos};
   const Case soa{version, form, order, Layout::soa};
   for (const std::int64_t size : result.options.sizes) {
-    table.rows.push_back({size, smoothing_ms(result, size, {Version::serial, form}), smoothing_ms(result, size, aos),
-                          smoothing_ms(result, size, soa), result.speedup(size, aos), result.speedup(size, soa),
+    table.rows.push_back({size, result.smoothing_ms(size, {Version::serial, form}), result.smoothing_ms(size, aos),
+                          result.smoothing_ms(size, soa), result.speedup(size, aos), result.speedup(size, soa),
                           number > 0 ? published_row(version, form, size) : nullptr});
   }
   return table;

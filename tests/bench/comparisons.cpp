@@ -19,7 +19,6 @@ using trismooth::bench::compare_all;
 using trismooth::bench::Comparison;
 using trismooth::bench::count_of;
 using trismooth::bench::overall;
-using trismooth::bench::published_ms;
 using trismooth::bench::Support;
 using trismooth::bench::support_of;
 using trismooth::bench::tally;
@@ -94,16 +93,6 @@ TEST_CASE("what was not measured is not compared") {
     return size == 5'000 && what == gpu_soa ? std::nullopt : sample::regular_time(size, what);
   });
   CHECK(compare_all(result, {{gpu_aos, gpu_soa}}).size() == 1);
-}
-
-TEST_CASE("the paper's times are those of its own cases only") {
-  CHECK(published_ms(gpu_soa, 1'000) == 18.8);
-  CHECK(published_ms({Version::serial, Form::in_place}, 5'000) == 1139.0);
-  CHECK_FALSE(published_ms(gpu_soa, 1'001));
-  CHECK_FALSE(published_ms({Version::gpu, Form::in_place, Order::colour, Layout::aos}, 1'000));
-  CHECK(published_ms({Version::gpu, Form::in_place, Order::unordered, Layout::aos}, 1'000) == 14.9);
-  CHECK_FALSE(published_ms({Version::resident, Form::swap}, 1'000));
-  CHECK_FALSE(published_ms({Version::cpu, Form::swap}, 1'000));
 }
 
 TEST_CASE("over all, a factor has the median of the medians and the widest bounds") {

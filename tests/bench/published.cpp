@@ -6,8 +6,12 @@
 #include "catch.h"
 
 using trismooth::Form;
+using trismooth::Layout;
+using trismooth::Order;
+using trismooth::bench::published_ms;
 using trismooth::bench::published_row;
 using trismooth::bench::published_sizes;
+using trismooth::bench::published_speedup;
 using trismooth::bench::published_tables;
 using trismooth::bench::PublishedTable;
 using trismooth::bench::Version;
@@ -56,4 +60,21 @@ TEST_CASE("what the paper did not measure has no row") {
   CHECK(published_row(Version::resident, Form::swap, 1'000) == nullptr);
   CHECK(published_row(Version::serial, Form::swap, 1'000) == nullptr);
   CHECK(published_row(Version::gpu, Form::swap, 2'000) == nullptr);
+}
+
+TEST_CASE("the paper's times are those of its own cases only") {
+  CHECK(published_ms({Version::gpu, Form::swap, Order::colour, Layout::soa}, 1'000) == 18.8);
+  CHECK(published_ms({Version::serial, Form::in_place}, 5'000) == 1139.0);
+  CHECK_FALSE(published_ms({Version::gpu, Form::swap, Order::colour, Layout::soa}, 1'001));
+  CHECK_FALSE(published_ms({Version::gpu, Form::in_place, Order::colour, Layout::aos}, 1'000));
+  CHECK(published_ms({Version::gpu, Form::in_place, Order::unordered, Layout::aos}, 1'000) == 14.9);
+  CHECK_FALSE(published_ms({Version::resident, Form::swap}, 1'000));
+  CHECK_FALSE(published_ms({Version::cpu, Form::swap}, 1'000));
+}
+
+TEST_CASE("the paper's speedups are those of its tables") {
+  CHECK(published_speedup({Version::cdp, Form::swap, Order::colour, Layout::soa}, 100'000) == 40.64);
+  CHECK(published_speedup({Version::gpu, Form::in_place, Order::unordered, Layout::aos}, 5'000) == 21.74);
+  CHECK_FALSE(published_speedup({Version::gpu, Form::in_place, Order::colour, Layout::aos}, 5'000));
+  CHECK_FALSE(published_speedup({Version::serial, Form::swap}, 5'000));
 }

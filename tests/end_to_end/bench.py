@@ -9,6 +9,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import backends
+import bench_tool
 import page_parser
 import tool
 
@@ -86,18 +87,7 @@ def all_spreads(part):
             yield from all_spreads(list(part.values()))
 
 
-class BenchTest(tool.ToolTest):
-
-    def bench(self, *arguments, **more):
-        return self.run_tool("bench", *arguments, **more)
-
-    def bench_report(self, *arguments, **more):
-        """The JSON report of a run with these arguments."""
-        self.bench(*arguments, "--report", "bench.json", **more)
-        return json.loads(self.read("bench.json"))
-
-
-class Numbers(BenchTest):
+class Numbers(bench_tool.BenchTest):
 
     def setUp(self):
         super().setUp()
@@ -300,7 +290,7 @@ class Numbers(BenchTest):
         self.assertEqual(again["options"], self.json["options"])
 
 
-class Paper(BenchTest):
+class Paper(bench_tool.BenchTest):
 
     def test_the_default_sizes_and_the_published_numbers_are_the_papers(self):
         report = self.bench_report("--versions", "gpu,cdp", "--backend", "cpu")
@@ -316,7 +306,7 @@ class Paper(BenchTest):
             self.assertEqual({row["paper"] for row in table["rows"]}, {None})
 
 
-class SameBits(BenchTest):
+class SameBits(bench_tool.BenchTest):
 
     def hashes(self, report):
         """{(size, form): of every row but unordered ones}"""

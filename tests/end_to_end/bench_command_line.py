@@ -1,7 +1,6 @@
 """The command line of `trismooth bench`: options, files, the terminal, interrupts."""
 
 import itertools
-import json
 import os
 import pty
 import re
@@ -9,23 +8,13 @@ import resource
 import signal
 import subprocess
 
+import bench_tool
 import tool
 
 DONE, WRONG_USAGE, NOT_WRITTEN, CANCELLED = 0, 2, 4, 130
 
 
-class BenchTest(tool.ToolTest):
-
-    def bench(self, *arguments, **more):
-        return self.run_tool("bench", *arguments, **more)
-
-    def bench_report(self, *arguments):
-        """The JSON report of a run with these arguments."""
-        self.bench(*arguments, "--report", "bench.json")
-        return json.loads(self.read("bench.json"))
-
-
-class Usage(BenchTest):
+class Usage(bench_tool.BenchTest):
 
     def test_wrong_usage_names_the_option(self):
         for arguments, says in {("--sizes", "3"): "'3'", ("--sizes", "1Q"): "'1Q'", ("--sizes", ""): "''",
@@ -72,7 +61,7 @@ class Usage(BenchTest):
         self.assertLessEqual(max(map(len, outcome.out.splitlines())), 120)
 
 
-class Reports(BenchTest):
+class Reports(bench_tool.BenchTest):
 
     TINY = ("--sizes", "200", "--runs", "1", "--versions", "cpu")
 
@@ -106,7 +95,7 @@ class Reports(BenchTest):
         self.assertEqual(self.read("a.json"), self.read("b.json"))
 
 
-class Terminal(BenchTest):
+class Terminal(bench_tool.BenchTest):
 
     def start_on_terminal(self, *arguments):
         """The program with a terminal for its standard error; and the terminal's other end."""
