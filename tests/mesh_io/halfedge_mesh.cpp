@@ -56,7 +56,7 @@ Triangle oriented(const Sample& sample, const Built& built, std::size_t t) {
 }
 
 Triangle smallest_first(Triangle triangle) {
-  std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
   return triangle;
 }
 

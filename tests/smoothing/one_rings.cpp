@@ -34,7 +34,7 @@ Analysed analysed(const Mesh& mesh, int threads = 1) {
 
 /// The triangle in consistent orientation, beginning with its smallest index.
 Triangle turned(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   return t;
 }
 
