@@ -1,0 +1,195 @@
+#include "input_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+
+#include "memory_peak.h"
+
+using trismooth::CellList;
+using trismooth::DataArray;
+using trismooth::MeshDocument;
+
+namespace {
+
+/// Keeps what VTK would print.
+class Listener : public vtkOutputWindow {
+ public:
+  static Listener* New();
+  vtkTypeMacro(Listener, vtkOutputWindow) void DisplayText(const char* text) override { heard += text; }
+  std::string heard;
+};
+vtkStandardNewMacro(Listener);
+
+Listener& listener() {
+  static const vtkSmartPointer<Listener> only = [] {
+    auto made = vtkSmartPointer<Listener>::New();
+    vtkOutputWindow::SetInstance(made);
+    return made;
+  }();
+  return *only;
+}
+
+const trismooth::Codec& codec_of(std::string_view extension) {
+  constexpr std::array<std::string_view, 7> extensions{".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".vtp"};
+  const std::array codecs{&trismooth::off_codec, &trismooth::obj_codec,        &trismooth::ply_codec,
+                          &trismooth::stl_codec, &trismooth::vtk_legacy_codec, &trismooth::vtu_codec,
+                          &trismooth::vtp_codec};
+  const auto* const found = std::ranges::find(extensions, extension);
+  return *codecs.at(static_cast<std::size_t>(found - extensions.begin()));
+}
+
+std::string unclear(std::string_view message, std::string_view path) {
+  constexpr std::size_t longest = 300;
+  if (!message.starts_with(std::string(path) + ":")) {
+    return fmt::format("the message does not begin with the file: {}", message);
+  }
+  if (message.size() > longest) {
+    return fmt::format("the message has {} characters: {}", message.size(), message);
+  }
+  if (std::ranges::any_of(message, [](char c) { return c < ' ' || c > '~'; })) {
+    return fmt::format("the message holds more than one line of ASCII: {}", message);
+  }
+  return {};
+}
+
+std::string differing_arrays(std::span<const DataArray> a, std::span<const DataArray> b, std::string_view what) {
+  if (a.size() != b.size()) {
+    return fmt::format("{} {} arrays, {}", a.size(), what, b.size());
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].name != b[i].name || a[i].type != b[i].type || a[i].components != b[i].components ||
+        !std::ranges::equal(a[i].bytes, b[i].bytes)) {
+      return fmt::format("{} array {} ({})", what, i, a[i].name);
+    }
+  }
+  return {};
+}
+
+/// A file of one size needs so much for its tables, buffers and the decoders of compressed blocks.
+constexpr std::size_t most_memory = std::size_t{1} << 20;
+/// liblzma makes room for the dictionary that a block names, 8 MiB by default.
+constexpr std::size_t most_memory_of_lzma = std::size_t{20} << 20;
+
+}  // namespace
+
+bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
+  return file.extension == ".vtu" || file.extension == ".vtp";
+}
+
+Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
+  const std::string path = "some folder/" + file.name + file.extension;
+  const std::size_t limit = file.name.find("lzma") != std::string::npos ? most_memory_of_lzma : most_memory;
+  Outcome outcome;
+  listener().heard.clear();
+  const MemoryPeak peak;
+  try {
+    outcome.document = codec_of(file.extension).read(path, std::move(bytes));
+    outcome.fault = broken_promise(*outcome.document);
+  } catch (const trismooth::ReadError& error) {
+    outcome.message = error.what();
+    outcome.fault = unclear(outcome.message, path);
+  } catch (const std::exception& error) {
+    outcome.fault = std::string("throws another exception: ") + error.what();
+  }
+  if (peak.bytes() > limit) {
+    outcome.fault += fmt::format(" takes {} bytes of memory", peak.bytes());
+  }
+  if (!listener().heard.empty()) {
+    outcome.fault += " VTK prints: " + listener().heard;
+  }
+  return outcome;
+}
+
+Outcome read(const accepted_files::AcceptedFile& file) {
+  return read(file, file.bytes);
+}
+
+Outcome read_and_write(const accepted_files::AcceptedFile& file, std::string bytes) {
+  Outcome outcome = read(file, std::move(bytes));
+  if (outcome.document && outcome.fault.empty()) {
+    try {
+      written_back(*outcome.document);
+    } catch (const std::exception& error) {
+      outcome.fault = std::string("is read, but not written: ") + error.what();
+    }
+    if (!listener().heard.empty()) {
+      outcome.fault += " VTK prints: " + listener().heard;
+    }
+  }
+  return outcome;
+}
+
+std::string broken_promise(const MeshDocument& document) {
+  const CellList& cells = document.cells;
+  const auto points = static_cast<std::int64_t>(document.point_count());
+  const auto are_rows = [](std::size_t rows) {
+    return
+        [rows](const DataArray& array) { return array.bytes.size() == rows * array.components * size_of(array.type); };
+  };
+  if (document.points.size() % 3 != 0 ||
+      !std::ranges::all_of(document.points, [](double x) { return std::isfinite(x); })) {
+    return "points";
+  }
+  if (cells.offsets.size() != cells.size() + 1 || cells.offsets.front() != 0 ||
+      !std::ranges::is_sorted(cells.offsets) ||
+      cells.offsets.back() != static_cast<std::int64_t>(cells.connectivity.size())) {
+    return "offsets of cells";
+  }
+  if (!std::ranges::all_of(cells.connectivity, [&](std::int32_t v) { return v >= 0 && v < points; })) {
+    return "vertex indices";
+  }
+  if (!std::ranges::all_of(document.point_arrays, are_rows(document.point_count()))) {
+    return "rows of point arrays";
+  }
+  if (!std::ranges::all_of(document.cell_arrays, are_rows(cells.size()))) {
+    return "rows of cell arrays";
+  }
+  return document.original == nullptr ? "no original" : "";
+}
+
+std::string difference(const MeshDocument& a, const MeshDocument& b) {
+  if (!std::ranges::equal(std::as_bytes(std::span(a.points)), std::as_bytes(std::span(b.points))) ||
+      a.point_type != b.point_type) {
+    return "points";
+  }
+  if (a.cells.offsets != b.cells.offsets || a.cells.connectivity != b.cells.connectivity ||
+      a.cells.types != b.cells.types) {
+    return "cells";
+  }
+  return differing_arrays(a.point_arrays, b.point_arrays, "point") +
+         differing_arrays(a.cell_arrays, b.cell_arrays, "cell") +
+         differing_arrays(a.field_arrays, b.field_arrays, "field");
+}
+
+std::string written_back(const MeshDocument& document) {
+  static const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("trismooth_bad_input_{}", getpid());
+  document.original->write(path, document, {}, {});
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+void Faults::add(std::string_view file, std::string_view place, std::string_view what) {
+  constexpr std::size_t most_told = 12;
+  if (count_++ < most_told) {
+    text_ += fmt::format("{}, {}: {}\n", file, place, what);
+  }
+}

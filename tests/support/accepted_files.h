@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// Small files of every dialect of every format that is read, all of one mesh: what tests damage, and what fuzzers
+/// start from.
+namespace accepted_files {
+
+struct AcceptedFile {
+  std::string name;
+  std::string extension;  ///< with its dot
+  std::string bytes;
+};
+
+/// Every file; no two have the same name. Made once.
+const std::vector<AcceptedFile>& all();
+
+/// Four triangles around a point of a square, and, in files that hold `others`, a quadrilateral and a pentagon beside
+/// them. All coordinates are exact in float32.
+struct Mesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::vector<int>> faces;
+};
+Mesh mesh(bool others);
+
+}  // namespace accepted_files
