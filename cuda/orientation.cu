@@ -19,9 +19,8 @@ struct SignVotes {
 
   TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t t) const {
     const std::uint32_t word = words[t];
-    const auto [a, b, c] = triangles[t];
-    const double as_listed = shape_quotient(points[a], points[b], points[c]);
-    const double quotient = (word & 1U) != 0 ? -as_listed : as_listed;
+    const auto [a, b, c] = canonical_corners(triangles[t], (word & 1U) != 0);
+    const double quotient = shape_quotient(points[a], points[b], points[c]);
     return {word >> 1U, quotient > 0, quotient < 0, quotient != 0, !(quotient > 0)};
   }
 };

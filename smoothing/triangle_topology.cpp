@@ -272,9 +272,10 @@ Orientation orient(const TriangleTopology& topology, std::span<const Triangle> t
   std::vector<Count> counts(static_cast<std::size_t>(topology.components));
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Count& count = counts[topology.component[t]];
-    const auto [a, b, c] = triangles[t];
-    const double listed = shape_quotient(points[a], points[b], points[c]);
-    const double quotient = topology.parity[t] != 0 ? -listed : listed;
+    // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes first:
+    // the sign that counts is that of its quality in every report and in the commit.
+    const auto [a, b, c] = canonical_corners(triangles[t], topology.parity[t] != 0);
+    const double quotient = shape_quotient(points[a], points[b], points[c]);
     count.positive += quotient > 0 ? 1 : 0;
     count.negative += quotient < 0 ? 1 : 0;
     if (count.first == 0 && quotient != 0) {

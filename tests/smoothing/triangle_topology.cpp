@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
@@ -350,6 +351,34 @@ TEST_CASE("of as many triangles of either sign, the lowest one that is not degen
   REQUIRE(connect(mesh).components == 1);
   REQUIRE(connect(mesh).parity == std::vector<std::uint8_t>{0, 1, 1});
   CHECK(oriented(mesh).reversed == std::vector<std::uint8_t>{0, 1, 1});
+}
+
+TEST_CASE("the sign of a nearly degenerate triangle is that of its quality, whichever corner is listed first") {
+  // Along a line that no coordinate hits: the first triangle's doubled area is rounded to 0 from one corner on, and to
+  // something else from the others on.
+  const std::vector<test_meshes::Point> points{{0.016560048004348522, 0.3893983359162275},
+                                               {-0.008405357178249775, -0.19764629288106597},
+                                               {-0.006412872150660632, -0.15079435417427756},
+                                               {0.004771384277554824, 0.11219587631683277}};
+  const Mesh star{points, {{1, 2, 3}, {1, 3, 0}, {0, 3, 2}}};
+  const Orientation expected = oriented(star);
+  int positive = 0;
+  int negative = 0;
+  for (std::size_t t = 0; t < star.triangles.size(); ++t) {
+    const auto [a, b, c] = trismooth::canonical_corners(star.triangles[t], expected.reversed[t] != 0);
+    const double shape = trismooth::shape(points[a], points[b], points[c]);
+    positive += shape > 0 ? 1 : 0;
+    negative += shape < 0 ? 1 : 0;
+  }
+  CHECK(positive >= negative);
+  for (int turn = 0; turn < 27; ++turn) {
+    Mesh turned = star;
+    for (int t = 0, turns = turn; t < 3; ++t, turns /= 3) {
+      std::ranges::rotate(turned.triangles[t], turned.triangles[t].begin() + turns % 3);
+    }
+    CAPTURE(turn);
+    CHECK(oriented(turned).reversed == expected.reversed);
+  }
 }
 
 TEST_CASE("a component of degenerate triangles alone keeps the order of its lowest triangle") {
