@@ -4,7 +4,6 @@
 #include <array>
 
 #include <vtkCellArray.h>
-#include <vtkCellType.h>
 
 namespace trismooth {
 
@@ -78,39 +77,6 @@ std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices) {
       return cell_type::triangle_strip;
   }
   return vertices == 3 ? cell_type::triangle : vertices == 4 ? cell_type::quad : cell_type::polygon;
-}
-
-std::optional<std::size_t> vertex_count_of(std::uint8_t type) {
-  switch (type) {
-    case VTK_EMPTY_CELL:
-      return 0;
-    case VTK_VERTEX:
-      return 1;
-    case VTK_LINE:
-      return 2;
-    case VTK_TRIANGLE:
-    case VTK_QUADRATIC_EDGE:
-      return 3;
-    case VTK_PIXEL:
-    case VTK_QUAD:
-    case VTK_TETRA:
-      return 4;
-    case VTK_PYRAMID:
-      return 5;
-    case VTK_WEDGE:
-    case VTK_QUADRATIC_TRIANGLE:
-      return 6;
-    case VTK_VOXEL:
-    case VTK_HEXAHEDRON:
-    case VTK_QUADRATIC_QUAD:
-      return 8;
-    case VTK_BIQUADRATIC_QUAD:
-      return 9;
-    case VTK_QUADRATIC_TETRA:
-      return 10;
-    default:
-      return std::nullopt;
-  }
 }
 
 void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, CellList& cells) {

@@ -25,9 +25,6 @@ std::optional<PolyDataGroup> poly_data_group_of(std::uint8_t type);
 /// The cell type that VTK gives a cell of that many vertices in the group.
 std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices);
 
-/// How many vertices a cell of that type has, for the types where all have the same number.
-std::optional<std::size_t> vertex_count_of(std::uint8_t type);
-
 /// Appends the cells of a VTK cell array whose indices fit 32 bits; one type a cell, or those of the group.
 void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, CellList& cells);
 void append_cells(vtkCellArray& from, PolyDataGroup group, CellList& cells);

@@ -1,8 +1,9 @@
 #include "trismooth/mesh_io/vtk_legacy_cells.h"
 
-#include <array>
 #include <limits>
 #include <string>
+
+#include "trismooth/mesh_io/cell_size.h"
 
 namespace trismooth {
 
@@ -123,24 +124,6 @@ class CellsReader {
   CellList cells_;
 };
 
-/// The number of vertices of a cell of the type; 0 where it can vary or does not matter here.
-std::size_t vertices_of(std::uint8_t type) {
-  constexpr std::uint8_t pixel = 8;
-  switch (type) {
-    case cell_type::vertex:
-      return 1;
-    case cell_type::line:
-      return 2;
-    case cell_type::triangle:
-      return 3;
-    case pixel:
-    case cell_type::quad:
-      return 4;
-    default:
-      return 0;
-  }
-}
-
 }  // namespace
 
 CellList read_vtk_legacy_cells(VtkLegacyInput& input, std::string_view section, std::size_t point_count) {
@@ -166,11 +149,8 @@ void read_vtk_legacy_cell_types(VtkLegacyInput& input, CellList& cells) {
       input.fail("cell " + std::to_string(cell) + " is a polyhedron (type 42), which is not supported");
     }
     cells.types.push_back(static_cast<std::uint8_t>(type));
-    const std::size_t degree = cells[cell].size();
-    const std::size_t expected = vertices_of(cells.types.back());
-    if (expected != 0 && degree != expected) {
-      input.fail("cell " + std::to_string(cell) + " of type " + std::to_string(type) + " has " +
-                 std::to_string(degree) + " vertices; expected " + std::to_string(expected));
+    if (!cell_size_of(cells.types.back()).allows(cells[cell].size())) {
+      input.fail("cell " + std::to_string(cell) + " " + describe_wrong_size(cells.types.back(), cells[cell].size()));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/mesh_io/cell_size.h"
 #include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy_attributes.h"
 #include "trismooth/mesh_io/vtk_legacy_cells.h"
@@ -151,6 +152,10 @@ class GeometryReader {
     cells.types.reserve(cell_count);
     for (std::size_t cell = 0; cell < cell_count; ++cell) {
       cells.types.push_back(poly_data_cell_type(section, cells[cell].size()));
+      if (!cell_size_of(cells.types.back()).allows(cells[cell].size())) {
+        input_.fail("cell " + std::to_string(cell) + " of " + std::string(token) + " " +
+                    describe_wrong_size(cells.types.back(), cells[cell].size()));
+      }
     }
     poly_data_cells_.at(section) = std::move(cells);
   }

@@ -9,6 +9,7 @@
 #include <vtkCellType.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "trismooth/mesh_io/cell_size.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
@@ -165,6 +166,21 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::read_cells(const std::string& s
                                  : join_cells<std::int64_t>(section, counts);
 }
 
+vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::read_group(PolyDataGroup group,
+                                                            std::span<const std::uint64_t> counts) {
+  const std::string section(to_string(group));
+  vtkSmartPointer<vtkCellArray> cells = read_cells(section, counts);
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell) {
+    const auto vertices = static_cast<std::size_t>(cells->GetCellSize(cell));
+    const std::uint8_t type = cell_type_of(group, vertices);
+    if (!cell_size_of(type).allows(vertices)) {
+      throw ReadError(path_,
+                      "cell " + std::to_string(cell) + " of <" + section + "> " + describe_wrong_size(type, vertices));
+    }
+  }
+  return cells;
+}
+
 vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray& cells) {
   MemoryBlock types;
   bool all_uint8 = true;
@@ -195,9 +211,8 @@ vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray
       throw ReadError(path_, "cell " + std::to_string(cell) + " has type " + std::to_string(values[cell]) +
                                  ", which is not supported");
     }
-    if (vertices != vertex_count_of(values[cell]).value_or(vertices)) {
-      throw ReadError(path_, "cell " + std::to_string(cell) + " of type " + std::to_string(values[cell]) + " has " +
-                                 std::to_string(vertices) + " vertices");
+    if (!cell_size_of(values[cell]).allows(vertices)) {
+      throw ReadError(path_, "cell " + std::to_string(cell) + " " + describe_wrong_size(values[cell], vertices));
     }
   }
   return vtkUnsignedCharArray::SafeDownCast(make_vtk_array(ScalarType::uint8, 1, std::move(types)));

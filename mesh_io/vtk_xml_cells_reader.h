@@ -10,6 +10,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "trismooth/mesh_io/vtk_cells.h"
 #include "trismooth/mesh_io/vtk_xml_decoder.h"
 #include "trismooth/mesh_io/vtk_xml_pieces.h"
 
@@ -26,6 +27,9 @@ class VtkXmlCellsReader {
   /// The cells in the elements of that name ("Cells", "Polys", ...), of which piece i has counts[i]. Offsets rise,
   /// and every index is one of a point. 32-bit indices where the file has no others. Throws ReadError.
   vtkSmartPointer<vtkCellArray> read_cells(const std::string& section, std::span<const std::uint64_t> counts);
+
+  /// The same for a group of vtkPolyData; every cell has as many vertices as the group asks for. Throws ReadError.
+  vtkSmartPointer<vtkCellArray> read_group(PolyDataGroup group, std::span<const std::uint64_t> counts);
 
   /// The types of the cells in <Cells>; every cell has as many vertices as its type asks for. Throws ReadError.
   vtkSmartPointer<vtkUnsignedCharArray> read_types(vtkCellArray& cells);

@@ -312,7 +312,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_poly_data() {
     for (const VtkXmlPiece& piece : pieces_) {
       counts.push_back(piece.groups[i]);
     }
-    const vtkSmartPointer<vtkCellArray> cells = reader.read_cells(std::string(to_string(group)), counts);
+    const vtkSmartPointer<vtkCellArray> cells = reader.read_group(group, counts);
     switch (group) {
       case PolyDataGroup::verts:
         data->SetVerts(cells);

@@ -1,0 +1,216 @@
+// Every file of the collection, cut at every byte. Most cuts are refused. Those that leave a whole file cannot be told
+// from one: formats without an end or a count (OBJ, and the arrays of legacy VTK files) end wherever they are cut, and
+// a last number is whole wherever it is cut. The rules below say which cuts these are; no other is accepted.
+#include <algorithm>
+#include <span>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "catch.h"
+#include "input_checks.h"
+#include "support/accepted_files.h"
+
+using accepted_files::AcceptedFile;
+using trismooth::DataArray;
+using trismooth::MeshDocument;
+
+namespace {
+
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+std::vector<std::string> words(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  std::vector<std::string> all;
+  for (std::string word; stream >> word;) {
+    all.push_back(word);
+  }
+  return all;
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+/// OFF ends with its last face, and that face may have no colour, or one of 1, 3 or 4 numbers.
+bool is_whole_off(const AcceptedFile& file, std::size_t cut) {
+  const std::string last_face = contains(file.bytes, "6 7 8") ? "6 7 8" : contains(file.bytes, "3 0 4") ? "3 0 4" : "?";
+  const std::size_t end = file.bytes.rfind(last_face) + last_face.size();
+  if (cut < end) {
+    return false;
+  }
+  const std::size_t numbers =
+      contains(file.name, "colours") ? words(std::string_view(file.bytes).substr(end, cut - end)).size() : 0;
+  return numbers <= 4 && numbers != 2;
+}
+
+/// OBJ has no end: it is whole after every whole statement, and statements end with any of their words.
+bool is_whole_obj(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes.substr(0, cut);
+  for (std::size_t at = text.find("\\\n"); at != std::string::npos; at = text.find("\\\n")) {
+    text.replace(at, 2, "  ");
+  }
+  const std::vector<std::string> last = words(std::string_view(text).substr(text.find_last_of("\r\n") + 1));
+  if (contains(file.name, "faces_first") && cut > 0 && cut + 1 < file.bytes.size()) {
+    return false;  // the vertices that the faces name are not there
+  }
+  if (contains(file.name, "mark") && cut > 0 && cut < 3) {
+    return false;  // a part of the mark
+  }
+  if (last.empty()) {
+    return true;
+  }
+  const std::string& keyword = last.front();
+  const std::size_t count = last.size() - 1;
+  if (keyword == "v") {
+    return count == 3 || count == 4 || count == 6 || count == 7;
+  }
+  const bool has_vertices = keyword == "f" || keyword == "l" || keyword == "p";
+  if (has_vertices) {
+    return count >= (keyword == "f"   ? 3U
+                     : keyword == "l" ? 2U
+                                      : 1U) &&
+           last.back().back() != '-' && last.back() != "\\";
+  }
+  return true;
+}
+
+/// Text ends with its last number; binary data with their last byte.
+bool is_whole_ply(const AcceptedFile& file, std::size_t cut) {
+  return contains(file.bytes, "format ascii") && cut > file.bytes.find_last_of("0123456789");
+}
+
+/// Text ends with the word "endsolid" after any solid.
+bool is_whole_stl(const AcceptedFile& file, std::size_t cut) {
+  if (contains(file.name, "binary")) {
+    return false;
+  }
+  std::string text = file.bytes.substr(0, cut);
+  std::ranges::transform(text, text.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  while (!text.empty() && is_space(text.back())) {
+    text.pop_back();
+  }
+  return text.substr(text.find_last_of("\r\n") + 1).starts_with("endsolid");
+}
+
+/// After their cells, legacy files end before every attribute and within METADATA. (The lines, polygons and so on of a
+/// POLYDATA are attributes in this sense, but for the first.)
+bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
+  const std::string& bytes = file.bytes;
+  const bool binary = contains(bytes, "\nBINARY\n");
+  const std::size_t cells_begin = bytes.find(contains(bytes, "POLYDATA") ? "\nLINES" : "\nCELL_TYPES") + 1;
+  std::vector<std::size_t> starts;
+  for (const std::string_view keyword : {"POLYGONS", "POINT_DATA", "CELL_DATA", "SCALARS", "LOOKUP_TABLE table 2",
+                                         "VECTORS", "METADATA", "COLOR_SCALARS", "FIELD"}) {
+    for (std::size_t at = bytes.find(keyword, cells_begin); at != bytes.npos; at = bytes.find(keyword, at + 1)) {
+      // SCALARS stands in COLOR_SCALARS too.
+      if (bytes[at - 1] == '\n') {
+        starts.push_back(at);
+      }
+    }
+  }
+  starts.push_back(bytes.size());
+  std::ranges::sort(starts);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    std::size_t end = starts[i] - 1;
+    if (!binary) {
+      while (is_space(bytes[end - 1])) {
+        --end;
+      }
+      // A number cut is a number.
+      while (!is_space(bytes[end - 2])) {
+        --end;
+      }
+    }
+    const bool metadata = i + 1 < starts.size() && bytes.compare(starts[i], 8, "METADATA") == 0;
+    if ((end <= cut && cut <= starts[i]) || (metadata && starts[i] + 8 <= cut && cut < starts[i + 1])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// XML ends with the end of its root; where it has appended data, nothing is missing after these.
+bool is_whole_xml(const AcceptedFile& file, std::size_t cut) {
+  const std::string_view end = contains(file.name, "appended") ? "</AppendedData" : "</VTKFile>";
+  return cut >= file.bytes.rfind(end) + end.size();
+}
+
+bool is_whole(const AcceptedFile& file, std::size_t cut) {
+  return file.extension == ".off"   ? is_whole_off(file, cut)
+         : file.extension == ".obj" ? is_whole_obj(file, cut)
+         : file.extension == ".ply" ? is_whole_ply(file, cut)
+         : file.extension == ".stl" ? is_whole_stl(file, cut)
+         : file.extension == ".vtk" ? is_whole_legacy(file, cut)
+                                    : is_whole_xml(file, cut);
+}
+
+template <class T>
+bool starts_as(const std::vector<T>& part, const std::vector<T>& whole, std::size_t last_apart = 0) {
+  const std::size_t length = part.size() - std::min(part.size(), last_apart);
+  return part.size() <= whole.size() &&
+         std::equal(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(length), whole.begin());
+}
+
+/// Every array is one of the whole file, up to its last number.
+bool arrays_start_as(std::span<const DataArray> part, std::span<const DataArray> whole) {
+  return std::ranges::all_of(part, [whole](const DataArray& array) {
+    const DataArray* const same = find_array(whole, array.name);
+    const std::size_t certain = array.bytes.size() - std::min(array.bytes.size(), size_of(array.type));
+    return same != nullptr && same->type == array.type && array.bytes.size() <= same->bytes.size() &&
+           std::ranges::equal(array.bytes.first(certain), same->bytes.first(certain));
+  });
+}
+
+/// The last cell of a file without counts may have lost vertices.
+std::string not_a_beginning(const MeshDocument& part, const MeshDocument& whole, bool all_cells) {
+  if (all_cells && (part.points != whole.points || part.cells.connectivity != whole.cells.connectivity)) {
+    return "is accepted as another mesh";
+  }
+  return starts_as(part.points, whole.points) && starts_as(part.cells.connectivity, whole.cells.connectivity) &&
+                 starts_as(part.cells.types, whole.cells.types, all_cells ? 0 : 1) &&
+                 arrays_start_as(part.point_arrays, whole.point_arrays) &&
+                 arrays_start_as(part.cell_arrays, whole.cell_arrays) &&
+                 arrays_start_as(part.field_arrays, whole.field_arrays)
+             ? ""
+             : "is accepted, and not as the beginning of the mesh";
+}
+
+}  // namespace
+
+TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") {
+  Faults faults;
+  for (const AcceptedFile& file : accepted_files::all()) {
+    const MeshDocument whole = read(file).document.value();
+    // Only these formats can end after some of the cells.
+    const bool all_cells =
+        file.extension != ".obj" && file.name != "stl_ascii_solids" && !contains(file.name, "_poly_");
+    for (std::size_t cut = 0; cut < file.bytes.size(); ++cut) {
+      const std::string place = fmt::format("cut at byte {}", cut);
+      const Outcome outcome = read(file, file.bytes.substr(0, cut));
+      faults.add_any(file.name, place, outcome.fault);
+      if (outcome.document.has_value() != is_whole(file, cut)) {
+        faults.add(file.name, place, outcome.document ? "is accepted" : outcome.message);
+      } else if (outcome.document) {
+        faults.add_any(file.name, place, not_a_beginning(*outcome.document, whole, all_cells));
+      }
+    }
+  }
+  REQUIRE_NONE(faults);
+}
+
+TEST_CASE("A last index that is cut short is another index: no reader of text can tell") {
+  std::string text = "OFF\n12 1 0\n";
+  for (int i = 0; i < 12; ++i) {
+    text += fmt::format("{} {} 0\n", i, i * i);
+  }
+  text += "3 0 1 11";
+  const AcceptedFile file{"last_index", ".off", text};
+  CHECK(read(file).document.value().cells.connectivity.back() == 11);
+  CHECK(read(file, text.substr(0, text.size() - 1)).document.value().cells.connectivity.back() == 1);
+  CHECK(!read(file, text.substr(0, text.size() - 2)).document);
+}
