@@ -1,12 +1,15 @@
 #pragma once
 
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 
 namespace trismooth {
 
-/// A file under construction: written beside its target under a temporary name, renamed over the target by commit().
-/// Without a commit the destructor removes it and the target stays as it was. A target that exists and is not a
-/// regular file (a device, a pipe) is written directly.
+/// A file under construction: written beside its target under a temporary name (".mesh.PID-N.off" for "mesh.off"),
+/// renamed over the target by commit(). Without a commit the destructor removes it and the target stays as it was. A
+/// target that exists and is not a regular file (a device, a pipe) is written directly; a pipe that nobody reads any
+/// more is an error of the write then, not a SIGPIPE. To be destroyed by the thread that made it.
 class OutputFile {
  public:
   /// Makes the temporary file beside `target`, following symbolic links. Throws WriteError where that is impossible.
@@ -18,18 +21,29 @@ class OutputFile {
   /// Where to write.
   const std::filesystem::path& path() const { return path_; }
 
-  /// Flushes the file to the disk and puts it in the target's place, with the target's permissions where there was
-  /// one. Throws WriteError.
+  /// Flushes the file to the disk and puts it in the target's place, with the target's permissions, and its owner where
+  /// that is allowed, where there was one. After a power cut there is the old file or all of the new one. Throws
+  /// WriteError.
   void commit();
 
-  /// Removes the temporary files of this process, if any: for signal handlers and other abrupt ends. Async-signal-safe.
+  /// How many files this process has begun to put in place.
+  static std::uint64_t commits_begun() noexcept;
+
+  /// For a signal handler that is to end the process: where no commit was begun beyond the first `commits`, removes the
+  /// temporary files and answers true; no later commit comes through, it waits for the end. False, and nothing done,
+  /// where one was begun, or where this has answered true before. Async-signal-safe.
+  static bool give_up(std::uint64_t commits) noexcept;
+
+  /// Removes the temporary files of this process, if any: for abrupt ends at any time. Async-signal-safe.
   static void remove_unfinished() noexcept;
 
  private:
-  std::filesystem::path target_;
+  std::filesystem::path given_;
+  std::filesystem::path target_;  ///< every link followed
   std::filesystem::path path_;
   bool direct_ = false;
   bool done_ = false;
+  sigset_t signals_before_{};  ///< where it is written directly
 };
 
 }  // namespace trismooth

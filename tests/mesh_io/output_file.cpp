@@ -1,10 +1,15 @@
 #include "trismooth/mesh_io/output_file.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "trismooth/mesh_io/errors.h"
@@ -79,6 +84,41 @@ TEST_CASE("the permissions are those of the file replaced, else those of any new
   CHECK(mode_of(folder / "fresh.off") == mode_of(folder.write("plain", "")));
 }
 
+TEST_CASE("what replaces a private file is private from the start") {
+  const ScratchFolder folder;
+  const fs::path target = folder.write("mesh.off", "old");
+  ::chmod(target.c_str(), 0600);
+  const OutputFile output(target);
+  CHECK(mode_of(output.path()) == 0600);
+}
+
+TEST_CASE("a file that its owner may not read can be replaced") {
+  const ScratchFolder folder;
+  const fs::path target = folder.write("mesh.off", "old");
+  ::chmod(target.c_str(), 0200);
+  OutputFile output(target);
+  put(output, "new");
+  output.commit();
+  CHECK(mode_of(target) == 0200);
+  ::chmod(target.c_str(), 0600);
+  CHECK(bytes_of(target) == "new");
+}
+
+TEST_CASE("root's writing leaves a file to its owner") {
+  if (::geteuid() != 0) {
+    return;  // others can give nothing away
+  }
+  const ScratchFolder folder;
+  const fs::path target = folder.write("mesh.off", "old");
+  REQUIRE(::chown(target.c_str(), 12345, 54321) == 0);
+  OutputFile output(target);
+  output.commit();
+  struct stat status {};
+  REQUIRE(::stat(target.c_str(), &status) == 0);
+  CHECK(status.st_uid == 12345);
+  CHECK(status.st_gid == 54321);
+}
+
 TEST_CASE("a symbolic link stays a link, its target is written") {
   const ScratchFolder folder;
   fs::create_directory(folder / "data");
@@ -118,6 +158,27 @@ TEST_CASE("devices and pipes are written directly") {
   }
 }
 
+TEST_CASE("a pipe that nobody reads any more is an error of the write") {
+  const ScratchFolder folder;
+  const fs::path pipe = folder / "pipe.off";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  {
+    const OutputFile output(pipe);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    const int writer = ::open(pipe.c_str(), O_WRONLY);
+    ::close(reader);
+    CHECK(::write(writer, "x", 1) == -1);
+    CHECK(errno == EPIPE);
+    ::close(writer);
+  }
+  sigset_t blocked;
+  sigset_t pending;
+  ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+  ::sigpending(&pending);
+  CHECK(sigismember(&blocked, SIGPIPE) == 0);
+  CHECK(sigismember(&pending, SIGPIPE) == 0);
+}
+
 TEST_CASE("a place where no file can be made is refused and named") {
   const ScratchFolder folder;
   const fs::path missing = folder / "none/mesh.off";
@@ -138,12 +199,35 @@ TEST_CASE("a file that may not be written stays") {
   CHECK(folder.size() == 1);
 }
 
-TEST_CASE("long names leave room for the temporary one") {
+TEST_CASE("long names leave room for the temporary one, which cuts no character in two") {
   const ScratchFolder folder;
-  const fs::path target = folder / (std::string(251, 'x') + ".off");
-  OutputFile output(target);
-  output.commit();
-  CHECK(fs::exists(target));
+  std::string accented = "x";
+  while (accented.size() < 249) {
+    accented += "\xc3\xa9";
+  }
+  for (const std::string& stem : {std::string(251, 'x'), accented, std::string(250, '\x80')}) {
+    const fs::path target = folder / (stem + ".off");
+    OutputFile output(target);
+    const std::string name = output.path().filename().string();
+    CHECK(name.size() <= 143);
+    CHECK(std::ranges::count(name, '\xc3') == std::ranges::count(name, '\xa9'));
+    output.commit();
+    CHECK(fs::exists(target));
+  }
+}
+
+TEST_CASE("a commit fails where the target has become a folder, or its folder is gone, and names what was asked for") {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "data");
+  fs::create_symlink("data/mesh.off", folder / "link.off");
+  OutputFile output(folder / "link.off");
+  SECTION("become a folder") {
+    fs::create_directory(folder / "data/mesh.off");
+  }
+  SECTION("gone") {
+    fs::remove_all(folder / "data");
+  }
+  CHECK(message_of<WriteError>([&] { output.commit(); }).find((folder / "link.off").string() + ": cannot be ") == 0);
 }
 
 TEST_CASE("a name without a folder is in the current one") {
@@ -168,4 +252,20 @@ TEST_CASE("an abrupt end can remove what is unfinished, and only that") {
   OutputFile::remove_unfinished();
   CHECK(folder.size() == 1);
   CHECK(fs::exists(folder / "finished.off"));
+}
+
+TEST_CASE("who gives up before the first commit ends with nothing written, once") {
+  const ScratchFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const std::uint64_t before = OutputFile::commits_begun();
+    OutputFile(folder / "first.off").commit();
+    const OutputFile unfinished(folder / "second.off");
+    const bool too_late = !OutputFile::give_up(before) && fs::exists(unfinished.path());
+    const bool gives_up = OutputFile::give_up(before + 1) && !fs::exists(unfinished.path());
+    ::_exit(too_late && gives_up && !OutputFile::give_up(before + 1) ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(status == 0);
 }
