@@ -22,7 +22,6 @@
 #include "trismooth/pipeline/bench/experiment.h"
 #include "trismooth/pipeline/bench/progress_text.h"
 #include "trismooth/pipeline/bench/report.h"
-#include "trismooth/pipeline/interrupt.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/random_mesh.h"
@@ -168,7 +167,6 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
   for (const std::filesystem::path& path : settings.reports) {
     const OutputFile attempt(path);  // a folder that is not there is told before the work, not after it
   }
-  const InterruptGuard guard(OnInterrupt::exit);
   const bench::Report report =
       bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
                          cuda.backend != nullptr ? cuda.lines() : std::string{});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -9,11 +10,13 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <unistd.h>
 
-#include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
+#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 
@@ -103,6 +106,18 @@ ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const Comm
   return chosen->run();
 }
 
+/// A standard stream that whoever started the program has closed is opened so that using it fails all the same. Else
+/// the first files opened got these numbers, and messages would go into them.
+void reserve_standard_streams() {
+  for (const auto& [stream, mode] :
+       {std::pair(STDIN_FILENO, O_WRONLY), std::pair(STDOUT_FILENO, O_RDONLY), std::pair(STDERR_FILENO, O_RDONLY)}) {
+    if (::fcntl(stream, F_GETFD) == -1) {
+      // The lowest free number is the stream's: those below are open. Stays open until the program ends.
+      [[maybe_unused]] const int reserved = ::open("/dev/null", mode);
+    }
+  }
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment) {
@@ -114,9 +129,7 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
   ExitCode code = ExitCode::done;
   try {
     code = run_chosen(app, argc, argv, environment);
-    if (!environment.out.flush()) {
-      throw WriteError("standard output", "cannot be written");
-    }
+    flush_results(environment.out);
   } catch (...) {
     code = report_failure(environment.err);
   }
@@ -125,6 +138,10 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
 }
 
 int run_command_line(int argc, const char* const* argv) {
+  reserve_standard_streams();
+  // A file that gets larger than allowed (ulimit -f) is then an error like a full disk, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  end_on_interrupt();
   return run_command_line(argc, argv, {std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0});
 }
 

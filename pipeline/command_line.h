@@ -18,11 +18,10 @@ struct CommandEnvironment {
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for
-/// anything that the user or a file did: that becomes a message. While a mesh is being read, smoothed or made, SIGINT
-/// and SIGTERM are caught.
+/// anything that the user or a file did: that becomes a message.
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
 
-/// The same on the standard streams of this process.
+/// The same for the program: on the standard streams of this process, whose signals it takes; see end_on_interrupt().
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace trismooth

@@ -2,12 +2,14 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/pipeline/subcommands.h"
@@ -35,14 +37,29 @@ MeshDocument to_document(const RandomMesh& mesh) {
   return document;
 }
 
-ExitCode run_generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
-  output_format(settings.output);  // an unknown extension is told before the work, not after it
-  const InterruptGuard guard(OnInterrupt::exit);
+/// What cannot be a mesh file, or cannot be made, is told before the work, not after it.
+void try_output(const std::filesystem::path& output) {
+  output_format(output);
+  const OutputFile attempt(output);
+}
+
+ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
+  try_output(settings.output);
   const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed);
   write_mesh(settings.output, to_document(mesh));
   environment.out << fmt::format("generated:  {} vertices, {} triangles, seed {}\nwritten:    {}\n", mesh.points.size(),
                                  mesh.triangles.size(), settings.seed, settings.output.string());
   return ExitCode::done;
+}
+
+ExitCode run_generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
+  try {
+    return generate(settings, environment);
+  } catch (const std::bad_alloc&) {
+    throw WriteError(settings.output, fmt::format("not enough memory to make a mesh of {} vertices; use a machine with "
+                                                  "more, or fewer vertices",
+                                                  settings.vertices));
+  }
 }
 
 }  // namespace

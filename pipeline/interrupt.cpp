@@ -1,6 +1,9 @@
 #include "trismooth/pipeline/interrupt.h"
 
+#include <array>
 #include <atomic>
+#include <csignal>
+#include <cstdint>
 #include <string_view>
 
 #include <unistd.h>
@@ -12,55 +15,60 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::array<int, 2> caught_signals{SIGINT, SIGTERM};
+constexpr std::array<int, 3> caught_signals{SIGINT, SIGTERM, SIGHUP};
 
 // All that the handler touches. Lock-free, or a handler could wait for the code that it interrupted.
-std::atomic<bool> requested{false};
-std::atomic<bool> exit_at_once{false};
+std::atomic<std::uint64_t> commits_at_start{0};
 std::atomic<bool> on_terminal{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<bool> came_too_late{false};
+std::atomic<bool> leaving{false};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
 
-/// Over the line of a terminal on which progress may stand (ECMA-48 EL), or on a line of its own.
-constexpr std::string_view terminal_farewell = "\r\x1b[Ktrismooth: error: cancelled\n";
-constexpr std::string_view farewell = "trismooth: error: cancelled\n";
+/// Over the line of a terminal on which progress may stand: ECMA-48 EL.
+constexpr std::string_view clear_line = "\r\x1b[K";
+
+void leave(std::string_view words) {
+  if (on_terminal) {
+    [[maybe_unused]] const ssize_t cleared = ::write(STDERR_FILENO, clear_line.data(), clear_line.size());
+  }
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
+  _exit(static_cast<int>(ExitCode::cancelled));
+}
 
 extern "C" void handle_interrupt(int /*signal*/) {
-  if (requested.exchange(true) || exit_at_once) {
+  if (leaving) {
+    return;  // another thread is at it
+  }
+  if (OutputFile::give_up(commits_at_start)) {
+    leaving = true;
+    leave("trismooth: error: cancelled\n");
+  }
+  if (came_too_late.exchange(true) && !leaving.exchange(true)) {
     OutputFile::remove_unfinished();
-    const std::string_view words = on_terminal ? terminal_farewell : farewell;
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
-    _exit(static_cast<int>(ExitCode::cancelled));
+    leave("trismooth: error: cancelled; some of the output is written already\n");
   }
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(OnInterrupt action) {
-  requested = false;
-  exit_at_once = action == OnInterrupt::exit;
+void end_on_interrupt() {
+  commits_at_start = OutputFile::commits_begun();
   on_terminal = ::isatty(STDERR_FILENO) != 0;
-  for (std::size_t i = 0; i < caught_signals.size(); ++i) {
-    ::sigaction(caught_signals[i], nullptr, &previous_[i]);
-    if (previous_[i].sa_handler == SIG_IGN) {
-      continue;
+  struct sigaction action {};
+  action.sa_handler = &handle_interrupt;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : caught_signals) {
+    sigaddset(&action.sa_mask, signal);
+  }
+  // Reads and writes under way go on where the signal comes too late.
+  action.sa_flags = SA_RESTART;
+  for (const int signal : caught_signals) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) {
+      ::sigaction(signal, &action, nullptr);
     }
-    struct sigaction action_now {};
-    action_now.sa_handler = &handle_interrupt;
-    sigemptyset(&action_now.sa_mask);
-    // Reads and writes under way go on: nobody but the callbacks looks at the flag.
-    action_now.sa_flags = SA_RESTART;
-    ::sigaction(caught_signals[i], &action_now, nullptr);
   }
-}
-
-InterruptGuard::~InterruptGuard() {
-  for (std::size_t i = 0; i < caught_signals.size(); ++i) {
-    ::sigaction(caught_signals[i], &previous_[i], nullptr);
-  }
-}
-
-bool interrupt_requested() noexcept {
-  return requested;
 }
 
 }  // namespace trismooth

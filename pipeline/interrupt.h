@@ -1,31 +1,11 @@
 #pragma once
 
-#include <array>
-#include <csignal>
-#include <cstdint>
-
 namespace trismooth {
 
-/// What the first SIGINT (Ctrl-C) or SIGTERM does.
-enum class OnInterrupt : std::uint8_t {
-  ask,   ///< interrupt_requested() answers true from then on; a second signal acts as `exit` does
-  exit,  ///< unfinished output files are removed and the process says so and ends with status 130
-};
-
-/// Catches SIGINT and SIGTERM while it lives; the destructor puts the handlers back that were there before. A signal
-/// that was ignored (a job in the background of a script) stays ignored. One at a time in a process.
-class InterruptGuard {
- public:
-  explicit InterruptGuard(OnInterrupt action);
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-  ~InterruptGuard();
-
- private:
-  std::array<struct sigaction, 2> previous_{};
-};
-
-/// True where a signal arrived since the last InterruptGuard was made. For callbacks that can stop a run.
-bool interrupt_requested() noexcept;
+/// For the program, once, at its start: from now on SIGINT (Ctrl-C), SIGTERM and SIGHUP end the process at once with
+/// status 130, unfinished output files removed and one line on standard error; nothing was written then. Once an output
+/// file is being put in its place, the first signal comes too late and changes nothing, the run comes to its end; a
+/// second one ends it. A signal that is ignored (a job in the background of a script, nohup) stays ignored.
+void end_on_interrupt();
 
 }  // namespace trismooth

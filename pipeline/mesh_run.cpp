@@ -1,12 +1,17 @@
 #include "trismooth/pipeline/mesh_run.h"
 
 #include <cmath>
+#include <exception>
+#include <new>
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/progress_bar.h"
@@ -50,11 +55,50 @@ void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream
   }
 }
 
-Progress proceed_unless_interrupted() {
-  return interrupt_requested() ? Progress::stop : Progress::proceed;
+/// A report must not overwrite what is read or written in the same run, under whatever name.
+void require_own_file(const std::filesystem::path& report, const PipelineOptions& options) {
+  std::error_code error;  // what does not exist is no other's file
+  for (const auto& other : {std::optional(options.input), options.output, options.fixed_ids}) {
+    if (other && std::filesystem::equivalent(report, *other, error)) {
+      throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other->string());
+    }
+  }
 }
 
-/// Runs the pipeline while it shows the progress and looks out for Ctrl-C.
+/// A place where no file can be made is told before the work, not after it.
+void try_outputs(const MeshRunSettings& settings) {
+  if (settings.pipeline.output) {
+    output_format(*settings.pipeline.output);
+    const OutputFile attempt(*settings.pipeline.output);
+  }
+  for (const std::filesystem::path& report : settings.reports) {
+    require_own_file(report, settings.pipeline);
+    const OutputFile attempt(report);
+  }
+}
+
+/// Writes all reports that can be written; answers what went wrong with the first of the others. Those come off the
+/// list.
+std::exception_ptr write_reports(std::vector<std::filesystem::path>& reports, const PipelineOptions& options,
+                                 const PipelineResult& result) {
+  std::exception_ptr failure;
+  std::erase_if(reports, [&](const std::filesystem::path& report) {
+    try {
+      try {
+        write_report(report, options, result);
+        return false;
+      } catch (const std::bad_alloc&) {
+        throw WriteError(report, "cannot be written: not enough memory");
+      }
+    } catch (const WriteError&) {
+      failure = failure ? failure : std::current_exception();
+      return true;
+    }
+  });
+  return failure;
+}
+
+/// Runs the pipeline while it shows the progress.
 PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
   std::optional<ProgressBar> bar;
   if (environment.err_is_terminal && verbosity == Verbosity::normal) {
@@ -64,21 +108,23 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
     if (bar) {
       bar->stage_started(stage);
     }
-    return proceed_unless_interrupted();
+    return Progress::proceed;
   };
   options.smoothing.progress = [&](const SweepRecord& record) {
     if (bar) {
       bar->sweep_done(record);
     }
     if (verbosity == Verbosity::verbose) {
-      environment.err << sweep_line(record) << '\n';
+      environment.err << sweep_line(record) + '\n';  // at once: another line must not come in between
     }
-    return proceed_unless_interrupted();
+    return Progress::proceed;
   };
   try {
     return environment.run(options);
   } catch (const MeshError& error) {
     throw ReadError(options.input, error.what());
+  } catch (const std::bad_alloc&) {
+    throw ReadError(options.input, "not enough memory for this mesh; use a machine with more, or a smaller mesh");
   }
 }
 
@@ -142,19 +188,21 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   const Verbosity verbosity = settings.verbosity;
   options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
 
-  const InterruptGuard guard(OnInterrupt::ask);  // of reports, too: a temporary file must not stay behind
+  try_outputs(settings);
   const PipelineResult result = run_watched(options, verbosity, environment);
 
   // Files first: a reader of the standard output that goes away (head) ends the program.
-  for (const std::filesystem::path& report : settings.reports) {
-    write_report(report, options, result);
-  }
+  std::exception_ptr not_written = write_reports(settings.reports, options, result);
   if (verbosity != Verbosity::quiet) {
     environment.out << text_report(options, result);
     for (const std::filesystem::path& report : settings.reports) {
       environment.out << "report:     " << report.string() << '\n';
     }
-    environment.out << std::flush;
+    try {
+      flush_results(environment.out);
+    } catch (const WriteError&) {
+      not_written = not_written ? not_written : std::current_exception();
+    }
     print_notes(result, verbosity, environment.err);
   }
   if (verbosity == Verbosity::verbose) {
@@ -166,6 +214,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
       environment.err << *failure << '\n';
       code = ExitCode::gate_failed;
     }
+  }
+  if (not_written) {
+    std::rethrow_exception(not_written);
   }
   return code;
 }

@@ -1,6 +1,5 @@
 #include "trismooth/pipeline/command_line.h"
 
-#include <csignal>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -263,7 +262,8 @@ TEST_CASE("each kind of failure has its exit code and one line of message") {
         "plate.vtk:17: expected 3 coordinates");
   check(call_failing_with(trismooth::MeshError("triangle 3 repeats a vertex")), 3,
         "plate.vtk: triangle 3 repeats a vertex");
-  check(call_failing_with(std::bad_alloc()), 3, "not enough memory; use a machine with more, or a smaller mesh");
+  check(call_failing_with(std::bad_alloc()), 3,
+        "plate.vtk: not enough memory for this mesh; use a machine with more, or a smaller mesh");
   check(call_failing_with(trismooth::WriteError("out.vtk", "the disk is full")), 4, "out.vtk: the disk is full");
   check(call_failing_with(trismooth::DeviceError("the device was lost")), 5, "the device was lost");
   check(call_failing_with(trismooth::Cancelled()), 130, "cancelled; nothing was written");
@@ -374,23 +374,6 @@ TEST_CASE("the progress line is gone before an error is printed") {
       },
       true);
   CHECK(outcome.says("\r\x1b[Ktrismooth: error: a.vtk: is empty\n"));
-}
-
-TEST_CASE("Ctrl-C stops at the next stage or sweep, and is answered with 130") {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    CAPTURE(signal);
-    const Outcome outcome = call({"smooth", "a.vtk", "b.vtk"}, [&](const PipelineOptions& options) -> PipelineResult {
-      CHECK(options.stage_started(Stage::read) == Progress::proceed);
-      CHECK(options.smoothing.progress({}) == Progress::proceed);
-      std::raise(signal);
-      CHECK(options.smoothing.progress({}) == Progress::stop);
-      CHECK(options.stage_started(Stage::write) == Progress::stop);
-      throw trismooth::Cancelled();
-    });
-    CHECK(outcome.code == 130);
-    CHECK(outcome.says("cancelled; nothing was written"));
-    CHECK(outcome.out.empty());
-  }
 }
 
 TEST_CASE("help and version go to standard output and run nothing") {

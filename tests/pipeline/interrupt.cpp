@@ -13,9 +13,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::interrupt_requested;
-using trismooth::InterruptGuard;
-using trismooth::OnInterrupt;
+using trismooth::OutputFile;
 
 namespace {
 
@@ -31,66 +29,65 @@ int outcome_of(const std::function<void()>& body) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
+/// What a child process came to that takes the signals, calls `body` and ends with 42.
+int outcome_after(const std::function<void()>& body) {
+  return outcome_of([&] {
+    trismooth::end_on_interrupt();
+    body();
+  });
+}
+
 }  // namespace
 
-TEST_CASE("the first signal is noted, and asked for") {
-  for (const int signal : {SIGINT, SIGTERM}) {
+TEST_CASE("a signal removes unfinished files and ends the process with 130") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
-    const InterruptGuard guard(OnInterrupt::ask);
-    CHECK_FALSE(interrupt_requested());
-    std::raise(signal);
-    CHECK(interrupt_requested());
+    const ScratchFolder folder;
+    const int outcome = outcome_after([&] {
+      const OutputFile unfinished(folder / "mesh.off");
+      const OutputFile another(folder / "report.json");
+      std::raise(signal);
+    });
+    CHECK(outcome == 130);
+    CHECK(std::filesystem::is_empty(folder.path()));
   }
 }
 
-TEST_CASE("a new guard forgets the signals of the last one") {
-  {
-    const InterruptGuard guard(OnInterrupt::ask);
-    std::raise(SIGINT);
+TEST_CASE("once a file is put in its place, a signal changes nothing, and a second one ends the process") {
+  for (const int signals : {0, 1, 2}) {
+    CAPTURE(signals);
+    const ScratchFolder folder;
+    const int outcome = outcome_after([&] {
+      OutputFile finished(folder / "mesh.off");
+      finished.commit();
+      const OutputFile unfinished(folder / "report.json");
+      for (int i = 0; i < signals; ++i) {
+        std::raise(i == 0 ? SIGINT : SIGTERM);
+      }
+    });
+    CHECK(outcome == (signals == 2 ? 130 : 42));
+    CHECK(std::filesystem::exists(folder / "mesh.off"));
+    CHECK(folder.size() == 1);
   }
-  const InterruptGuard guard(OnInterrupt::ask);
-  CHECK_FALSE(interrupt_requested());
 }
 
-TEST_CASE("the second signal removes unfinished files and ends the process with 130") {
+TEST_CASE("what was put in its place before the signals were taken does not count") {
   const ScratchFolder folder;
   const int outcome = outcome_of([&] {
-    const InterruptGuard guard(OnInterrupt::ask);
-    const trismooth::OutputFile unfinished(folder / "mesh.off");
-    std::raise(SIGINT);
-    std::raise(SIGTERM);
-  });
-  CHECK(outcome == 130);
-  CHECK(std::filesystem::is_empty(folder.path()));
-}
-
-TEST_CASE("where the guard is to exit, the first signal does that") {
-  const ScratchFolder folder;
-  const int outcome = outcome_of([&] {
-    const InterruptGuard guard(OnInterrupt::exit);
-    const trismooth::OutputFile unfinished(folder / "mesh.off");
+    OutputFile(folder / "earlier.off").commit();
+    trismooth::end_on_interrupt();
     std::raise(SIGINT);
   });
   CHECK(outcome == 130);
-  CHECK(std::filesystem::is_empty(folder.path()));
-}
-
-TEST_CASE("without a guard, signals do what they did before") {
-  const int outcome = outcome_of([] {
-    { const InterruptGuard guard(OnInterrupt::ask); }
-    std::signal(SIGINT, SIG_DFL);
-    { const InterruptGuard guard(OnInterrupt::ask); }
-    std::raise(SIGINT);
-  });
-  CHECK(outcome == -SIGINT);
 }
 
 TEST_CASE("a signal that was ignored stays ignored") {
-  const int outcome = outcome_of([] {
-    std::signal(SIGINT, SIG_IGN);
-    const InterruptGuard guard(OnInterrupt::ask);
-    std::raise(SIGINT);
-    ::_exit(interrupt_requested() ? 1 : 0);
-  });
-  CHECK(outcome == 0);
+  for (const int signal : {SIGINT, SIGHUP}) {
+    const int outcome = outcome_of([&] {
+      std::signal(signal, SIG_IGN);
+      trismooth::end_on_interrupt();
+      std::raise(signal);
+    });
+    CHECK(outcome == 42);
+  }
 }
