@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -58,11 +59,14 @@ std::optional<Plane> fit_plane(std::span<const double> xyz) {
   }
   const Box box = bounding_box(xyz);
   const double size = box.half_extent.maxCoeff();
-  for (const auto& [across, axes] : {std::pair{2, std::array{0, 1}}, {1, {0, 2}}, {0, {1, 2}}}) {
-    if (box.half_extent[across] <= flatness * size) {
-      plane.axes = axes;
-      return plane;
-    }
+  // The thinnest side, not the first thin one: a mesh of the xz plane may be thin along z as well.
+  constexpr std::array candidates{std::pair{2, std::array{0, 1}}, std::pair{1, std::array{0, 2}},
+                                  std::pair{0, std::array{1, 2}}};
+  const auto& [across, axes] = *std::ranges::min_element(
+      candidates, {}, [&](const auto& candidate) { return box.half_extent[candidate.first]; });
+  if (box.half_extent[across] <= flatness * size) {
+    plane.axes = axes;
+    return plane;
   }
 
   // In units of the size around the centre nothing overflows.

@@ -26,9 +26,9 @@ struct Plane {
   Eigen::Vector3d moved(const Eigen::Vector3d& point, Point2<double> from, Point2<double> to) const;
 };
 
-/// The plane of the points (x, y, z each): two coordinate axes where the extent along the third is at most 1e-6 of the
-/// largest (xy before xz before yz), otherwise the plane of least squares if every point lies within 1e-6 of the
-/// largest extent of it, otherwise nothing. Complexity: linear.
+/// The plane of the points (x, y, z each): two coordinate axes where the smallest extent, along the third, is at most
+/// 1e-6 of the largest (of equal ones xy before xz before yz), otherwise the plane of least squares if every point lies
+/// within 1e-6 of the largest extent of it, otherwise nothing. Complexity: linear.
 std::optional<Plane> fit_plane(std::span<const double> xyz);
 
 }  // namespace trismooth

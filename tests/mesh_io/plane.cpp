@@ -91,6 +91,23 @@ TEST_CASE("a mesh along two coordinate axes keeps its coordinates as they are") 
   }
 }
 
+TEST_CASE("a thin mesh lies in its own plane, not in one in which it is a line") {
+  constexpr double thin = 1e-9;
+  const auto axes = GENERATE(std::array{0, 1}, std::array{0, 2}, std::array{1, 2});
+  const bool along_first = GENERATE(true, false);
+  Points points;
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    Eigen::Vector3d point(3, 3, 3);
+    point[axes[0]] = along_first ? x : x * thin;
+    point[axes[1]] = along_first ? y * thin : y;
+    points.push_back(point);
+  }
+  const auto plane = plane_of(points);
+  REQUIRE(plane);
+  CHECK(plane->aligned);
+  CHECK(plane->axes == axes);
+}
+
 TEST_CASE("a tilted plane is found at any rotation, size and offset, and lengths in it are those of space") {
   std::mt19937_64 random(2);
   const double size = GENERATE(1.0, 1e200, 1e-200, 1e-9);
