@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "mutators.h"
+#include "targets.h"
+
+/// The entries of libFuzzer, for the target that FUZZ_TARGET names.
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t capacity);
+
+namespace {
+
+const fuzz::Target& target = fuzz::find_target(FUZZ_TARGET);
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size <= fuzz::most_input_bytes) {
+    target.run({data, size});
+  }
+  return 0;
+}
+
+/// libFuzzer's own mutations, and where the target has numbers, mutations of these.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t capacity,
+                                               unsigned seed) {
+  fuzz::HashedChoices choices(seed);
+  const std::size_t kind = choices.below(8);
+  const std::string input(reinterpret_cast<const char*>(data), size);
+  const std::string changed = target.is_xml && kind < 3    ? fuzz::mutate_xml_array(input, choices, &LLVMFuzzerMutate)
+                              : target.is_text && kind < 5 ? fuzz::mutate_number(input, choices)
+                                                           : input;
+  if (changed == input || changed.size() > capacity) {
+    return LLVMFuzzerMutate(data, size, capacity);
+  }
+  std::ranges::copy(changed, data);
+  return changed.size();
+}

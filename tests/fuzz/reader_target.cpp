@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/plane_smoothing.h"
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "broken.h"
+#include "choices.h"
+#include "document_checks.h"
+#include "memory_file.h"
+#include "smoothing_checks.h"
+#include "targets.h"
+
+/// A file that may be anything: it is read or refused; what was read keeps all promises, is written back as it was, is
+/// smoothed to something that is not worse, written and read again, and converted.
+namespace fuzz {
+
+using trismooth::FileFormat;
+using trismooth::MeshDocument;
+using trismooth::ReadError;
+using trismooth::WriteError;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path input_path = "input";
+
+/// Reads what must be readable, having been written by us.
+MeshDocument read_again(FileFormat format, const std::string& bytes, const std::string& what) {
+  try {
+    MeshDocument document = codec_of(format).read(input_path, bytes);
+    document.format = format;
+    require_guarantees(document);
+    return document;
+  } catch (const ReadError& error) {
+    throw Broken(what + " cannot be read: " + error.what());
+  }
+}
+
+std::string written_back(const MeshDocument& document) {
+  const MemoryFile file;
+  document.original->write(file.path(), document, {}, {});
+  return file.bytes();
+}
+
+bool keeps_bytes(FileFormat format) {
+  return format != FileFormat::vtu && format != FileFormat::vtp;
+}
+
+void require_equal(const std::string& difference, const std::string& what) {
+  require(difference.empty(), what + ": " + difference);
+}
+
+void check_written_back(const MeshDocument& document, std::string_view bytes) {
+  const std::string written = written_back(document);
+  if (keeps_bytes(document.format)) {
+    require(written == bytes, "writing an unmoved mesh changes its file");
+    return;
+  }
+  const MeshDocument again = read_again(document.format, written, "what was written back");
+  require_equal(difference(document, again, Comparison::exact), "writing back loses something");
+  require(written_back(again) == written, "writing back twice gives another file");
+}
+
+/// The mesh in the document as the pipeline makes it, with what a smoothing of it needs.
+struct Prepared {
+  trismooth::PlanarMesh mesh;
+  std::vector<Point2<double>> local;
+  trismooth::Regions regions;
+  std::vector<std::uint8_t> fixed;
+  trismooth::MeshRings found;
+
+  trismooth::Constraints constraints() const {
+    return {.fixed = fixed, .other_cells = mesh.in_other_cell, .regions = regions.of_triangle};
+  }
+};
+
+/// Nothing for what is no planar triangle mesh.
+std::optional<Prepared> prepare(const MeshDocument& document) {
+  Prepared prepared;
+  try {
+    prepared.mesh = trismooth::planar_mesh(document, input_path);
+  } catch (const ReadError&) {
+    return std::nullopt;
+  }
+  const trismooth::PlanarMesh& mesh = prepared.mesh;
+  const trismooth::LocalFrame frame = trismooth::local_frame(mesh.points);
+  prepared.local.resize(mesh.points.size());
+  std::ranges::transform(mesh.points, prepared.local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  prepared.regions = trismooth::find_regions(document, mesh, std::nullopt);
+  prepared.fixed = trismooth::fixed_by_array(document, "fixed", false);
+  const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
+  trismooth::Workers workers(1);
+  const auto by_halfedges = [&](const trismooth::TriangleTopology& topology, const trismooth::MeshRings& known) {
+    const auto halfedges = trismooth::build_halfedge_mesh(document.points, mesh.triangles, topology, known.reversed);
+    return trismooth::one_rings(halfedges.mesh, known.fixed, {}, workers, halfedges.copies_of);
+  };
+  const auto find = [&](const trismooth::RingFinder& finder) {
+    return trismooth::find_mesh_rings(prepared.local, mesh.triangles, prepared.constraints(), workers, finder);
+  };
+  try {
+    prepared.found = find({});
+  } catch (const trismooth::MeshError&) {
+    require(!naive.orientable, "a mesh that can be oriented is refused");
+    return std::nullopt;
+  }
+  require(naive.orientable, "a mesh that cannot be oriented is accepted");
+  require(prepared.found.reversed == naive.reversed, "triangles are oriented otherwise than their majority");
+  const trismooth::MeshRings other = find(by_halfedges);
+  require(
+      other.rings.offsets == prepared.found.rings.offsets && other.rings.neighbours == prepared.found.rings.neighbours,
+      "halfedges give other rings than the triangle list");
+  return prepared;
+}
+
+trismooth::SmoothingOptions choose_options(HashedChoices& choices) {
+  trismooth::SmoothingOptions options;
+  using trismooth::Method;
+  options.method = std::array{Method::smart, Method::smart, Method::laplacian, Method::weighted}[choices.below(4)];
+  options.form = choices.flag() ? trismooth::Form::swap : trismooth::Form::in_place;
+  options.precision = choices.flag() ? trismooth::Precision::single_precision : trismooth::Precision::double_precision;
+  options.guard = choices.below(8) != 0;
+  options.max_sweeps = 1 + static_cast<std::int64_t>(choices.below(4));
+  options.threads = 1;
+  return options;
+}
+
+/// Smooths the document's mesh in place, as the pipeline does. False where there is none.
+bool smooth(MeshDocument& document, HashedChoices& choices) {
+  std::optional<Prepared> prepared = prepare(document);
+  if (!prepared) {
+    return false;
+  }
+  trismooth::PlanarMesh& mesh = prepared->mesh;
+  const trismooth::SmoothingOptions options = choose_options(choices);
+  const std::vector<Point2<double>> before = mesh.points;
+  const std::vector<double> stored_before = document.points;
+  const auto storage =
+      document.point_type == trismooth::ScalarType::float32 ? trismooth::Storage::float32 : trismooth::Storage::float64;
+  const trismooth::SmoothingResult result =
+      trismooth::smooth_in_plane(prepared->found.rings, mesh.plane, document.points, mesh.points, prepared->local,
+                                 std::numeric_limits<double>::infinity(), storage, options);
+  require_guarantees(document);
+  std::vector<Point2<double>> after(before.size());
+  for (std::size_t v = 0; v < after.size(); ++v) {
+    after[v] = mesh.plane.project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v));
+    const bool moved = !std::equal(
+        stored_before.begin() + static_cast<std::ptrdiff_t>(3 * v),
+        stored_before.begin() + static_cast<std::ptrdiff_t>(3 * v + 3),
+        document.points.begin() + static_cast<std::ptrdiff_t>(3 * v),
+        [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
+    require(!moved || prepared->found.fixed[v] == 0, "a fixed vertex moved in space");
+    require(same_bits(after[v], mesh.points[v]), "reports other coordinates than it stores");
+  }
+  const NaiveTopology topology = naive_topology(before, mesh.triangles, prepared->constraints());
+  require_never_worse({mesh.triangles, topology, before, after, options, result});
+  return true;
+}
+
+void check_moved(const MeshDocument& document) {
+  const MeshDocument again = read_again(document.format, written_back(document), "a smoothed mesh");
+  // Corners that came to lie on each other become one vertex in STL.
+  require_equal(document.format == FileFormat::stl ? difference_of_corners(document, again)
+                                                   : difference(document, again, Comparison::exact),
+                "a smoothed mesh is not read as it was written");
+}
+
+void check_conversion(const MeshDocument& document, FileFormat target) {
+  const std::string what = "as " + std::string(to_string(target));
+  const MemoryFile file;
+  try {
+    codec_of(target).write(file.path(), document);
+  } catch (const WriteError&) {
+    return;
+  }
+  const bool loses_nothing = codec_of(target).what_is_lost(document).empty();
+  const MeshDocument converted = read_again(target, file.bytes(), "the mesh " + what);
+  if (target == FileFormat::stl) {
+    require_equal(difference_of_corners(document, converted), what);
+  } else if (loses_nothing) {
+    require_equal(difference(document, converted, Comparison::converted), what);
+  } else {
+    require_equal(difference_of_points(document, converted), what);
+  }
+}
+
+}  // namespace
+
+void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
+  const std::string bytes(input.begin(), input.end());
+  MeshDocument document;
+  try {
+    document = codec_of(format).read(input_path, bytes);
+  } catch (const ReadError&) {
+    return;
+  }
+  document.format = format;
+  require_guarantees(document);
+  check_written_back(document, bytes);
+  HashedChoices choices(input);
+  check_conversion(document, trismooth::all_formats()[choices.below(trismooth::all_formats().size())]);
+  if (smooth(document, choices)) {
+    check_moved(document);
+  }
+}
+
+}  // namespace fuzz

@@ -1,0 +1,89 @@
+#include "targets.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <stdexcept>
+
+#include "trismooth/mesh_io/errors.h"
+
+#include "accepted_files.h"
+#include "choices.h"
+#include "document_checks.h"
+#include "memory_file.h"
+#include "support/test_meshes.h"
+
+namespace fuzz {
+
+using trismooth::FileFormat;
+using trismooth::MeshDocument;
+
+namespace {
+
+template <FileFormat format>
+constexpr Target reader(std::string_view name, bool is_xml = false) {
+  return {name, [](std::span<const std::uint8_t> input) { run_reader(format, input); }, true, is_xml};
+}
+
+constexpr std::array<Target, 8> targets{
+    reader<FileFormat::off>("off"),       reader<FileFormat::obj>("obj"),
+    reader<FileFormat::ply>("ply"),       reader<FileFormat::stl>("stl"),
+    reader<FileFormat::vtk>("vtk"),       reader<FileFormat::vtu>("vtu", true),
+    reader<FileFormat::vtp>("vtp", true), {"flat_arrays", &run_flat_arrays, false, false}};
+
+/// The accepted files have one free vertex; this has more.
+std::string grid(FileFormat format) {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(5, 5, 0.6, 1);
+  MeshDocument document;
+  for (const test_meshes::Point p : mesh.points) {
+    document.points.insert(document.points.end(), {p.x, p.y, 0});
+  }
+  for (const trismooth::Triangle& triangle : mesh.triangles) {
+    document.cells.append(trismooth::cell_type::triangle, triangle);
+  }
+  const MemoryFile file;
+  codec_of(format).write(file.path(), document);
+  return file.bytes();
+}
+
+/// Any bytes mean something to the flat arrays.
+std::vector<Seed> random_bytes() {
+  std::vector<Seed> seeds;
+  for (std::uint64_t i = 0; i < 24; ++i) {
+    HashedChoices choices(i);
+    Seed seed{"random_" + std::to_string(i), std::string(32 * (i + 1), '\0')};
+    std::ranges::generate(seed.bytes, [&] { return static_cast<char>(choices.below(256)); });
+    seeds.push_back(std::move(seed));
+  }
+  return seeds;
+}
+
+}  // namespace
+
+std::span<const Target> all_targets() {
+  return targets;
+}
+
+const Target& find_target(std::string_view name) {
+  const auto found = std::ranges::find(targets, name, &Target::name);
+  if (found == targets.end()) {
+    throw std::invalid_argument("no fuzz target is named " + std::string(name));
+  }
+  return *found;
+}
+
+std::vector<Seed> seeds_of(const Target& target) {
+  const auto format = trismooth::format_of("mesh." + std::string(target.name));
+  if (!format) {
+    return random_bytes();
+  }
+  std::vector<Seed> seeds{{"grid", grid(*format)}};
+  for (const accepted_files::AcceptedFile& file : accepted_files::all()) {
+    if (file.extension == "." + std::string(target.name)) {
+      seeds.push_back({file.name, file.bytes});
+    }
+  }
+  return seeds;
+}
+
+}  // namespace fuzz
