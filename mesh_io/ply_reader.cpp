@@ -83,8 +83,10 @@ class BodyReader {
       }
     }
     if (!source_.at_end()) {
+      // Rows that the header leaves out would be a part of the mesh.
+      source_.refuse_more_rows();
       document_.notes.push_back("something follows the last row, at byte " + std::to_string(source_.offset()) +
-                                ": it is not read");
+                                ": it is not read; PLY output keeps it");
     }
     make_cell_arrays();
     return {std::move(document_), std::move(sites_)};

@@ -71,6 +71,15 @@ class PlyTextSource {
   /// True where a row may end: nothing but the next row's line follows.
   bool at_row_end() { return scanner_.at_end_of_line(); }
 
+  /// Fails where a number follows.
+  void refuse_more_rows() {
+    const std::string_view token = scanner_.next_token("the end of the file");
+    if (parse_number<double>(token)) {
+      scanner_.fail("expected the end of the file after the rows that the header declares, got " + quoted(token));
+    }
+    scanner_.seek(scanner_.token_offset());
+  }
+
   [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
 
  private:
@@ -119,6 +128,16 @@ class PlyBinarySource {
   }
 
   bool at_row_end() const { return true; }
+
+  /// Fails where anything but white space or zeros follows.
+  void refuse_more_rows() {
+    constexpr std::string_view padding(" \t\v\f\r\n\0", 7);
+    if (bytes_.find_first_not_of(padding, offset_) != bytes_.npos) {
+      number_offset_ = offset_;
+      fail("expected the end of the file after the rows that the header declares, got " + std::to_string(room()) +
+           " bytes more");
+    }
+  }
 
   [[noreturn]] void fail(const std::string& message) const {
     throw ReadError(path_, "byte " + std::to_string(number_offset_) + ": " + message);

@@ -153,6 +153,9 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::read_cells(const std::string& s
       continue;
     }
     const Arrays arrays = arrays_of(pieces_[i], section);
+    if (counts[i] == 0) {
+      decoder_.expect_empty(*arrays.connectivity);
+    }
     for (const XmlElement* const array : {arrays.offsets, arrays.connectivity}) {
       const ScalarType type = vtk_xml_array_type_of(path_, *array).type;
       all_int32 = all_int32 && type == ScalarType::int32;

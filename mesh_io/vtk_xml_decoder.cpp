@@ -37,6 +37,8 @@ std::uint64_t most_expansion(VtkXmlCompressor compressor) {
   return 1;
 }
 
+constexpr const char* unexpected_data = "holds data, but the file declares no rows for it";
+
 template <class Word>
 void swap_bytes(std::byte* bytes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i, bytes += sizeof(Word)) {
@@ -134,10 +136,7 @@ std::string_view VtkXmlDecoder::text_of(const XmlElement& array) const {
   return bytes_.substr(array.content_begin, array.content_end - array.content_begin);
 }
 
-EncodedBytes VtkXmlDecoder::source_of(const XmlElement& array) const {
-  if (vtk_xml_mode_of(path_, array) == VtkXmlMode::binary) {
-    return {text_of(array), EncodedBytes::Encoding::base64};
-  }
+std::uint64_t VtkXmlDecoder::appended_offset_of(const XmlElement& array) const {
   if (header_.appended_begin == 0) {
     fail(array, "is in appended data, but there is no <AppendedData>");
   }
@@ -148,7 +147,15 @@ EncodedBytes VtkXmlDecoder::source_of(const XmlElement& array) const {
     fail(array, "has offset " + (text == nullptr ? "(none)" : trismooth::quoted(*text)) + "; the appended data have " +
                     counted(size) + " bytes");
   }
-  return {bytes_.substr(header_.appended_begin + *offset, size - *offset),
+  return *offset;
+}
+
+EncodedBytes VtkXmlDecoder::source_of(const XmlElement& array) const {
+  if (vtk_xml_mode_of(path_, array) == VtkXmlMode::binary) {
+    return {text_of(array), EncodedBytes::Encoding::base64};
+  }
+  const std::size_t begin = header_.appended_begin + appended_offset_of(array);
+  return {bytes_.substr(begin, header_.appended_end - begin),
           header_.encoding.appended_base64 ? EncodedBytes::Encoding::base64 : EncodedBytes::Encoding::raw};
 }
 
@@ -268,6 +275,7 @@ void VtkXmlDecoder::read_bytes(const XmlElement& array, std::size_t word_size, s
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::appended) {
     // Arrays that share appended data could make a small file fill the memory.
+    offsets_read_.insert(appended_offset_of(array));
     appended_used_ += source.used();
     if (appended_used_ > header_.appended_end - header_.appended_begin) {
       fail(array, "overlaps another array in the appended data");
@@ -279,6 +287,37 @@ void VtkXmlDecoder::read_bytes(const XmlElement& array, std::size_t word_size, s
     }
   }
   to_native_order(bytes.data() + begin, bytes.size() - begin, word_size, header_.encoding.big_endian);
+}
+
+void VtkXmlDecoder::expect_empty(const XmlElement& array) {
+  const VtkXmlMode mode = vtk_xml_mode_of(path_, array);
+  if (mode == VtkXmlMode::appended) {
+    empty_in_appended_.push_back(&array);
+    return;
+  }
+  std::string_view text = text_of(array);
+  if (mode == VtkXmlMode::ascii) {
+    if (!take_token(text).empty()) {
+      fail(array, unexpected_data);
+    }
+    return;
+  }
+  // The first word is a number of bytes or of blocks.
+  EncodedBytes source = source_of(array);
+  if (!take_token(text).empty() && read_header_words(array, source, 1)[0] != 0) {
+    fail(array, unexpected_data);
+  }
+}
+
+void VtkXmlDecoder::check_empty_arrays() {
+  for (const XmlElement* const array : empty_in_appended_) {
+    EncodedBytes source = source_of(*array);
+    const bool shared = offsets_read_.contains(appended_offset_of(*array));
+    const std::size_t word_size = header_.encoding.wide_block_headers ? 8 : 4;
+    if (!shared && source.most_available() >= word_size && read_header_words(*array, source, 1)[0] != 0) {
+      fail(*array, unexpected_data);
+    }
+  }
 }
 
 template <class T>
@@ -312,7 +351,7 @@ void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std
 void VtkXmlDecoder::read_numbers(const XmlElement& array, ScalarType type, std::optional<std::uint64_t> count,
                                  MemoryBlock& numbers) {
   if (count == 0) {
-    return;
+    return expect_empty(array);
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {
     visit_scalar_type(type, [&](auto zero) { read_text_numbers<decltype(zero)>(array, count, numbers); });
@@ -324,7 +363,7 @@ void VtkXmlDecoder::read_numbers(const XmlElement& array, ScalarType type, std::
 
 void VtkXmlDecoder::read_bits(const XmlElement& array, std::uint64_t count, MemoryBlock& bits) {
   if (count == 0) {
-    return;
+    return expect_empty(array);
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {
     const std::size_t begin = bits.size();
@@ -344,7 +383,7 @@ void VtkXmlDecoder::read_bits(const XmlElement& array, std::uint64_t count, Memo
 
 void VtkXmlDecoder::read_strings(const XmlElement& array, std::uint64_t count, std::vector<std::string>& strings) {
   if (count == 0) {
-    return;
+    return expect_empty(array);
   }
   MemoryBlock characters;
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {

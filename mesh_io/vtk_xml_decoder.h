@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,14 @@ class VtkXmlDecoder {
   /// The same for an array of strings.
   void read_strings(const XmlElement& array, std::uint64_t count, std::vector<std::string>& strings);
 
+  /// For an array that should hold nothing, since the file declares no rows for it: fails where it holds something, as
+  /// a part of the mesh would be lost. What is in appended data is looked at by check_empty_arrays().
+  void expect_empty(const XmlElement& array);
+
+  /// To be called after everything was read. An array without rows may have the offset of another one: some programs
+  /// write nothing for it.
+  void check_empty_arrays();
+
  private:
   void read_bytes(const XmlElement& array, std::size_t word_size, std::optional<std::uint64_t> expected,
                   MemoryBlock& bytes);
@@ -54,6 +63,7 @@ class VtkXmlDecoder {
   std::vector<std::uint64_t> read_header_words(const XmlElement& array, EncodedBytes& source, std::size_t count) const;
   void check_size(const XmlElement& array, std::uint64_t size, std::size_t word_size,
                   std::optional<std::uint64_t> expected) const;
+  std::uint64_t appended_offset_of(const XmlElement& array) const;
   EncodedBytes source_of(const XmlElement& array) const;
   std::string_view text_of(const XmlElement& array) const;
 
@@ -69,6 +79,8 @@ class VtkXmlDecoder {
   VtkMessages messages_;
   vtkSmartPointer<vtkDataCompressor> compressor_;
   std::uint64_t appended_used_ = 0;
+  std::set<std::uint64_t> offsets_read_;              ///< of arrays in the appended data
+  std::vector<const XmlElement*> empty_in_appended_;  ///< those that expect_empty() got
   std::vector<unsigned char> compressed_block_;
 };
 

@@ -229,10 +229,11 @@ void Reader::read_attributes(const std::string& section, std::uint64_t VtkXmlPie
     }
   }
   for (const VtkXmlPiece& piece : pieces_) {
+    const std::vector<const XmlElement*> here = vtk_xml_arrays_of(piece.element->child(section));
     if (piece.*rows == 0) {
+      std::ranges::for_each(here, [this](const XmlElement* array) { decoder_.expect_empty(*array); });
       continue;
     }
-    const std::vector<const XmlElement*> here = vtk_xml_arrays_of(piece.element->child(section));
     if (here.size() != arrays.size()) {
       throw ReadError(path_, piece.element->line,
                       "this piece has " + std::to_string(here.size()) + " arrays in <" + section +
@@ -367,6 +368,7 @@ VtkXmlFile Reader::read() {
   if (const XmlElement* const field_data = data_set->child("FieldData")) {
     read_field_data(*field_data);
   }
+  decoder_.check_empty_arrays();
   return std::move(file_);
 }
 

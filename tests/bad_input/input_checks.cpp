@@ -188,7 +188,7 @@ std::string written_back(const MeshDocument& document) {
 }
 
 void Faults::add(std::string_view file, std::string_view place, std::string_view what) {
-  constexpr std::size_t most_told = 12;
+  constexpr std::size_t most_told = 30;
   if (count_++ < most_told) {
     text_ += fmt::format("{}, {}: {}\n", file, place, what);
   }

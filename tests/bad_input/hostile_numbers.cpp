@@ -1,0 +1,186 @@
+// Every number of every file of the collection replaced by hostile ones. What a number is for is found out by what
+// changes with it: coordinates, vertex indices, counts, values of arrays, or nothing (comments, names).
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "catch.h"
+#include "input_checks.h"
+#include "support/accepted_files.h"
+
+using accepted_files::AcceptedFile;
+using trismooth::MeshDocument;
+
+namespace {
+
+constexpr std::string_view of_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-%";
+
+struct Place {
+  std::size_t begin;
+  std::size_t size;
+};
+
+/// The words that are decimal numbers.
+std::vector<Place> numbers_in(std::string_view text) {
+  std::vector<Place> places;
+  for (std::size_t begin = text.find_first_of(of_words); begin != text.npos;) {
+    const std::size_t end = std::min(text.find_first_not_of(of_words, begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    const bool starts = word.find_first_of("0123456789") < 2;
+    if (starts && word.find_first_not_of("0123456789.eE+-") == word.npos) {
+      places.push_back({begin, end - begin});
+    }
+    begin = text.find_first_of(of_words, end);
+  }
+  return places;
+}
+
+/// True for the files that are text throughout, and what is text in the others: headers end where binary data begin.
+std::string_view text_part(const AcceptedFile& file) {
+  const std::string_view bytes = file.bytes;
+  if (file.extension == ".ply") {
+    return bytes.find("format ascii") != bytes.npos ? bytes : bytes.substr(0, bytes.find("end_header"));
+  }
+  if (file.name.starts_with("stl_binary")) {
+    return {};
+  }
+  if (file.extension == ".vtk" && bytes.find("\nBINARY") != bytes.npos) {
+    return {};  // keywords stand between the data; see the test of binary numbers
+  }
+  return bytes.substr(0, bytes.find("<AppendedData"));
+}
+
+enum class Role : std::uint8_t {
+  nothing,     ///< the document is the same whatever it says
+  coordinate,  ///< of a point
+  index,       ///< of a vertex, or something else that makes other cells of the same number
+  value,       ///< of an array
+  structure    ///< anything else: another number is refused
+};
+
+bool same_shape(const MeshDocument& a, const MeshDocument& b) {
+  return a.points.size() == b.points.size() && a.cells.size() == b.cells.size();
+}
+
+Role role_of(const MeshDocument& whole, const std::vector<Outcome>& trials) {
+  bool any = false;
+  for (const Outcome& trial : trials) {
+    if (!trial.document) {
+      continue;
+    }
+    any = true;
+    if (trial.document->points != whole.points) {
+      return Role::coordinate;
+    }
+    if (trial.document->cells.connectivity != whole.cells.connectivity) {
+      return Role::index;
+    }
+    if (!difference(whole, *trial.document).empty()) {
+      return Role::value;
+    }
+  }
+  return any ? Role::nothing : Role::structure;
+}
+
+std::string replaced(std::string bytes, const Place& place, std::string_view by) {
+  return bytes.replace(place.begin, place.size, by);
+}
+
+std::optional<std::int64_t> whole_number(std::string_view word) {
+  if (word.find_first_not_of("0123456789-") != word.npos || word.size() > 18) {
+    return std::nullopt;
+  }
+  return std::stoll(std::string(word));
+}
+
+const std::vector<std::string> not_numbers{"nan",   "inf", "-inf", "NaN(0x1)", "1e999", "-1e400", "1,5",
+                                           "1.5.2", "--1", "1e",   "0x1p3",    "0x10",  "x"};
+
+std::vector<std::string> hostile_whole_numbers(std::int64_t right) {
+  return {"-1",
+          "-2147483648",
+          "2147483647",
+          "2147483648",
+          "4294967296",
+          std::to_string((std::int64_t{1} << 32) + right),
+          "9223372036854775807",
+          "18446744073709551616",
+          "1000000000000000000000000000000",
+          "1000000000",
+          "0",
+          std::to_string(right - 1),
+          std::to_string(right + 1),
+          "1.5"};
+}
+
+/// What is wrong with reading the file with `word` in place of the number.
+std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const Place& place, Role role,
+                     std::string_view word, bool is_number) {
+  if (file.bytes.compare(place.begin, place.size, word) == 0) {
+    return {};
+  }
+  const Outcome outcome = read(file, replaced(file.bytes, place, word));
+  if (!outcome.fault.empty() || !outcome.document || role == Role::nothing) {
+    return outcome.fault;
+  }
+  // The version of a legacy file, of which the part before the first point counts.
+  if (file.extension == ".vtk" && place.begin < file.bytes.find('\n')) {
+    return {};
+  }
+  if (role == Role::structure || (!is_number && role != Role::value)) {
+    return "is accepted";
+  }
+  if (!same_shape(whole, *outcome.document) && file.extension != ".obj") {
+    return "is accepted with other numbers of points and cells";
+  }
+  const bool is_colour = file.extension == ".vtk" &&
+                         file.bytes.rfind("COLOR_SCALARS", place.begin) != std::string::npos &&
+                         file.bytes.find("FIELD", place.begin) != std::string::npos;
+  // OBJ counts from the last vertex too; colours of legacy files are cut to the range of colours.
+  const bool may_be_same = (file.extension == ".obj" && word == "-1") || is_colour;
+  return !may_be_same && difference(whole, *outcome.document).empty() ? "is accepted, and is what stood there before"
+                                                                      : "";
+}
+
+}  // namespace
+
+TEST_CASE("A hostile number in text is refused, or is a value that an array may hold") {
+  Faults faults;
+  std::array<std::size_t, 5> roles{};
+  for (const AcceptedFile& file : accepted_files::all()) {
+    const MeshDocument whole = read(file).document.value();
+    for (const Place& place : numbers_in(text_part(file))) {
+      const std::string_view word = std::string_view(file.bytes).substr(place.begin, place.size);
+      const std::optional<std::int64_t> right = whole_number(word);
+      std::vector<Outcome> trials;
+      for (const std::string& other :
+           {right ? std::to_string(*right + 1) : "0.5", right ? std::to_string(*right - 1) : "0.625"}) {
+        trials.push_back(read(file, replaced(file.bytes, place, other)));
+      }
+      const Role role = role_of(whole, trials);
+      ++roles[static_cast<std::size_t>(role)];
+      const auto check = [&](std::string_view hostile, bool is_number) {
+        faults.add_any(
+            file.name,
+            fmt::format("'{}' at byte {} is '{}' (role {})", word, place.begin, hostile, static_cast<int>(role)),
+            fault_of(file, whole, place, role, hostile, is_number));
+      };
+      for (const std::string& hostile : not_numbers) {
+        check(hostile, false);
+      }
+      if (right && role != Role::coordinate) {
+        for (const std::string& hostile : hostile_whole_numbers(*right)) {
+          check(hostile, hostile != "1.5");
+        }
+      }
+    }
+  }
+  // None of the roles went unnoticed.
+  CHECK(std::ranges::all_of(roles, [](std::size_t count) { return count > 100; }));
+  REQUIRE_NONE(faults);
+}
