@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -31,6 +29,7 @@
 #include "trismooth/mesh_io/buffered_writer.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
+#include "trismooth/mesh_io/output_stream_buffer.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_messages.h"
@@ -188,12 +187,8 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
   writer->SetCompressor(make_vtk_compressor(encoding.compressor));
-  errno = 0;
   const bool written = writer->Write() != 0;
   const unsigned long code = writer->GetErrorCode();
-  if (!stream) {
-    throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno != 0 ? errno : EIO));
-  }
   if (!written || code != vtkErrorCode::NoError || !messages.first_error().empty()) {
     throw WriteError(
         path, "cannot be written: " + (messages.first_error().empty() ? vtkErrorCode::GetStringFromErrorCode(code)
@@ -237,15 +232,10 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
     file.close();
     return;
   }
-  std::ofstream file(path, std::ios::binary);
-  if (!file) {
-    throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  write_to_stream(file, path, data, encoding);
+  OutputStreamBuffer file(path);
+  std::ostream stream(&file);
+  write_to_stream(stream, path, data, encoding);
   file.close();
-  if (!file) {
-    throw WriteError(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
 }
 
 }  // namespace trismooth
