@@ -11,15 +11,22 @@ namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
+/// Not filled with zeros: that would touch all of it for the smallest file.
+MemoryBlock make_block() {
+  MemoryBlock block;
+  block.extend(block_bytes);
+  return block;
+}
+
 }  // namespace
 
 BufferedWriter::BufferedWriter(const std::filesystem::path& path)
-    : path_(path), block_(block_bytes), file_(std::fopen(path.c_str(), "wb")) {
+    : path_(path), block_(make_block()), file_(std::fopen(path.c_str(), "wb")) {
   if (file_ == nullptr) {
     fail();
   }
   // The C library heeds the size only with a buffer of ours.
-  std::setvbuf(file_, block_.data(), _IOFBF, block_.size());
+  std::setvbuf(file_, reinterpret_cast<char*>(block_.data()), _IOFBF, block_.size());
 }
 
 BufferedWriter::~BufferedWriter() {

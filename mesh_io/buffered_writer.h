@@ -3,7 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
-#include <vector>
+
+#include "trismooth/mesh_io/memory_block.h"
 
 namespace trismooth {
 
@@ -23,7 +24,7 @@ class BufferedWriter {
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
-  std::vector<char> block_;
+  MemoryBlock block_;
   std::FILE* file_;
 };
 
