@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trismooth/quality/triangle_view.h"
+
+#include "properties/smoothing_cases.h"
+
+/// The contract of every smoothing, written down afresh: shares no code with what it judges.
+namespace properties {
+
+/// A mesh's orientation and what is fixed of it.
+struct Connectivity {
+  std::vector<trismooth::Triangle> elements;  ///< consistently counter-clockwise, each from its smallest index on
+  std::vector<bool> fixed;
+  /// Some component with a free vertex has as many inverted triangles as others: their order says which they are.
+  bool is_tied = false;
+  /// Every component has a fixed vertex.
+  bool is_held = true;
+};
+
+Connectivity connectivity_of(const RandomMesh& mesh);
+
+/// What a run did that the contract forbids; empty: nothing. Fixed vertices and those that did not move keep their
+/// bits, every coordinate is finite, the counts are true; and with the guard nothing is worse: no element is invalid
+/// that was valid, none is worse than it was and than the worst of those that a moved vertex touched.
+std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, const Run& run, bool guard);
+
+}  // namespace properties

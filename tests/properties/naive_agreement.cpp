@@ -1,0 +1,110 @@
+// The CPU backend against the contract written down with no thought of speed, bit for bit.
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/quality/local_frame.h"
+
+#include "catch.h"
+#include "properties/contract.h"
+#include "properties/for_random_meshes.h"
+#include "properties/smoothing_cases.h"
+#include "support/naive_smoothing.h"
+
+using namespace properties;
+
+namespace {
+
+Point2<double> rounded_to(Storage storage, Point2<double> p) {
+  return storage == Storage::float64
+             ? p
+             : Point2<double>{trismooth::rounded_to_float32(p.x), trismooth::rounded_to_float32(p.y)};
+}
+
+template <class T>
+Point2<T> narrowed(Point2<double> p) {
+  return {static_cast<T>(p.x), static_cast<T>(p.y)};
+}
+
+/// Sweeps in T and the commit.
+template <class T>
+Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage storage) {
+  const Connectivity connectivity = connectivity_of(mesh);
+  const std::vector<Point2<double>>& points = mesh.mesh.points;
+  std::set<std::int32_t> fixed;
+  for (std::int32_t v = 0; v < mesh.mesh.vertex_count(); ++v) {
+    if (connectivity.fixed[v]) {
+      fixed.insert(v);
+    }
+  }
+  const naive::Rings rings = naive::one_rings(mesh.mesh.vertex_count(), connectivity.elements, fixed);
+  const trismooth::LocalFrame frame = trismooth::local_frame(points);
+  std::vector<Point2<double>> before;
+  std::vector<Point2<T>> working;
+  for (const Point2<double> p : points) {
+    before.push_back(frame.enter(p));
+    working.push_back(narrowed<T>(before.back()));
+  }
+  const naive::Outcome outcome =
+      naive::smooth(working, rings, options.method, options.form, options.tolerance, options.max_sweeps);
+
+  Run run;
+  run.result.sweeps = static_cast<std::int64_t>(outcome.sweeps.size());
+  run.result.stop_reason = outcome.reason;
+  for (const naive::SweepCount& count : outcome.sweeps) {
+    run.result.history.push_back({static_cast<std::int64_t>(run.result.history.size()) + 1, count.changed, count.moved,
+                                  count.max_relative_move});
+    run.result.vertex_updates += count.changed;
+  }
+  std::vector<Point2<double>> stored = points;
+  std::vector<Point2<double>> after;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!(working[v] == narrowed<T>(before[v]))) {
+      const Point2<double> local{static_cast<double>(working[v].x), static_cast<double>(working[v].y)};
+      stored[v] = rounded_to(storage, frame.leave(local));
+    }
+    after.push_back(frame.enter(stored[v]));
+  }
+  if (options.guard) {
+    const naive::Commit commit = naive::commit(connectivity.elements, before, after);
+    run.result.guard_rounds = commit.rounds;
+    for (const std::int32_t v : commit.reverted) {
+      run.result.reverted.push_back({v, stored[v]});
+    }
+    run.result.reverted_vertices = static_cast<std::int64_t>(commit.reverted.size());
+  }
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const bool moved = !(after[v] == before[v]);
+    run.result.moved_vertices += moved ? 1 : 0;
+    run.result.free_vertices += connectivity.fixed[v] ? 0 : 1;
+    const Point2<double> p = moved ? stored[v] : points[v];
+    run.xy.insert(run.xy.end(), {p.x, p.y});
+  }
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "every method, form and precision gives the bits of the naive implementation, vertex by vertex and sweep by "
+    "sweep") {
+  for_random_meshes(3000, [](const RandomMesh& mesh) {
+    return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) {
+      options.guard = random.below(5) != 0;
+      const Storage storage = fits_float32(mesh) && random.below(3) == 0 ? Storage::float32 : Storage::float64;
+      const Run expected = options.precision == Precision::double_precision ? naive_run<double>(mesh, options, storage)
+                                                                            : naive_run<float>(mesh, options, storage);
+      const Run found = run(mesh, options, storage);
+      for (std::size_t i = 0; i < expected.result.history.size() && i < found.result.history.size(); ++i) {
+        if (found.result.history[i].evaluated != expected.result.history[i].evaluated) {
+          return fmt::format("sweep {} evaluated {} vertices instead of {}", i + 1, found.result.history[i].evaluated,
+                             expected.result.history[i].evaluated);
+        }
+      }
+      // The naive one writes a zero of either sign where a vertex is on that zero already.
+      return difference_in_value(found, expected);
+    });
+  });
+}

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "trismooth/smoothing/smooth.h"
+#include "trismooth/smoothing/splitmix64.h"
+
+#include "support/random_meshes.h"
+
+/// Ways to smooth a random mesh, and what comes of them.
+namespace properties {
+
+using random_meshes::RandomMesh;
+using trismooth::Form;
+using trismooth::Method;
+using trismooth::Point2;
+using trismooth::Precision;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+using trismooth::StopReason;
+using trismooth::Storage;
+
+/// Method, form and precision number `index` of 12.
+inline constexpr std::uint64_t combinations = 12;
+inline SmoothingOptions combination(std::uint64_t index) {
+  SmoothingOptions options;
+  options.method = static_cast<Method>(index % 3);
+  options.form = static_cast<Form>(index / 3 % 2);
+  options.precision = static_cast<Precision>(index / 6 % 2);
+  options.threads = 1;
+  return options;
+}
+
+inline std::string text_of(const SmoothingOptions& options) {
+  return fmt::format("{}, form {}, {}, {} sweeps, tolerance {}", to_string(options.method), to_string(options.form),
+                     to_string(options.precision), options.max_sweeps, options.tolerance);
+}
+
+/// What a property draws for a mesh: the same for the same seed.
+inline test_meshes::Random draws_for(const RandomMesh& mesh) {
+  return test_meshes::Random(trismooth::splitmix64(mesh.seed));
+}
+
+/// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep limit
+/// and tolerance drawn at random, until it answers something; answers that, and the options.
+template <class Check>
+std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const Check& check) {
+  test_meshes::Random random = draws_for(mesh);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    SmoothingOptions options = combination(mesh.seed * count + i);
+    options.max_sweeps = random.below(6) == 0 ? 100 : 1 + random.below(12);
+    options.tolerance = random.below(3) == 0 ? 1e-2 : 0;
+    const std::string wrong = check(options, random);
+    if (!wrong.empty()) {
+      return fmt::format("{} ({})", wrong, text_of(options));
+    }
+  }
+  return {};
+}
+
+struct Run {
+  std::vector<double> xy;
+  SmoothingResult result;
+};
+
+inline Run run(const RandomMesh& mesh, const SmoothingOptions& options, Storage storage = Storage::float64) {
+  Run run{mesh.mesh.xy(), {}};
+  run.result = trismooth::plan(mesh.mesh.vertex_count(), mesh.mesh.indices(), mesh.constraints(), options)
+                   .smooth(run.xy, storage);
+  return run;
+}
+
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// The first difference of two lists of coordinates; empty where there is none.
+inline std::string difference(std::span<const double> found, std::span<const double> expected) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (!same_bits(found[i], expected[i])) {
+      return fmt::format("vertex {} is at {} = {} instead of {}", i / 2, i % 2 == 0 ? "x" : "y", found[i], expected[i]);
+    }
+  }
+  return {};
+}
+
+/// The first difference of two runs in all that does not depend on who ran.
+std::string difference(const Run& found, const Run& expected);
+
+/// The same, but zeros may have another sign.
+std::string difference_in_value(Run found, const Run& expected);
+
+inline std::vector<Point2<double>> points_of(std::span<const double> xy) {
+  std::vector<Point2<double>> points;
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    points.push_back({xy[i], xy[i + 1]});
+  }
+  return points;
+}
+
+inline RandomMesh at_points(RandomMesh mesh, std::span<const double> xy) {
+  mesh.mesh.points = points_of(xy);
+  return mesh;
+}
+
+/// Whether all numbers are zeros or in a range in which differences have all their digits as well.
+inline bool keeps_digits(std::span<const double> xy) {
+  return std::ranges::all_of(xy, [](double x) { return x == 0 || (std::abs(x) >= 0x1p-960 && std::isfinite(x)); });
+}
+
+/// Whether a file of float32 could hold the mesh.
+inline bool fits_float32(const RandomMesh& mesh) {
+  return std::ranges::all_of(mesh.mesh.xy(), [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); });
+}
+
+}  // namespace properties
