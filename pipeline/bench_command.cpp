@@ -145,9 +145,15 @@ bench::ExperimentResult run_watched(bench::ExperimentOptions options, const Cuda
   return bench::run_experiment(options, cuda);
 }
 
-/// All of them, then throws what went wrong with the first that could not be written.
-void write_reports(const std::vector<std::filesystem::path>& paths, const bench::Report& report, std::ostream& out) {
+/// The tables and then all reports; in the end throws what went wrong with the first that could not be written.
+void write_results(const bench::Report& report, const std::vector<std::filesystem::path>& paths, std::ostream& out) {
   std::exception_ptr failure;
+  out << bench::text_of(report);
+  try {
+    flush_results(out);
+  } catch (const WriteError&) {
+    failure = std::current_exception();
+  }
   for (const std::filesystem::path& path : paths) {
     try {
       write_report_text(path, writer_of(path)(report));
@@ -170,9 +176,7 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
   const bench::Report report =
       bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
                          cuda.backend != nullptr ? cuda.lines() : std::string{});
-  // First what cannot fail: measuring again would take minutes.
-  environment.out << bench::text_of(report) << std::flush;
-  write_reports(settings.reports, report, environment.out);
+  write_results(report, settings.reports, environment.out);
   if (!report.result.same_bits()) {
     print_error(environment.err, "runs that must give the same bits did not; please report this");
     return ExitCode::gate_failed;

@@ -225,7 +225,7 @@ class OtherRefusals(FullDiskTest):
         self.assert_refused_everywhere("No space left on device")
 
     def test_a_file_system_that_is_read_only(self):
-        private_mounts.mount("-o", "remount,ro", self.disk.folder)
+        private_mounts.mount("-o", "remount,bind,ro", self.disk.folder)
         self.assert_refused_everywhere("Read-only file system")
 
     def test_a_folder_of_somebody_else(self):

@@ -1,0 +1,300 @@
+"""Targets that are no ordinary file, or do not stay one; and standard streams that are closed, full or gone."""
+
+import itertools
+import os
+import resource
+import subprocess
+
+import sample_meshes
+import tool
+
+DONE, WRONG_USAGE, BAD_INPUT, NOT_WRITTEN = 0, 2, 3, 4
+FORMATS = ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp")
+
+
+class OutputsTest(tool.ToolTest):
+
+    def setUp(self):
+        super().setUp()
+        self.write("plate.off", sample_meshes.off(sample_meshes.Grid(16)))
+        self.write("plate.vtu", sample_meshes.vtu(sample_meshes.Grid(16)))
+
+    def start(self, *arguments, limits=None, **streams):
+        """The program as a shell starts it: with every signal as it is by default."""
+        def prepare():
+            for kind, count in (limits or {}).items():
+                resource.setrlimit(kind, (count, count))
+        return subprocess.Popen([tool.program, *map(str, arguments)], cwd=self.folder, preexec_fn=prepare,
+                                **{"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE,
+                                   "text": True, **streams})
+
+    def end(self, process):
+        out, err = process.communicate(timeout=120)
+        return tool.Outcome(process.returncode, out, err)
+
+    def assert_told(self, outcome, target, reason):
+        self.assertEqual(outcome.code, NOT_WRITTEN, outcome)
+        self.assertRegex(outcome.err, f"(^|\n)trismooth: error: {target}: [^\n]*{reason}[^\n]*\n$")
+        self.assert_no_temporary_files()
+
+    def commands(self, name="out", bench=False):
+        """(target, arguments) of everything that the program writes."""
+        for extension in FORMATS:
+            source = "plate.vtu" if extension in ("vtu", "vtk", "ply") else "plate.off"
+            yield f"{name}.{extension}", ("smooth", source, f"{name}.{extension}", "--quiet")
+            yield f"{name}.{extension}", ("generate", f"{name}.{extension}", "--vertices", "300")
+        for extension in ("json", "html"):
+            yield f"{name}.{extension}", ("quality", "plate.off", "--report", f"{name}.{extension}")
+        for extension in ("json", "html", "csv") if bench else ():
+            yield f"{name}.{extension}", ("bench", "--sizes", "100", "--runs", "1", "--versions", "cpu", "--report",
+                                          f"{name}.{extension}")
+
+
+class Refusals(OutputsTest):
+
+    def test_a_file_size_limit_is_an_error_not_the_end_of_the_program(self):
+        for target, arguments in self.commands(bench=True):
+            with self.subTest(arguments):
+                self.write(target, "precious")
+                outcome = self.end(self.start(*arguments, limits={resource.RLIMIT_FSIZE: 200, resource.RLIMIT_CORE: 0}))
+                self.assert_told(outcome, target, "File too large")
+                self.assertEqual(self.read(target), b"precious")
+
+    def test_a_device_that_takes_no_bytes(self):
+        for target, arguments in self.commands("full", bench=True):
+            with self.subTest(arguments):
+                if not os.path.lexists(self.path(target)):
+                    os.symlink("/dev/full", self.path(target))
+                self.assert_told(self.end(self.start(*arguments)), target, "No space left on device")
+                self.assertTrue(os.path.islink(self.path(target)))
+
+    def test_a_folder_in_the_place_of_the_file(self):
+        for target, arguments in self.commands("folder", bench=True):
+            with self.subTest(arguments):
+                os.makedirs(self.path(target), exist_ok=True)
+                self.assert_told(self.end(self.start(*arguments)), target, "is a folder")
+                self.assertEqual(os.listdir(self.path(target)), [])
+
+    def test_a_report_must_not_be_a_file_of_the_run_under_another_name(self):
+        self.write("ids.txt", "0 1\n")
+        self.write("out.off", "precious")
+        for other in ("plate.off", "out.off", "ids.txt"):
+            for link in (os.symlink, os.link):
+                with self.subTest(other, link=link.__name__):
+                    before = self.read(other)
+                    link(self.path(other), self.path("report.json"))
+                    outcome = self.run_tool("smooth", "plate.off", "out.off", "--fixed-ids", "ids.txt", "--report",
+                                            "report.json", expect=WRONG_USAGE)
+                    self.assertRegex(outcome.err, f"^trismooth: error: --report report.json: .*same file as {other}\n$")
+                    self.assertEqual(self.read(other), before)
+                    os.remove(self.path("report.json"))
+
+    def test_few_files_may_be_open(self):
+        self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
+        codes = set()
+        for files in range(3, 12):
+            with self.subTest(files):
+                self.write("out.vtu", "precious")
+                process = self.start("smooth", "plate.vtu", "out.vtu", "--threads", "1", "--report", "r.json",
+                                     limits={resource.RLIMIT_NOFILE: files})
+                outcome = self.end(process)
+                if outcome.code == 127:
+                    continue  # too few for the libraries
+                codes.add(outcome.code)
+                self.assertIn(outcome.code, (DONE, BAD_INPUT, NOT_WRITTEN), outcome)
+                self.assertEqual(self.read("out.vtu"),
+                                 self.read("whole.vtu") if outcome.code == DONE else b"precious")
+                if outcome.code != DONE:
+                    self.assertRegex(outcome.err, r"^trismooth: error: (plate|out)\.vtu: .*Too many open files\n$")
+                self.assert_no_temporary_files()
+        self.assertIn(DONE, codes)
+
+    def test_a_small_stack_does(self):
+        self.run_tool("smooth", "plate.vtu", "whole.vtu")
+        for kibibytes in (192, 256, 512):
+            outcome = self.end(self.start("smooth", "plate.vtu", "out.vtu", "--report", "r.html",
+                                          limits={resource.RLIMIT_STACK: kibibytes << 10}))
+            self.assertEqual(outcome.code, DONE, outcome)
+            self.assertEqual(self.read("out.vtu"), self.read("whole.vtu"))
+
+
+class Changes(OutputsTest):
+    """What happens to the target while the program is at work: it waits for its input, a pipe."""
+
+    def after(self, change, *arguments):
+        os.mkfifo(self.path("pipe.off"))
+        process = self.start(*arguments)
+        with open(self.path("pipe.off"), "wb") as pipe:  # opens when the program has come to read it
+            change()
+            pipe.write(self.read("plate.off"))
+        outcome = self.end(process)
+        os.remove(self.path("pipe.off"))
+        return outcome
+
+    def test_the_folder_of_the_target_vanishes(self):
+        for target in ("folder/out.off", "folder/out.vtu"):
+            with self.subTest(target):
+                os.mkdir(self.path("folder"))
+                outcome = self.after(lambda: os.rmdir(self.path("folder")), "smooth", "pipe.off", target)
+                self.assert_told(outcome, target, "No such file or directory")
+                self.assertFalse(os.path.exists(self.path("folder")))
+
+    def test_the_target_becomes_a_folder(self):
+        outcome = self.after(lambda: os.mkdir(self.path("out.off")), "smooth", "pipe.off", "out.off")
+        self.assert_told(outcome, "out.off", "is a folder")
+
+    def test_the_folder_of_a_report_vanishes_and_the_mesh_is_there(self):
+        os.mkdir(self.path("folder"))
+        outcome = self.after(lambda: os.rmdir(self.path("folder")), "smooth", "pipe.off", "out.off", "--report",
+                             "folder/r.json")
+        self.assert_told(outcome, "folder/r.json", "No such file or directory")
+        self.run_tool("smooth", "plate.off", "whole.off")
+        self.assertEqual(self.read("out.off"), self.read("whole.off"))
+
+    def test_somebody_else_writes_the_target_and_the_last_one_wins(self):
+        outcome = self.after(lambda: self.write("out.off", "of somebody else"), "smooth", "pipe.off", "out.off")
+        self.assertEqual(outcome.code, DONE, outcome)
+        self.run_tool("smooth", "plate.off", "whole.off")
+        self.assertEqual(self.read("out.off"), self.read("whole.off"))
+
+
+class Names(OutputsTest):
+
+    def test_links_and_the_longest_names(self):
+        self.run_tool("smooth", "plate.off", "whole.off")
+        whole = self.read("whole.off")
+        os.mkdir(self.path("elsewhere"))
+        os.symlink("elsewhere/new.off", self.path("dangling.off"))
+        os.symlink("nowhere/new.off", self.path("nowhere.off"))
+        self.write("one.off", "precious")
+        os.link(self.path("one.off"), self.path("other.off"))
+        longest = "x" * 251 + ".off"
+
+        self.run_tool("smooth", "plate.off", "dangling.off")
+        self.assertTrue(os.path.islink(self.path("dangling.off")))
+        self.assertEqual(os.listdir(self.path("elsewhere")), ["new.off"])
+        self.assertEqual(self.read("elsewhere/new.off"), whole)
+
+        outcome = self.run_tool("smooth", "plate.off", "nowhere.off", expect=NOT_WRITTEN)
+        self.assert_told(outcome, "nowhere.off", "No such file or directory")
+
+        # The name is given to the new file; another name of the old one keeps that.
+        self.run_tool("smooth", "plate.off", "one.off")
+        self.assertEqual(self.read("one.off"), whole)
+        self.assertEqual(self.read("other.off"), b"precious")
+
+        self.run_tool("smooth", "plate.off", longest, "--report", "r" * 250 + ".json")
+        self.assertEqual(self.read(longest), whole)
+        self.assert_told(self.run_tool("smooth", "plate.off", "x" + longest, expect=NOT_WRITTEN), "x" + longest,
+                         "File name too long")
+
+    def test_input_and_output_are_one_file_under_two_names(self):
+        self.run_tool("smooth", "plate.off", "whole.off")
+        before = self.read("plate.off")
+        for link in (os.symlink, os.link):
+            for source, target in (("plate.off", "name.off"), ("name.off", "plate.off"), ("name.off", "name.off")):
+                with self.subTest(link.__name__, source=source, target=target):
+                    self.write("plate.off", before)
+                    link(self.path("plate.off"), self.path("name.off"))
+                    self.run_tool("smooth", source, target)
+                    self.assertEqual(self.read(target), self.read("whole.off"))
+                    if link is os.symlink:
+                        self.assertTrue(os.path.islink(self.path("name.off")))
+                    os.remove(self.path("name.off"))
+        self.assert_no_temporary_files()
+
+
+class Pipes(OutputsTest):
+
+    def read_pipe(self, target, most=None):
+        """Everything that comes through the pipe; with `most`, some bytes, after which the reader goes away."""
+        with open(self.path(target), "rb", buffering=0) as pipe:
+            if most is not None:
+                return pipe.read(most)
+            return b"".join(iter(lambda: pipe.read(1 << 16), b""))
+
+    def test_a_pipe_gets_the_bytes_of_a_file(self):
+        for target, arguments in self.commands("pipe"):
+            if not target.endswith(("json", "html")):
+                with self.subTest(arguments):
+                    whole = [argument.replace("pipe.", "whole.") for argument in arguments]
+                    self.run_tool(*whole)
+                    if not os.path.exists(self.path(target)):
+                        os.mkfifo(self.path(target))
+                    process = self.start(*arguments)
+                    self.assertEqual(self.read_pipe(target), self.read(target.replace("pipe.", "whole.")))
+                    self.assertEqual(self.end(process).code, DONE)
+
+    def test_a_reader_that_goes_away_is_an_error_not_the_end_of_the_program(self):
+        self.run_tool("generate", "large.vtu", "--vertices", "4000")  # more than a pipe holds
+        self.run_tool("generate", "large.off", "--vertices", "4000")
+        for extension in FORMATS:
+            with self.subTest(extension):
+                target = f"pipe.{extension}"
+                os.mkfifo(self.path(target))
+                source = "large.vtu" if extension == "vtu" else "large.off"
+                process = self.start("smooth", source, target, "--quiet")
+                self.read_pipe(target, most=100)
+                self.assert_told(self.end(process), target, "Broken pipe")
+
+
+class StandardStreams(OutputsTest):
+
+    def setUp(self):
+        super().setUp()
+        self.run_tool("smooth", "plate.vtu", "whole.vtu")
+
+    def assert_whole(self):
+        self.assertEqual(self.read("out.vtu"), self.read("whole.vtu"))
+        self.assert_no_temporary_files()
+        os.remove(self.path("out.vtu"))
+
+    def test_a_standard_output_that_takes_nothing(self):
+        with open("/dev/full", "wb") as full:
+            for arguments in (("smooth", "plate.vtu", "out.vtu"), ("smooth", "plate.vtu", "out.vtu", "--require",
+                                                                   "min_shape>2"),
+                              ("quality", "plate.off"), ("generate", "out.vtu", "--vertices", "9"), ("info",),
+                              ("--help",), ("bench", "--sizes", "100", "--runs", "1", "--versions", "cpu")):
+                with self.subTest(arguments):
+                    outcome = self.end(self.start(*arguments, stdout=full))
+                    self.assert_told(outcome, "standard output", "No space left on device")
+                    if arguments[0] == "smooth":
+                        self.assert_whole()
+            outcome = self.end(self.start("smooth", "plate.vtu", "out.vtu", "--quiet", stdout=full))
+            self.assertEqual((outcome.code, outcome.err), (DONE, ""))
+            self.assert_whole()
+
+    def test_a_reader_of_the_standard_output_that_goes_away(self):
+        for _ in range(10):
+            process = self.start("smooth", "plate.vtu", "out.vtu")
+            process.stdout.close()
+            error = process.stderr.read()
+            process.stderr.close()
+            # As with any program in front of `head`: ended by the signal, without a word, its files whole.
+            self.assertEqual(process.wait(timeout=120), -13)
+            self.assertEqual(error, "")
+            self.assert_whole()
+
+    def test_messages_do_not_go_into_files_where_standard_streams_are_closed(self):
+        for closed in itertools.chain.from_iterable(itertools.combinations((0, 1, 2), n) for n in (1, 2, 3)):
+            for arguments in (("--verbose", "--report", "r.json"), ("--quiet",)):
+                with self.subTest(closed, arguments=arguments):
+                    redirections = " ".join(f"{stream}>&-" for stream in closed)
+                    done = subprocess.run(["sh", "-c", f'exec "$@" {redirections}', "sh", tool.program, "smooth",
+                                           "plate.vtu", "out.vtu", *arguments], cwd=self.folder, timeout=120,
+                                          check=False, capture_output=True, text=True)
+                    lost = 1 in closed and "--verbose" in arguments
+                    self.assertEqual(done.returncode, NOT_WRITTEN if lost else DONE, done)
+                    if lost and 2 not in closed:
+                        self.assertRegex(done.stderr, "trismooth: error: standard output: .*Bad file descriptor\n$")
+                    self.assert_whole()
+
+    def test_an_error_is_told_by_the_exit_code_where_messages_cannot_be(self):
+        for stream in ("2>&-", "2>/dev/full"):
+            done = subprocess.run(["sh", "-c", f'exec "$@" {stream}', "sh", tool.program, "smooth", "plate.vtu",
+                                   "no/out.vtu"], cwd=self.folder, check=False, timeout=120)
+            self.assertEqual(done.returncode, NOT_WRITTEN)
+
+
+if __name__ == "__main__":
+    tool.main()
