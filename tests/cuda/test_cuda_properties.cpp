@@ -1,0 +1,206 @@
+// The CUDA backend on random meshes of every kind: the CPU's bits, in every combination of execution, layout, topology,
+// form, method and precision, each mesh in a few of them; from device memory and in plans; and where no order is fixed,
+// the contract.
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/context.h"
+#include "trismooth/cuda/device_buffer.h"
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/uploaded_constraints.h"
+#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/mesh_rings.h"
+
+#include "catch.h"
+#include "properties/contract.h"
+#include "properties/for_random_meshes.h"
+#include "properties/smoothing_cases.h"
+
+using namespace properties;
+using test_meshes::Random;
+using trismooth::Evaluation;
+using trismooth::Execution;
+using trismooth::Layout;
+using trismooth::Order;
+using trismooth::Progress;
+using trismooth::SweepRecord;
+using trismooth::Topology;
+
+namespace cuda = trismooth::cuda;
+
+namespace {
+
+Execution any_execution(Random& random) {
+  return static_cast<Execution>(random.below(cuda::has_cdp() ? 3 : 2));
+}
+
+Layout any_layout(Random& random) {
+  return static_cast<Layout>(random.below(2));
+}
+
+/// What every backend has to do alike beside method, form, precision, sweep limit and tolerance.
+void draw_the_rest(SmoothingOptions& options, Random& random) {
+  options.guard = random.below(5) != 0;
+  options.record_min_shape = random.below(4) == 0;
+  options.evaluation = random.below(4) == 0 ? Evaluation::all : Evaluation::changed;
+  if (random.below(6) == 0) {
+    options.target_quality = random.between(-0.2, 0.8);
+  }
+  if (random.below(8) == 0) {
+    const std::int64_t last = 1 + random.below(8);
+    options.progress = [last](const SweepRecord& record) {
+      return record.sweep == last ? Progress::stop : Progress::proceed;
+    };
+  }
+}
+
+std::string text_of_device(const SmoothingOptions& options) {
+  return fmt::format("{}, {}, topology {}{}{}{}", to_string(options.execution), to_string(options.layout),
+                     to_string(options.topology), options.guard ? "" : ", no guard",
+                     options.record_min_shape || options.target_quality ? ", measured" : "",
+                     options.progress ? ", watched" : "");
+}
+
+/// A mesh in device memory, smoothed there by a plan as often as asked.
+class OnDevice {
+ public:
+  OnDevice(const RandomMesh& mesh, const SmoothingOptions& options)
+      : triangles_(context_, mesh.mesh.indices()),
+        constraints_(context_, mesh.constraints()),
+        plan_({mesh.mesh.vertex_count(), static_cast<std::int32_t>(mesh.mesh.triangles.size()), triangles_.data(),
+               constraints_.view()},
+              options, context_.stream()) {}
+
+  Run smooth(const std::vector<double>& xy, Storage storage) {
+    cuda::DeviceBuffer<double> device(context_, xy);
+    Run run{xy, {}};
+    run.result = plan_.smooth(device.data(), storage);
+    device.download(run.xy);
+    return run;
+  }
+
+  /// Coordinates as float32, there as here.
+  Run smooth_floats(const std::vector<double>& xy) {
+    std::vector<float> floats;
+    std::ranges::transform(xy, std::back_inserter(floats), [](double x) { return static_cast<float>(x); });
+    cuda::DeviceBuffer<float> device(context_, floats);
+    Run run;
+    run.result = plan_.smooth(device.data());
+    device.download(floats);
+    run.xy.assign(floats.begin(), floats.end());
+    return run;
+  }
+
+ private:
+  cuda::Context context_;
+  cuda::DeviceBuffer<std::int32_t> triangles_;
+  cuda::UploadedConstraints constraints_;
+  cuda::Plan plan_;
+};
+
+/// Its coordinates as a file of float32 would hold them.
+RandomMesh in_floats(RandomMesh mesh) {
+  for (auto& p : mesh.mesh.points) {
+    p = {trismooth::rounded_to_float32(p.x), trismooth::rounded_to_float32(p.y)};
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("random meshes have the CPU's bits, history and commit in every execution, layout and topology") {
+  for_random_meshes(2400, [](const RandomMesh& mesh) {
+    return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
+      draw_the_rest(options, random);
+      const Storage storage = fits_float32(mesh) && random.below(4) == 0 ? Storage::float32 : Storage::float64;
+      const Run expected = run(mesh, options, storage);
+      options.backend = &cuda::backend();
+      for (int times = 0; times < 2; ++times) {
+        options.execution = any_execution(random);
+        options.layout = any_layout(random);
+        options.topology = static_cast<Topology>(random.below(2));
+        const Run found = run(mesh, options, storage);
+        if (const std::string wrong = difference(found, expected); !wrong.empty()) {
+          return fmt::format("{}: {}", text_of_device(options), wrong);
+        }
+      }
+      return {};
+    });
+  });
+}
+
+TEST_CASE("random meshes in device memory have the CPU's bits, in plans used again and in float") {
+  for_random_meshes(1200, [](const RandomMesh& any) {
+    const RandomMesh mesh = fits_float32(any) && any.seed % 3 == 0 ? in_floats(any) : any;
+    const bool is_float = mesh.seed % 3 == 0 && fits_float32(any);
+    return for_some_options(mesh, 1, [&](SmoothingOptions options, Random& random) -> std::string {
+      draw_the_rest(options, random);
+      const Run expected = run(mesh, options, is_float ? Storage::float32 : Storage::float64);
+      options.execution = any_execution(random);
+      options.layout = any_layout(random);
+      OnDevice device(mesh, options);
+      for (int times = 0; times < 2; ++times) {
+        const Run found =
+            is_float ? device.smooth_floats(mesh.mesh.xy()) : device.smooth(mesh.mesh.xy(), Storage::float64);
+        if (const std::string wrong = difference(found, expected); !wrong.empty()) {
+          return fmt::format("{}, call {}: {}", text_of_device(options), times + 1, wrong);
+        }
+        // What a plan has seen in between does not matter, mirrored as it may be.
+        std::vector<double> other = mesh.mesh.xy();
+        for (std::size_t i = 0; i < other.size(); i += 2) {
+          other[i] = -other[i];
+        }
+        device.smooth(other, Storage::float64);
+      }
+      return {};
+    });
+  });
+}
+
+TEST_CASE("random meshes have the host's orientation, constraints and rings") {
+  for_random_meshes(2000, [](const RandomMesh& mesh) -> std::string {
+    const trismooth::LocalFrame frame = trismooth::local_frame(mesh.mesh.points);
+    std::vector<Point2<double>> local;
+    std::ranges::transform(mesh.mesh.points, std::back_inserter(local), [&](auto p) { return frame.enter(p); });
+    trismooth::Workers workers(1);
+    const auto expected = trismooth::find_mesh_rings(local, mesh.mesh.triangles, mesh.constraints(), workers);
+    SmoothingOptions options;
+    options.execution = mesh.seed % 2 == 0 ? Execution::single_block : Execution::resident;
+    const auto found = cuda::backend().find_rings(local, mesh.mesh.triangles, mesh.constraints(), options);
+    if (!found) {
+      return "the backend finds no rings";
+    }
+    if (found->reversed != expected.reversed || found->components != expected.components ||
+        found->reoriented_triangles != expected.reoriented_triangles) {
+      return "another orientation";
+    }
+    if (found->fixed != expected.fixed) {
+      return "other constraints";
+    }
+    const bool same_rings =
+        found->rings.offsets == expected.rings.offsets && found->rings.neighbours == expected.rings.neighbours;
+    return same_rings ? "" : "other rings";
+  });
+}
+
+TEST_CASE("in no fixed order random meshes are smoothed by the contract all the same") {
+  for_random_meshes(600, [](const RandomMesh& mesh) {
+    const Connectivity connectivity = connectivity_of(mesh);
+    return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
+      options.backend = &cuda::backend();
+      options.form = Form::in_place;
+      options.order = Order::unordered;
+      options.execution = cuda::has_cdp() && random.below(2) == 0 ? Execution::cdp : Execution::single_block;
+      options.layout = any_layout(random);
+      const std::string wrong = breach(mesh, connectivity, run(mesh, options), true);
+      return wrong.empty() ? wrong : fmt::format("{}: {}", text_of_device(options), wrong);
+    });
+  });
+}
