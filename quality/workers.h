@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -44,16 +43,8 @@ class Workers {
       return;
     }
     arena_.execute([&] {
-      // The scheduler orders what happens before, in and after the loop; the two counters say the same to tools that
-      // cannot see into its library (the thread sanitizer).
-      std::atomic<std::int64_t> started{1};
-      std::atomic<std::int64_t> finished{0};
-      tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, grain), [&](const auto& range) {
-        started.load(std::memory_order_acquire);
-        body(range.begin(), range.end());
-        finished.fetch_add(1, std::memory_order_release);
-      });
-      finished.load(std::memory_order_acquire);
+      tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, grain),
+                        [&](const auto& range) { body(range.begin(), range.end()); });
     });
   }
 

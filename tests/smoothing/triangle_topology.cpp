@@ -374,7 +374,7 @@ TEST_CASE("the sign of a nearly degenerate triangle is that of its quality, whic
   for (int turn = 0; turn < 27; ++turn) {
     Mesh turned = star;
     for (int t = 0, turns = turn; t < 3; ++t, turns /= 3) {
-      std::ranges::rotate(turned.triangles[t], turned.triangles[t].begin() + turns % 3);
+      std::rotate(turned.triangles[t].begin(), turned.triangles[t].begin() + turns % 3, turned.triangles[t].end());
     }
     CAPTURE(turn);
     CHECK(oriented(turned).reversed == expected.reversed);
