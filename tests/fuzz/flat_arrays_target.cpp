@@ -14,6 +14,7 @@
 
 #include "broken.h"
 #include "choices.h"
+#include "contract.h"
 #include "smoothing_checks.h"
 #include "support/test_meshes.h"
 #include "targets.h"
@@ -95,7 +96,7 @@ Arrays choose_strip(InputBytes& input) {
 
 /// Damages the arrays here and there.
 void edit(InputBytes& input, Arrays& arrays) {
-  for (int edits = input.below(8); edits > 0 && !arrays.xy.empty() && !arrays.triangles.empty(); --edits) {
+  for (int edits = input.below(8); edits > 0 && arrays.xy.size() > 1 && !arrays.triangles.empty(); --edits) {
     const std::size_t number = input.raw<std::uint16_t>() % arrays.xy.size();
     const std::size_t index = input.raw<std::uint16_t>() % arrays.triangles.size();
     const std::ptrdiff_t triangle = static_cast<std::ptrdiff_t>(index / 3 * 3);
@@ -348,6 +349,27 @@ void check_reproducible(const Case& chosen, const std::vector<double>& expected,
   }
 }
 
+/// What the contract gives, bit for bit.
+void check_contract(const Case& chosen, const NaiveTopology& topology, std::span<const Point2<double>> before,
+                    std::span<const Point2<double>> after, const SmoothingResult& result) {
+  const ByContract expected = smooth_by_contract(before, chosen.triangles(), topology, chosen.options, chosen.storage);
+  require(result.stop_reason == expected.outcome.reason && result.history.size() == expected.outcome.sweeps.size(),
+          "stops elsewhere than the contract says");
+  for (std::size_t i = 0; i < result.history.size(); ++i) {
+    require(result.history[i].moved == expected.outcome.sweeps[i].moved, "moves other vertices than the contract says");
+    require(chosen.options.evaluation == trismooth::Evaluation::all ||
+                result.history[i].evaluated == expected.outcome.sweeps[i].changed,
+            "evaluates other vertices than those whose neighbourhood changed");
+  }
+  require(result.guard_rounds == expected.commit.rounds, "the commit takes other rounds than the contract says");
+  require(std::ranges::equal(result.reverted, expected.commit.reverted, {}, &trismooth::RevertedVertex::vertex),
+          "the commit takes back other vertices than the contract says");
+  for (std::size_t v = 0; v < after.size(); ++v) {
+    require(fuzz::same_bits(after[v], expected.points[v]),
+            "vertex " + std::to_string(v) + " is elsewhere than the contract says");
+  }
+}
+
 void check_accepted(const Case& chosen) {
   const SmoothingOptions options = chosen.with_callback();
   trismooth::SmoothingPlan plan = chosen.plan(options);
@@ -370,6 +392,9 @@ void check_accepted(const Case& chosen) {
         "a coordinate that was stored as float32 is not one");
   }
   if (chosen.stop_after == 0 && chosen.throw_after == 0 && chosen.options.time_limit_seconds == infinity) {
+    if (!chosen.options.target_quality) {
+      check_contract(chosen, topology, before, after, result);
+    }
     check_reproducible(chosen, xy, result);
   }
 }

@@ -28,6 +28,8 @@ class XmlArrays {
   explicit XmlArrays(std::string file);
 
   const std::vector<Array>& arrays() const { return arrays_; }
+  /// Whether encoding takes long.
+  bool is_slow() const { return compressor_ == trismooth::VtkXmlCompressor::lzma; }
   /// The numbers of the array; nothing where they cannot be uncompressed.
   std::optional<std::string> payload(const Array& array) const;
   /// The array with other numbers, its header as they need it.

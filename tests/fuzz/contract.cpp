@@ -1,0 +1,97 @@
+#include "contract.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/quality/local_frame.h"
+
+namespace fuzz {
+
+namespace {
+
+std::vector<Triangle> counter_clockwise(std::span<const Triangle> triangles, const NaiveTopology& topology) {
+  std::vector<Triangle> turned(triangles.begin(), triangles.end());
+  for (std::size_t t = 0; t < turned.size(); ++t) {
+    if (topology.reversed[t] != 0) {
+      std::swap(turned[t][1], turned[t][2]);
+    }
+  }
+  return turned;
+}
+
+naive::Rings rings_of(std::span<const Triangle> triangles, const NaiveTopology& topology) {
+  std::vector<std::map<std::int32_t, std::int32_t>> following(topology.fixed.size());
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      following[static_cast<std::size_t>(t[i])][t[(i + 1) % 3]] = t[(i + 2) % 3];
+    }
+  }
+  naive::Rings rings(following.size());
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    if (topology.fixed[v] == 0) {
+      const std::int32_t first = following[v].begin()->first;
+      std::int32_t neighbour = first;
+      do {
+        rings[v].push_back(neighbour);
+        neighbour = following[v].at(neighbour);
+      } while (neighbour != first);
+    }
+  }
+  return rings;
+}
+
+template <class T>
+Point2<T> narrow(Point2<double> point) {
+  return {static_cast<T>(point.x), static_cast<T>(point.y)};
+}
+
+template <class T>
+ByContract smooth(std::span<const Point2<double>> points, std::span<const Triangle> listed,
+                  const NaiveTopology& topology, const trismooth::SmoothingOptions& options,
+                  trismooth::Storage storage) {
+  const trismooth::LocalFrame frame = trismooth::local_frame(points);
+  std::vector<Point2<double>> before(points.size());
+  std::vector<Point2<T>> working(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    before[v] = frame.enter(points[v]);
+    working[v] = narrow<T>(before[v]);
+  }
+  const std::vector<Triangle> triangles = counter_clockwise(listed, topology);
+  ByContract result;
+  result.outcome = naive::smooth(working, rings_of(triangles, topology), options.method, options.form,
+                                 options.tolerance, options.max_sweeps);
+  result.points.assign(points.begin(), points.end());
+  std::vector<Point2<double>> after = before;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!(working[v] == narrow<T>(before[v]))) {
+      const Point2<double> left = frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)});
+      result.points[v] = storage == trismooth::Storage::float64 ? left
+                                                                : Point2<double>{trismooth::rounded_to_float32(left.x),
+                                                                                 trismooth::rounded_to_float32(left.y)};
+      after[v] = frame.enter(result.points[v]);
+    }
+  }
+  if (options.guard) {
+    result.commit = naive::commit(triangles, before, after);
+  }
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (after[v] == before[v]) {
+      result.points[v] = points[v];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ByContract smooth_by_contract(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                              const NaiveTopology& topology, const trismooth::SmoothingOptions& options,
+                              trismooth::Storage storage) {
+  return options.precision == trismooth::Precision::double_precision
+             ? smooth<double>(points, triangles, topology, options, storage)
+             : smooth<float>(points, triangles, topology, options, storage);
+}
+
+}  // namespace fuzz
