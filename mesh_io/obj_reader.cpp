@@ -64,8 +64,14 @@ class ObjReader {
                  TextScanner::Continuation::backslash) {}
 
   std::pair<MeshDocument, CoordinateSites> read() {
+    bool has_statements = false;
     while (!scanner_.at_end()) {
       read_statement(scanner_.next_token("a statement"));
+      has_statements = true;
+    }
+    // Any text can pass for statements that are not known here. Comments alone are a mesh of nothing.
+    if (document_.points.empty() && (has_statements || scanner_.text().empty())) {
+      scanner_.fail_at(0, "is not an OBJ mesh: it has no vertices");
     }
     check_forward_references();
     materials_.move_to(document_.cell_arrays, "material", document_.cells.size());

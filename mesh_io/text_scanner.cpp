@@ -190,7 +190,8 @@ void require_room(const std::filesystem::path& path, std::string_view what, std:
   const std::uint64_t room = available / bytes_each;
   if (count > room) {
     throw ReadError(path, "declares " + std::to_string(count) + " " + std::string(what) +
-                              ", but the file has room for " + std::to_string(room) + " at most");
+                              ", but the file has room for " + std::to_string(room) +
+                              " at most: it is cut off, or that number is wrong");
   }
 }
 

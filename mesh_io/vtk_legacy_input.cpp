@@ -124,7 +124,7 @@ std::uint64_t VtkLegacyInput::value_count(std::uint64_t a, std::uint64_t b, std:
 void VtkLegacyInput::require_values(std::uint64_t count, std::uint64_t room, std::string_view what) const {
   if (count > room) {
     fail("declares " + std::to_string(count) + " " + std::string(what) + ", but the rest of the file has room for " +
-         std::to_string(room) + " at most");
+         std::to_string(room) + " at most: it is cut off, or that number is wrong");
   }
 }
 

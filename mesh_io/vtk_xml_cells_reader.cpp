@@ -42,6 +42,7 @@ struct VtkXmlCellsReader::Arrays {
 };
 
 const XmlElement* VtkXmlCellsReader::array_of(const XmlElement* section, std::string_view name) const {
+  const XmlElement* found = nullptr;
   for (const XmlElement* const array : vtk_xml_arrays_of(section)) {
     const VtkXmlArrayType type = vtk_xml_array_type_of(path_, *array);
     if (type.name != name) {
@@ -50,9 +51,12 @@ const XmlElement* VtkXmlCellsReader::array_of(const XmlElement* section, std::st
     if (type.values != VtkXmlArrayType::Values::numbers || !is_integer(type.type) || type.components != 1) {
       throw ReadError(path_, array->line, "array " + trismooth::quoted(name) + " does not hold one whole number a row");
     }
-    return array;
+    if (found != nullptr) {
+      throw ReadError(path_, array->line, "a second array " + trismooth::quoted(name) + " in <" + section->name + ">");
+    }
+    found = array;
   }
-  return nullptr;
+  return found;
 }
 
 VtkXmlCellsReader::Arrays VtkXmlCellsReader::arrays_of(const VtkXmlPiece& piece, const std::string& section) const {

@@ -31,6 +31,10 @@ std::uint64_t count_attribute(const std::filesystem::path& path, const XmlElemen
   return count.value_or(0);
 }
 
+bool is_array(const XmlElement& element) {
+  return element.name == "DataArray" || element.name == "Array";
+}
+
 VtkXmlPiece read_piece(const std::filesystem::path& path, const XmlElement& element, VtkXmlKind kind) {
   VtkXmlPiece piece;
   piece.element = &element;
@@ -45,6 +49,25 @@ VtkXmlPiece read_piece(const std::filesystem::path& path, const XmlElement& elem
     piece.cells += piece.groups[group];
   }
   return piece;
+}
+
+/// What is known stands there once: VTK takes one of two and drops the other.
+void refuse_second(const std::filesystem::path& path, const XmlElement& parent, std::string_view name) {
+  const auto is_named = [name](const XmlElement& child) { return child.name == name; };
+  const auto first = std::ranges::find_if(parent.children, is_named);
+  const auto second = first == parent.children.end() ? first : std::find_if(first + 1, parent.children.end(), is_named);
+  if (second != parent.children.end()) {
+    throw ReadError(path, second->line, "a second <" + std::string(name) + "> in <" + parent.name + ">");
+  }
+}
+
+/// Whatever of a section is no array.
+void note_other_children(const XmlElement& section, std::vector<std::string>& notes) {
+  for (const XmlElement& child : section.children) {
+    if (!is_array(child)) {
+      notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
+    }
+  }
 }
 
 bool is_known_in_piece(std::string_view name, VtkXmlKind kind) {
@@ -79,10 +102,13 @@ std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, 
     throw ReadError(path, data_set.line, "holds time steps; give a file of one mesh");
   }
   std::vector<VtkXmlPiece> pieces;
+  refuse_second(path, data_set, "FieldData");
   for (const XmlElement& child : data_set.children) {
-    if (child.name == "Piece") {
+    if (child.name == "FieldData") {
+      note_other_children(child, notes);
+    } else if (child.name == "Piece") {
       pieces.push_back(read_piece(path, child, kind));
-    } else if (child.name != "FieldData" && !is_known_in_piece(child.name, kind)) {
+    } else if (!is_known_in_piece(child.name, kind)) {
       notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
     }
   }
@@ -99,7 +125,10 @@ std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, 
                       "the pieces have more than " + std::to_string(most_points) + " points");
     }
     for (const XmlElement& child : piece.element->children) {
-      if (piece.element != &data_set && !is_known_in_piece(child.name, kind)) {
+      if (is_known_in_piece(child.name, kind)) {
+        refuse_second(path, *piece.element, child.name);
+        note_other_children(child, notes);
+      } else if (piece.element != &data_set) {
         notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
       }
     }
@@ -158,7 +187,7 @@ std::vector<const XmlElement*> vtk_xml_arrays_of(const XmlElement* element) {
     return arrays;
   }
   for (const XmlElement& child : element->children) {
-    if (child.name == "DataArray" || child.name == "Array") {
+    if (is_array(child)) {
       arrays.push_back(&child);
     }
   }

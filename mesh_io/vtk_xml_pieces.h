@@ -23,8 +23,8 @@ struct VtkXmlPiece {
   std::array<std::uint64_t, poly_data_groups> groups{};  ///< of vtkPolyData, by PolyDataGroup
 };
 
-/// The pieces of a data set element; the element itself where it holds none, as VTK reads it. Refuses time steps.
-/// Elements without a meaning here give a sentence in `notes`. Throws ReadError.
+/// The pieces of a data set element; the element itself where it holds none, as VTK reads it. Refuses time steps and
+/// sections that stand there twice. Elements without a meaning here give a sentence in `notes`. Throws ReadError.
 std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, const XmlElement& data_set,
                                              VtkXmlKind kind, std::vector<std::string>& notes);
 

@@ -152,8 +152,13 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
     std::rethrow_exception(state.error);
   }
   if (status != XML_STATUS_OK && !state.head.stopped) {
+    const XML_Error code = XML_GetErrorCode(parser.get());
+    const bool is_cut = code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN ||
+                        code == XML_ERROR_PARTIAL_CHAR || code == XML_ERROR_UNCLOSED_CDATA_SECTION;
     throw ReadError(path, state.line(),
-                    std::string("is not well-formed XML: ") + XML_ErrorString(XML_GetErrorCode(parser.get())));
+                    !is_cut              ? std::string("is not well-formed XML: ") + XML_ErrorString(code)
+                    : state.open.empty() ? "ends where XML is expected: it is cut off"
+                                         : "ends within <" + state.open.back()->name + ">: it is cut off");
   }
   return std::move(state.head);
 }

@@ -83,8 +83,8 @@ std::string differing_arrays(std::span<const DataArray> a, std::span<const DataA
 
 /// A file of one size needs so much for its tables, buffers and the decoders of compressed blocks.
 constexpr std::size_t most_memory = std::size_t{1} << 20;
-/// liblzma makes room for the dictionary that a block names, 8 MiB by default.
-constexpr std::size_t most_memory_of_lzma = std::size_t{20} << 20;
+/// liblzma makes room for the dictionary that a block names, 1 MiB in the files of the collection.
+constexpr std::size_t most_memory_of_lzma = std::size_t{4} << 20;
 
 }  // namespace
 

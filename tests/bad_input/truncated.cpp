@@ -48,18 +48,33 @@ bool is_whole_off(const AcceptedFile& file, std::size_t cut) {
   return numbers <= 4 && numbers != 2;
 }
 
-/// OBJ has no end: it is whole after every whole statement, and statements end with any of their words.
+/// Where the first statement of a vertex begins.
+std::size_t first_vertex_of(const AcceptedFile& file) {
+  std::size_t at = file.bytes.find("v ");
+  while (at > 0 && !contains("\r\n", file.bytes.substr(at - 1, 1))) {
+    at = file.bytes.find("v ", at + 1);
+  }
+  return at;
+}
+
+/// After its first vertex OBJ has no end: it is whole after every whole statement, and statements end with any of
+/// their words.
 bool is_whole_obj(const AcceptedFile& file, std::size_t cut) {
   std::string text = file.bytes.substr(0, cut);
   for (std::size_t at = text.find("\\\n"); at != std::string::npos; at = text.find("\\\n")) {
     text.replace(at, 2, "  ");
   }
   const std::vector<std::string> last = words(std::string_view(text).substr(text.find_last_of("\r\n") + 1));
-  if (contains(file.name, "faces_first") && cut > 0 && cut + 1 < file.bytes.size()) {
+  if (contains(file.name, "faces_first") && cut + 1 < file.bytes.size()) {
     return false;  // the vertices that the faces name are not there
   }
   if (contains(file.name, "mark") && cut > 0 && cut < 3) {
     return false;  // a part of the mark
+  }
+  const std::size_t comments_end = std::min(file.bytes.find("mtllib"), file.bytes.find("g a"));
+  if (cut <= first_vertex_of(file)) {
+    // A mesh has vertices, but a file of comments is a mesh of nothing.
+    return cut > 0 && comments_end != file.bytes.npos && cut <= comments_end;
   }
   if (last.empty()) {
     return true;

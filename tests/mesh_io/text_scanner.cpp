@@ -163,7 +163,7 @@ TEST_CASE("tokens in messages are short and printable") {
 TEST_CASE("declared counts must fit into the file") {
   CHECK_NOTHROW(trismooth::require_room("f", "vertices", 10, 6, 60));
   CHECK(message_of<ReadError>([] { trismooth::require_room("f", "vertices", 11, 6, 65); }) ==
-        "f: declares 11 vertices, but the file has room for 10 at most");
+        "f: declares 11 vertices, but the file has room for 10 at most: it is cut off, or that number is wrong");
   CHECK_THROWS_AS(trismooth::require_room("f", "vertices", std::numeric_limits<std::uint64_t>::max(), 8, 1000),
                   ReadError);
 }

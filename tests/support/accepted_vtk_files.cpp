@@ -193,7 +193,12 @@ std::string base64(std::string_view bytes) {
 class XmlText {
  public:
   explicit XmlText(const VtkXmlEncoding& encoding)
-      : encoding_(encoding), compressor_(trismooth::make_vtk_compressor(encoding.compressor)) {}
+      : encoding_(encoding), compressor_(trismooth::make_vtk_compressor(encoding.compressor)) {
+    if (compressor_ != nullptr) {
+      // LZMA's readers make room for the dictionary of the level: 1 MiB for this one.
+      compressor_->SetCompressionLevel(1);
+    }
+  }
 
   template <class T>
   std::string array(const std::string& type, const std::string& attributes, const std::vector<T>& numbers) {
