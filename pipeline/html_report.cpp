@@ -312,6 +312,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result) {
   if (!result.before.worst.empty()) {
     html += html_section("Worst elements", worst_tables(result));
   }
+  if (!result.warnings.empty()) {
+    html += html_section("Warnings", html_list(result.warnings));
+  }
   if (!result.notes.empty()) {
     html += html_section("Notes", html_list(result.notes));
   }

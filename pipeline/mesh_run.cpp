@@ -110,6 +110,17 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
     }
     return Progress::proceed;
   };
+  options.warned = [&](const std::string& warning) {
+    if (verbosity == Verbosity::quiet) {
+      return;
+    }
+    const bool drawing = bar.has_value();
+    bar.reset();  // its line goes first
+    print_warning(environment.err, warning);
+    if (drawing) {
+      bar.emplace(environment.err);
+    }
+  };
   options.smoothing.progress = [&](const SweepRecord& record) {
     if (bar) {
       bar->sweep_done(record);

@@ -14,6 +14,9 @@ namespace trismooth {
 inline void print_error(std::ostream& stream, std::string_view message) {
   stream << "trismooth: error: " << message << '\n';
 }
+inline void print_warning(std::ostream& stream, std::string_view message) {
+  stream << "trismooth: warning: " << message << '\n';
+}
 inline void print_note(std::ostream& stream, std::string_view message) {
   stream << "trismooth: note: " << message << '\n';
 }

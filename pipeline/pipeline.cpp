@@ -14,6 +14,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
+#include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
@@ -50,6 +51,7 @@ class Run {
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
     timed(Stage::check_before, result_.timings_ms.check_before, [&] { result_.before = check(); });
     if (options_.output) {
+      warn_of_precision();
       begin(Stage::smooth);
       smooth();
       timed(Stage::check_after, result_.timings_ms.check_after, [&] { result_.after = check(); });
@@ -151,6 +153,21 @@ class Run {
       element.centroid = frame_.leave(element.centroid);
     }
     return report;
+  }
+
+  void warn_of_precision() {
+    if (options_.smoothing.precision != Precision::single_precision) {
+      return;
+    }
+    const PrecisionLoss loss =
+        single_precision_loss({local_, mesh_.triangles, found_.reversed}, options_.smoothing.threads);
+    if (!loss.any()) {
+      return;
+    }
+    result_.warnings.push_back(describe(loss));
+    if (options_.warned) {
+      options_.warned(result_.warnings.back());
+    }
   }
 
   void smooth() {

@@ -39,6 +39,7 @@ struct PipelineOptions {
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   bool annotate = false;                           ///< add shape, fixed and displacement to VTK output
   std::function<Progress(Stage)> stage_started;    ///< may answer stop: Cancelled is thrown then
+  std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
 };
 
 /// The run was stopped by a callback; nothing was written.
@@ -76,6 +77,7 @@ struct PipelineResult {
   std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
   std::uint64_t uncommitted_hash = 0;        ///< the same before the commit
   std::vector<std::string> notes;            ///< what the user should know, one sentence each
+  std::vector<std::string> warnings;         ///< what the user should have known before the smoothing, likewise
   PipelineTimings timings_ms;
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far
 };

@@ -32,7 +32,7 @@ using Keys = std::vector<std::string>;
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result()));
   CHECK(keys_of(report) == Keys{"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash",
-                                "uncommitted_hash", "timings_ms", "peak_memory_bytes"});
+                                "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
                                          "region_array", "components", "fixed_vertices", "free_vertices",
                                          "reoriented_triangles"});

@@ -1,0 +1,60 @@
+#include "trismooth/quality/precision_loss.h"
+
+#include <atomic>
+#include <cmath>
+
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/workers.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t grain = 4096;
+
+Point2<float> rounded(Point2<double> point) {
+  return {static_cast<float>(point.x), static_cast<float>(point.y)};
+}
+
+}  // namespace
+
+PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
+  std::atomic<std::int64_t> collapsed{0};
+  std::atomic<std::int64_t> distorted{0};
+  const auto count = static_cast<std::int64_t>(view.triangles.size());
+  Workers(threads).for_blocks(count, grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t collapsed_here = 0;
+    std::int64_t distorted_here = 0;
+    for (std::int64_t t = begin; t < end; ++t) {
+      const auto [i, j, k] = canonical_corners(view, static_cast<std::size_t>(t));
+      const Point2<double> a = view.points[static_cast<std::size_t>(i)];
+      const Point2<double> b = view.points[static_cast<std::size_t>(j)];
+      const Point2<double> c = view.points[static_cast<std::size_t>(k)];
+      const double exact = shape(a, b, c);
+      const float in_single = shape(rounded(a), rounded(b), rounded(c));
+      if (exact > 0 && !(in_single > 0)) {
+        ++collapsed_here;
+      } else if (!(std::abs(exact - static_cast<double>(in_single)) <= distortion_limit)) {
+        ++distorted_here;
+      }
+    }
+    collapsed.fetch_add(collapsed_here, std::memory_order_relaxed);
+    distorted.fetch_add(distorted_here, std::memory_order_relaxed);
+  });
+  return {count, collapsed, distorted};
+}
+
+std::string describe(const PrecisionLoss& loss) {
+  std::string lost;
+  if (loss.collapsed > 0) {
+    lost = std::to_string(loss.collapsed) + " collapse";
+  }
+  if (loss.distorted > 0) {
+    lost += (lost.empty() ? "" : " and ") + std::to_string(loss.distorted) + " change their shape by more than 0.01";
+  }
+  return "single precision cannot hold this mesh: of " + std::to_string(loss.triangles) + " triangles " + lost +
+         " when their coordinates are rounded to it. The result is checked in double and will not be worse than the "
+         "input; --precision double smooths it as it is";
+}
+
+}  // namespace trismooth

@@ -1,0 +1,79 @@
+#include "trismooth/quality/precision_loss.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "trismooth/quality/local_frame.h"
+
+#include "catch.h"
+
+using trismooth::PrecisionLoss;
+using trismooth::Triangle;
+using Point = trismooth::Point2<double>;
+
+namespace {
+
+/// A large triangle and small right-angled ones of size `small` near the point (1/3, 1/5), whose coordinates have all
+/// digits.
+PrecisionLoss loss_beside(double small, std::int32_t count, int threads = 1) {
+  std::vector<Point> points{{0, 0}, {1, 0}, {0, 1}};
+  std::vector<Triangle> triangles{{0, 1, 2}};
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Point corner{1.0 / 3 + 1e-3 * i / count, 0.2};
+    points.insert(points.end(), {corner, {corner.x + small, corner.y}, {corner.x, corner.y + small}});
+    triangles.push_back({3 * i + 3, 3 * i + 4, 3 * i + 5});
+  }
+  return trismooth::single_precision_loss({points, triangles, {}}, threads);
+}
+
+}  // namespace
+
+TEST_CASE("a mesh of one size is held by single precision") {
+  const PrecisionLoss loss = loss_beside(0.01, 100);
+  CHECK(loss.triangles == 101);
+  CHECK(loss.collapsed == 0);
+  CHECK(loss.distorted == 0);
+  CHECK_FALSE(loss.any());
+}
+
+TEST_CASE("triangles far below the spacing of float32 collapse, those of some spacings are distorted") {
+  const PrecisionLoss tiny = loss_beside(1e-10, 100);
+  CHECK(tiny.collapsed == 100);
+  CHECK(tiny.distorted == 0);
+  const PrecisionLoss coarse = loss_beside(7e-8, 100);
+  CHECK(coarse.collapsed == 0);
+  CHECK(coarse.distorted > 20);
+  CHECK(coarse.any());
+}
+
+TEST_CASE("triangles that are degenerate or inverted in double are not said to collapse") {
+  const std::vector<Point> points{{0, 0}, {1, 0}, {0.25, 0}, {0, 1}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {0, 3, 1}};
+  CHECK_FALSE(trismooth::single_precision_loss({points, triangles, {}}).any());
+}
+
+TEST_CASE("the counts do not depend on the number of threads") {
+  for (const int threads : {2, 5}) {
+    const PrecisionLoss loss = loss_beside(4e-8, 20000, threads);
+    const PrecisionLoss alone = loss_beside(4e-8, 20000);
+    CHECK(loss.collapsed == alone.collapsed);
+    CHECK(loss.distorted == alone.distorted);
+  }
+}
+
+TEST_CASE("a triangle whose squares vanish in float32 has collapsed") {
+  const std::vector<Point> points{{0, 0}, {1, 0}, {0, 1}, {0, 1e-30}, {1e-30, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {0, 4, 3}};
+  CHECK(trismooth::single_precision_loss({points, triangles, {}}).collapsed == 1);
+}
+
+TEST_CASE("the description says how many of what, and what to do") {
+  CHECK(describe(PrecisionLoss{18, 4, 0})
+            .starts_with("single precision cannot hold this mesh: of 18 triangles 4 collapse when their coordinates "
+                         "are rounded to it."));
+  CHECK(describe(PrecisionLoss{18, 4, 3}).find("4 collapse and 3 change their shape by more than 0.01 when") !=
+        std::string::npos);
+  CHECK(describe(PrecisionLoss{18, 0, 3}).find("of 18 triangles 3 change") != std::string::npos);
+  CHECK(describe(PrecisionLoss{18, 0, 3}).find("--precision double") != std::string::npos);
+}
