@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "trismooth/mesh_io/buffered_writer.h"
@@ -34,7 +36,8 @@ class SitePatcher {
     if (sites_.encoding == CoordinateEncoding::text) {
       const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
       const std::string_view token = bytes_.substr(offset, end - offset);
-      if (parse_number<T>(token) != value) {
+      const std::optional<T> stored = parse_number<T>(token);
+      if (!stored || differs(*stored, value)) {
         append_number(text, value);
       }
       return token.size();
@@ -46,7 +49,7 @@ class SitePatcher {
     if (swapped) {
       std::ranges::reverse(stored);
     }
-    if (std::bit_cast<T>(stored) != value) {
+    if (differs(std::bit_cast<T>(stored), value)) {
       auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
       if (swapped) {
         std::ranges::reverse(bytes);
@@ -54,6 +57,13 @@ class SitePatcher {
       text.assign(bytes.data(), bytes.size());
     }
     return sizeof(T);
+  }
+
+  /// A zero's sign counts: what is written is read back bit for bit. Where a vertex stands at several sites, they were
+  /// found equal with whatever sign each has.
+  template <class T>
+  bool differs(T stored, T value) const {
+    return stored != value || (sites_.vertices.empty() && std::signbit(stored) != std::signbit(value));
   }
 
   std::string_view bytes_;

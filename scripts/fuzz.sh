@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and the interface of flat arrays with libFuzzer (Clang, preset asan).
 #
-#   scripts/fuzz.sh [--seconds N] [TARGET...]
+#   scripts/fuzz.sh [--seconds N] [--no-build] [TARGET...]
 #
 # Runs each target for N seconds (default 600), as many at a time as there are processors. Targets: off obj ply stl vtk
 # vtu vtp flat_arrays; all without arguments. What has been found worth keeping stays in build/fuzz/TARGET/corpus, where
@@ -11,6 +11,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 seconds=600
+builds=true
 targets=()
 while (($# > 0)); do
   case $1 in
@@ -18,8 +19,9 @@ while (($# > 0)); do
       seconds=${2:?--seconds needs a number}
       shift
       ;;
+    --no-build) builds=false ;;
     -*)
-      sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
+      sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
       exit 2
       ;;
     *) targets+=("$1") ;;
@@ -39,8 +41,10 @@ export LLVM_PROFILE_FILE=/dev/null
 # VTK keeps no frame pointers: longer stacks of allocations are wrong and all differ, which fills the memory.
 export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 
-(cd "$project" && cmake --preset asan >/dev/null)
-cmake --build "$build" --target fuzz_seeds "${targets[@]/#/fuzz_}"
+if $builds; then
+  (cd "$project" && cmake --preset asan >/dev/null)
+  cmake --build "$build" --target fuzz_seeds "${targets[@]/#/fuzz_}"
+fi
 "$programs/fuzz_seeds" "$work/seeds"
 
 fuzz() {

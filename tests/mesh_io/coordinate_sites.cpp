@@ -52,10 +52,19 @@ TEST_CASE("only text that states another value is replaced") {
   CHECK(patched(bytes, sites, {1, 2, 3, 4, 5, 6}, "# end") == bytes + "# end");
 }
 
-TEST_CASE("zero and minus zero are one value") {
+TEST_CASE("the sign of a zero is written, so that what is read back has the bits of the mesh") {
   CoordinateSites sites;
   sites.offsets = {0, 6, 8};
-  CHECK(patched("-0.00 0 0", sites, {0.0, -0.0, 0.0}) == "-0.00 0 0");
+  CHECK(patched("-0.00 0 +0", sites, {-0.0, 0.0, 0.0}) == "-0.00 0 +0");
+  CHECK(patched("-0.00 0 +0", sites, {0.0, -0.0, 0.0}) == "0 -0 +0");
+}
+
+TEST_CASE("sites of one vertex may differ in the sign of a zero, as corners of STL that were found equal") {
+  CoordinateSites sites;
+  sites.offsets = {0, 2, 4, 6, 9, 11};
+  sites.vertices = {0, 0};
+  CHECK(patched("0 5 5 -0 5 5", sites, {0.0, 5, 5}) == "0 5 5 -0 5 5");
+  CHECK(patched("0 5 5 -0 5 5", sites, {0.0, 6, 5}) == "0 6 5 -0 6 5");
 }
 
 TEST_CASE("text of float32 files gets the shortest float32 text") {
