@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tbb/task_arena.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -187,7 +188,8 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
   writer->SetCompressor(make_vtk_compressor(encoding.compressor));
-  const bool written = writer->Write() != 0;
+  // For a loop over the types of cells it would start threads, which a user may have asked not to do.
+  const bool written = tbb::task_arena(1).execute([&] { return writer->Write() != 0; });
   const unsigned long code = writer->GetErrorCode();
   if (!written || code != vtkErrorCode::NoError || !messages.first_error().empty()) {
     throw WriteError(

@@ -135,7 +135,9 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
   } catch (const MeshError& error) {
     throw ReadError(options.input, error.what());
   } catch (const std::bad_alloc&) {
-    throw ReadError(options.input, "not enough memory for this mesh; use a machine with more, or a smaller mesh");
+    throw ReadError(
+        options.input,
+        "not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a smaller mesh");
   }
 }
 

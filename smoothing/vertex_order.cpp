@@ -41,6 +41,7 @@ std::vector<std::int32_t> hilbert_order(std::span<const Point2<double>> points, 
   if (workers.count() == 1) {
     std::ranges::sort(keys);
   } else {
+    workers.start();
     workers.run([&] { tbb::parallel_sort(keys.begin(), keys.end()); });
   }
   std::vector<std::int32_t> order(points.size());

@@ -268,8 +268,8 @@ class SystemCalls(tool.ToolTest):
         self.write("plate.vtu", sample_meshes.vtu(sample_meshes.Grid(4)))
 
     def traced(self, *options_and_arguments):
-        done = subprocess.run(["strace", "-qq", "-o", "trace.txt", *options_and_arguments], cwd=self.folder, check=False,
-                              capture_output=True, text=True, timeout=120)
+        done = subprocess.run(["strace", "-qq", "-o", "trace.txt", *options_and_arguments], cwd=self.folder,
+                              check=False, capture_output=True, text=True, timeout=120)
         return tool.Outcome(done.returncode, done.stdout, done.stderr)
 
     def test_errors_that_come_late_leave_the_old_file(self):

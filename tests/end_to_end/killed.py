@@ -1,4 +1,4 @@
-"""Killed or interrupted at any moment: the old output or the whole new one, and whoever was interrupted is told which."""
+"""Killed or interrupted at any moment: the old output or the whole new one, and who was interrupted is told which."""
 
 import concurrent.futures
 import json

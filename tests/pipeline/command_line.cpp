@@ -263,7 +263,8 @@ TEST_CASE("each kind of failure has its exit code and one line of message") {
   check(call_failing_with(trismooth::MeshError("triangle 3 repeats a vertex")), 3,
         "plate.vtk: triangle 3 repeats a vertex");
   check(call_failing_with(std::bad_alloc()), 3,
-        "plate.vtk: not enough memory for this mesh; use a machine with more, or a smaller mesh");
+        "plate.vtk: not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a "
+        "smaller mesh");
   check(call_failing_with(trismooth::WriteError("out.vtk", "the disk is full")), 4, "out.vtk: the disk is full");
   check(call_failing_with(trismooth::DeviceError("the device was lost")), 5, "the device was lost");
   check(call_failing_with(trismooth::Cancelled()), 130, "cancelled; nothing was written");

@@ -23,11 +23,12 @@ inline int max_concurrency() {
 class task_arena {
  public:
   explicit task_arena(int threads) : threads_(threads) {}
+  void initialize(int threads) { threads_ = threads; }
 
   template <class Function>
-  void execute(Function&& function) {
+  auto execute(Function&& function) {
     const Entered entered(threads_);
-    function();
+    return function();
   }
 
  private:
