@@ -27,12 +27,20 @@ function(trismooth_configure target)
   endif()
 endfunction()
 
+# Has the fuzzer see which edges of the target it reaches.
+function(trismooth_guide_fuzzer target)
+  if(TRISMOOTH_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
+endfunction()
+
 # trismooth_library(<name> <source>...) makes target trismooth_<name>, used as trismooth::<name>.
 function(trismooth_library name)
   add_library(trismooth_${name} ${ARGN})
   add_library(trismooth::${name} ALIAS trismooth_${name})
   set_target_properties(trismooth_${name} PROPERTIES EXPORT_NAME ${name})
   trismooth_configure(trismooth_${name})
+  trismooth_guide_fuzzer(trismooth_${name})
   target_include_directories(
     trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()

@@ -19,8 +19,18 @@ warnings_as_errors() {
   fi
 }
 
+# One architecture is enough for this machine, and takes half the time of the two that a build by hand compiles for:
+# that of its GPU, or the newest where there is none. TRISMOOTH_CUDA_ARCHITECTURES="80;90" in the environment decides
+# otherwise.
+cuda_architectures() {
+  local own
+  own=$(nvidia-smi --query-gpu=compute_cap --format=csv,noheader 2>/dev/null | head -1 | tr -dc '0-9' || true)
+  echo "${TRISMOOTH_CUDA_ARCHITECTURES:-${own:-90}}"
+}
+
 configure() {
-  (cd "$project" && cmake --preset release "-DTRISMOOTH_WERROR=$(warnings_as_errors)")
+  (cd "$project" && cmake --preset release "-DTRISMOOTH_WERROR=$(warnings_as_errors)" \
+    "-DCMAKE_CUDA_ARCHITECTURES=$(cuda_architectures)" --no-warn-unused-cli)
 }
 
 build_target() {

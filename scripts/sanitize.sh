@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Runs the tests under Clang's sanitizers, the fuzz targets for a moment, and says how much of the code the tests reach:
+#
+#   scripts/sanitize.sh            all of it
+#   scripts/sanitize.sh asan       address and undefined behaviour: tests, coverage, a short run of every fuzz target
+#   scripts/sanitize.sh tsan       threads: the tests of what runs on several
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# A target that does not find what is wrong in this time has scripts/fuzz.sh for longer runs.
+fuzz_seconds=13
+# Of the lines of these folders the tests must reach so many.
+covered_folders=(quality smoothing mesh_io)
+least_coverage=90
+
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1}
+export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+# Under a sanitizer everything takes several times as long: random tests make fewer meshes.
+export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-0.1}
+
+# build_and_run PRESET TEST...: builds the test programs and runs them, as many at a time as there are processors.
+build_and_run() {
+  local preset=$1
+  shift
+  local build=$project/build/$preset
+  (cd "$project" && cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" --target "$@")
+  echo "$preset: built after $SECONDS s"
+  # shellcheck disable=SC2016 # the inner shell expands
+  printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" bash -c '
+    log=$0/$1.log
+    if LLVM_PROFILE_FILE=$0/$1.profraw "$0/tests/$1" >"$log" 2>&1; then
+      echo "$1: $(grep -a -E "^All tests passed" "$log")"
+    else
+      cat "$log"
+      echo "error: $1 failed" >&2
+      exit 255
+    fi' "$build"
+  echo "$preset: run after $SECONDS s"
+}
+
+# print_coverage TEST...: lines reached by the programs that build_and_run has just run with preset asan.
+print_coverage() {
+  local build=$project/build/asan programs=() profiles=() folder
+  for program in "$@"; do
+    profiles+=("$build/$program.profraw")
+    programs+=(-object "$build/tests/$program")
+  done
+  llvm-profdata merge -sparse -o "$build/tests.profdata" "${profiles[@]}"
+  local status=0
+  for folder in "${covered_folders[@]}"; do
+    # The last line is the sum; its columns: regions, missed, share, functions, missed, share, lines, missed, share.
+    local share
+    share=$(llvm-cov report "${programs[@]:1}" -instr-profile="$build/tests.profdata" "$project/$folder" 2>/dev/null |
+      awk '$1 == "TOTAL" { sub("%", "", $10); print $10 }')
+    echo "coverage: $share % of the lines of $folder/"
+    if ! awk -v share="$share" -v least="$least_coverage" 'BEGIN { exit !(share >= least) }'; then
+      echo "error: that is less than $least_coverage %" >&2
+      status=1
+    fi
+  done
+  return "$status"
+}
+
+run_asan() {
+  local tests=(test_smoothing test_mesh_io test_bad_input test_properties test_quality test_fuzz_regressions)
+  export TRISMOOTH_FUZZ_REGRESSIONS=$project/tests/fuzz/regressions
+  build_and_run asan "${tests[@]}"
+  print_coverage "${tests[@]}"
+  "$project/scripts/fuzz.sh" --seconds "$fuzz_seconds"
+}
+
+run_tsan() {
+  build_and_run tsan test_smoothing test_quality
+}
+
+"$project/scripts/install-deps.sh" --tests
+case "${1:-all}" in
+  all)
+    run_asan
+    run_tsan
+    ;;
+  asan) run_asan ;;
+  tsan) run_tsan ;;
+  *)
+    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
