@@ -35,6 +35,10 @@ std::string_view statement_of(std::uint8_t type) {
 void write_obj(const std::filesystem::path& path, const MeshDocument& document) {
   const CellList& cells = document.cells;
   TextMeshWriter writer(path);
+  if (document.points.empty()) {
+    // An empty file is no OBJ, but comments alone are a mesh of nothing.
+    writer.word("# no vertices").end_line();
+  }
   for (std::size_t i = 0; i < document.points.size(); i += 3) {
     writer.word("v").number(document.points[i]).number(document.points[i + 1]).number(document.points[i + 2]);
     writer.end_line();

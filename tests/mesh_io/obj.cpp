@@ -286,6 +286,11 @@ TEST_CASE("OBJ: a mesh from elsewhere is written with its exact coordinates and 
                                  "OBJ holds no cell arrays: material is not written"});
 }
 
+TEST_CASE("OBJ: a mesh of nothing is written as a file that can be read") {
+  CHECK(written({}) == "# no vertices\n");
+  CHECK(read(written({})).points.empty());
+}
+
 TEST_CASE("OBJ: what OFF holds survives the way there and back") {
   const ScratchFolder folder;
   const std::string faces = house.substr(0, house.find("l 1"));
