@@ -126,6 +126,49 @@ void require_guarantees(const MeshDocument& document) {
   }
 }
 
+MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
+  using Types = std::vector<std::uint8_t>;
+  const Types faces{cell_type::triangle, cell_type::quad, cell_type::polygon};
+  const Types lines{cell_type::line, cell_type::poly_line};
+  const Types vertices{cell_type::vertex, cell_type::poly_vertex};
+  std::vector<Types> groups;
+  switch (format) {
+    case FileFormat::off:
+      groups = {faces};
+      break;
+    case FileFormat::obj:
+      groups = {faces};
+      groups[0].insert(groups[0].end(), lines.begin(), lines.end());
+      groups[0].insert(groups[0].end(), vertices.begin(), vertices.end());
+      break;
+    case FileFormat::ply:
+      groups = {faces, {cell_type::line}};
+      break;
+    case FileFormat::stl:
+      groups = {{cell_type::triangle}};
+      break;
+    case FileFormat::vtp:
+      groups = {vertices, lines, faces, {cell_type::triangle_strip}};
+      break;
+    case FileFormat::vtk:
+    case FileFormat::vtu:
+      groups.resize(1);
+      for (int type = 0; type < 256; ++type) {
+        groups[0].push_back(static_cast<std::uint8_t>(type));
+      }
+  }
+  MeshDocument held;
+  held.points = document.points;
+  for (const Types& group : groups) {
+    for (std::size_t c = 0; c < document.cells.size(); ++c) {
+      if (std::ranges::find(group, document.cells.types[c]) != group.end()) {
+        held.cells.append(document.cells.types[c], document.cells[c]);
+      }
+    }
+  }
+  return held;
+}
+
 std::string difference_of_points(const MeshDocument& a, const MeshDocument& b) {
   if (a.points.size() != b.points.size()) {
     return fmt::format("{} and {} points", a.point_count(), b.point_count());
