@@ -20,7 +20,7 @@ TEST_CASE("No byte anywhere makes a file that is neither refused nor sound") {
     // Some of the pairs in each file, others in the next.
     const std::size_t stride = is_vtk_xml(file) ? 9 : 3;
     ++count;
-    for (std::size_t at = 0; at < file.bytes.size(); ++at) {
+    for (std::size_t at = 0; at < file.bytes.size(); at += stride_of(file)) {
       for (std::size_t i = (at + count) % stride; i < hostile.size(); i += stride) {
         std::string bytes = file.bytes;
         bytes[at] = hostile[i];
@@ -36,7 +36,7 @@ TEST_CASE("No byte anywhere makes a file that is neither refused nor sound") {
 TEST_CASE("No byte that is lost or doubled makes a file that is neither refused nor sound") {
   Faults faults;
   for (const AcceptedFile& file : accepted_files::all()) {
-    for (std::size_t at = 0; at < file.bytes.size(); ++at) {
+    for (std::size_t at = 0; at < file.bytes.size(); at += stride_of(file)) {
       std::string lost = file.bytes;
       lost.erase(at, 1);
       faults.add_any(file.name, fmt::format("byte {} is lost", at), read(file, std::move(lost)).fault);

@@ -92,6 +92,14 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
   return file.extension == ".vtu" || file.extension == ".vtp";
 }
 
+std::size_t stride_of([[maybe_unused]] const accepted_files::AcceptedFile& file) {
+#ifdef TRISMOOTH_SANITIZED
+  return !is_vtk_xml(file) ? 2 : file.name.find("lzma") == std::string::npos ? 7 : 31;
+#else
+  return 1;
+#endif
+}
+
 Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
   const std::string path = "some folder/" + file.name + file.extension;
   const std::size_t limit = file.name.find("lzma") != std::string::npos ? most_memory_of_lzma : most_memory;

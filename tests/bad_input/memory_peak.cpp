@@ -6,14 +6,6 @@
 
 #include <malloc.h>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
-#define TRISMOOTH_SANITIZED
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TRISMOOTH_SANITIZED
-#endif
-
 #ifdef TRISMOOTH_SANITIZED
 #include <sanitizer/allocator_interface.h>
 #endif

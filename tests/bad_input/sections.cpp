@@ -103,7 +103,7 @@ TEST_CASE("Data in a VTU or VTP for which it declares no rows are refused") {
 TEST_CASE("Rows in a PLY that its header does not declare are refused, white space is not") {
   const AcceptedFile& text = file_named("ply_ascii_double");
   check_refused(text, text.bytes + "3 0 1 2\n", "expected the end of the file after the rows");
-  check_refused(text, replaced(text.bytes, "element face 4", "element face 3"), ":17: expected the end of the file");
+  check_refused(text, replaced(text.bytes, "element face 4", "element face 3"), ":18: expected the end of the file");
   CHECK(read(text, text.bytes + " \r\n\n").document);
   CHECK(read(text, text.bytes + "the end\n").document);
   const AcceptedFile& binary = file_named("ply_little_endian_double");

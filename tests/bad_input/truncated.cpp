@@ -204,7 +204,7 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
     // Only these formats can end after some of the cells.
     const bool all_cells =
         file.extension != ".obj" && file.name != "stl_ascii_solids" && !contains(file.name, "_poly_");
-    for (std::size_t cut = 0; cut < file.bytes.size(); ++cut) {
+    for (std::size_t cut = 0; cut < file.bytes.size(); cut += stride_of(file)) {
       const std::string place = fmt::format("cut at byte {}", cut);
       const Outcome outcome = read(file, file.bytes.substr(0, cut));
       faults.add_any(file.name, place, outcome.fault);
