@@ -273,8 +273,13 @@ void VtkLegacyInput::skip_metadata(std::uint64_t components) {
       return;
     }
     if (lower_case(line.substr(0, line.find_first_of(blanks))) == "component_names") {
-      // A component without a name is an empty line that ends nothing.
-      for (std::uint64_t i = 0; i < components && bytes_left() > 0; ++i) {
+      // A component without a name is an empty line that ends nothing. Where lines are missing, arrays that are added
+      // behind the file's last byte would be taken for names.
+      for (std::uint64_t i = 0; i < components; ++i) {
+        if (bytes_left() == 0) {
+          fail("COMPONENT_NAMES: expected " + std::to_string(components) + " lines, got " + std::to_string(i) +
+               ": the file is cut off");
+        }
         scanner_.next_line();
       }
     }

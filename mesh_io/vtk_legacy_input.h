@@ -60,7 +60,8 @@ class VtkLegacyInput {
   void skip_strings(std::uint64_t count, std::string_view what);
   /// Passes `count` variants: the number of a type and a text each, as text in both encodings.
   void skip_variants(std::uint64_t count, std::string_view what);
-  /// Passes the METADATA block of an array of `components`, if there is one: it ends at an empty line.
+  /// Passes the METADATA block of an array of `components`, if there is one: it ends at an empty line or with the
+  /// file. Fails where the names of the components are cut off.
   void skip_metadata(std::uint64_t components);
 
   /// a * b values, declared by two numbers of the file; fails where the product has more than 64 bits.

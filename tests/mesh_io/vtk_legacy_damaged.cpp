@@ -134,6 +134,7 @@ TEST_CASE("legacy VTK: malformed files are refused with the place and the reason
       {"LOOKUP_TABLE default", "", ":14: expected LOOKUP_TABLE, got '1'"},
       {"7 8 9\n", "7 8\n", ":15: expected values of point array 's', got the end of the file"},
       {"7 8 9\n", "7 8 9 10\n", ":14: unknown keyword '10'"},
+      {"7 8 9\n", "7 8 9\nMETADATA\nCOMPONENT_NAMES\n", ":16: COMPONENT_NAMES: expected 1 lines, got 0"},
   };
   for (const Fault& fault : faults) {
     CAPTURE(fault.what, fault.with);
