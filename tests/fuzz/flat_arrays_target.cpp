@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/quality/float32_rounding.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -315,10 +316,13 @@ Case choose_case(InputBytes& input) {
   chosen.stop_after = callback == 1 ? 1 + input.below(4) : 0;
   chosen.throw_after = callback == 2 ? 1 + input.below(4) : 0;
   chosen.arrays = choose_arrays(input);
-  // Whoever stores coordinates as float32 has none beyond its range.
-  const bool fits = std::ranges::all_of(
-      chosen.arrays.xy, [](double x) { return std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max()); });
-  chosen.storage = asks_for_float32 && fits ? Storage::float32 : Storage::float64;
+  // Whoever stores coordinates as float32 has no others.
+  const bool fits =
+      std::ranges::all_of(chosen.arrays.xy, [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); });
+  if (asks_for_float32 && fits) {
+    chosen.storage = Storage::float32;
+    std::ranges::transform(chosen.arrays.xy, chosen.arrays.xy.begin(), &trismooth::rounded_to_float32);
+  }
   chosen.holds = choose_holds(input, chosen.arrays.xy.size() / 2, chosen.arrays.triangles.size() / 3);
   return chosen;
 }
