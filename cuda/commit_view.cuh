@@ -5,6 +5,7 @@
 
 #include "trismooth/cuda/commit.h"
 #include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/largest_stored.h"
 
 namespace trismooth::cuda {
 
@@ -63,7 +64,8 @@ class Positions {
   }
   /// Where the file would have a vertex whose working position has changed.
   __device__ Point2<double> stored(Point2<T> working) const {
-    const Point2<double> left = frame_.leave({static_cast<double>(working.x), static_cast<double>(working.y)});
+    const Point2<double> left =
+        frame_.leave({static_cast<double>(working.x), static_cast<double>(working.y)}, largest_stored(storage_));
     return storage_ == Storage::float64 ? left
                                         : Point2<double>{static_cast<double>(static_cast<float>(left.x)),
                                                          static_cast<double>(static_cast<float>(left.y))};

@@ -89,10 +89,14 @@ struct LocalFrame {
     return {scaled(stored.x - centre_x, -exponent), scaled(stored.y - centre_y, -exponent)};
   }
 
-  /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated.
-  TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local) const {
+  /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated. What is
+  /// beyond `largest`, the largest number that the file can hold, becomes it: rounding may bring the mean of such
+  /// numbers there.
+  TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local,
+                                             double largest = std::numeric_limits<double>::max()) const {
     using local_frame_details::scaled;
-    return {translated(scaled(local.x, exponent), centre_x), translated(scaled(local.y, exponent), centre_y)};
+    return {within(largest, translated(scaled(local.x, exponent), centre_x)),
+            within(largest, translated(scaled(local.y, exponent), centre_y))};
   }
 
   /// 2^exponent: lengths in units of the file are local lengths times this. Infinite or 0 beyond the range of
@@ -103,6 +107,9 @@ struct LocalFrame {
   /// value + centre that keeps the sign of a zero where there is no translation.
   static TRISMOOTH_HOST_DEVICE double translated(double value, double centre) {
     return centre == 0 ? value : value + centre;
+  }
+  static TRISMOOTH_HOST_DEVICE double within(double largest, double value) {
+    return value > largest ? largest : (value < -largest ? -largest : value);
   }
 };
 

@@ -6,6 +6,7 @@
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/workers.h"
 #include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/largest_stored.h"
 #include "trismooth/smoothing/never_worse.h"
 #include "trismooth/smoothing/packed_rings.h"
 #include "trismooth/smoothing/processor_name.h"
@@ -80,7 +81,8 @@ class CpuSmoother final : public PreparedSmoother {
       return working[v] == narrow<T>(before[v])
                  ? now
                  : rounded_to(storage,
-                              frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)}));
+                              frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)},
+                                          largest_stored(storage)));
     };
     std::vector<Point2<double>> after = before;
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });

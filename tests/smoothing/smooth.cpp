@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/quality/float32_rounding.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/largest_stored.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
@@ -30,6 +32,7 @@ using trismooth::SmoothingOptions;
 using trismooth::SmoothingPlan;
 using trismooth::SmoothingResult;
 using trismooth::StopReason;
+using trismooth::Storage;
 
 namespace {
 
@@ -122,6 +125,29 @@ TEST_CASE("huge and tiny meshes are smoothed like others, to rounding") {
         largest_error = std::max(largest_error, std::abs(found[i] / factor - expected[i]));
       }
       CHECK(largest_error < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("coordinates as large as numbers are stay finite, without the guard too") {
+  // The mean of equal numbers may be rounded to a larger one.
+  for (const Storage storage : {Storage::float64, Storage::float32}) {
+    const double largest = trismooth::largest_stored(storage);
+    for (const double side : {largest, -largest}) {
+      for (std::int32_t size = 3; size < 40; ++size) {
+        Mesh mesh = test_meshes::star(size);
+        for (Point& p : mesh.points) {
+          p = {side, trismooth::rounded_to_float32(p.y) * (largest / 4)};
+        }
+        mesh.points[0].x = side / 4;
+        for_all_options([&](SmoothingOptions options) {
+          CAPTURE(largest, side, size);
+          options.guard = false;
+          std::vector<double> xy = mesh.xy();
+          plan(mesh.vertex_count(), mesh.indices(), {}, options).smooth(xy, storage);
+          REQUIRE(std::ranges::all_of(xy, [&](double x) { return std::abs(x) <= largest; }));
+        });
+      }
     }
   }
 }
