@@ -1,11 +1,15 @@
 // The CPU backend against the contract written down with no thought of speed, bit for bit.
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
+#include "trismooth/smoothing/stop_rule.h"
 
 #include "catch.h"
 #include "properties/contract.h"
@@ -53,9 +57,18 @@ Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage s
   Run run;
   run.result.sweeps = static_cast<std::int64_t>(outcome.sweeps.size());
   run.result.stop_reason = outcome.reason;
+  // Of the elements that no sweep changes.
+  double fixed_shape = std::numeric_limits<double>::infinity();
+  for (const trismooth::Triangle& t : connectivity.elements) {
+    if (std::ranges::all_of(t, [&](std::int32_t v) { return connectivity.fixed[v]; })) {
+      fixed_shape = std::min(fixed_shape, 2 * std::sqrt(3.0) * naive::element_quotient(before, t));
+    }
+  }
   for (const naive::SweepCount& count : outcome.sweeps) {
+    const double shape = std::min(count.min_shape, fixed_shape);
     run.result.history.push_back({static_cast<std::int64_t>(run.result.history.size()) + 1, count.changed, count.moved,
-                                  count.max_relative_move});
+                                  count.max_relative_move,
+                                  options.record_min_shape && std::isfinite(shape) ? shape : trismooth::no_target});
     run.result.vertex_updates += count.changed;
   }
   std::vector<Point2<double>> stored = points;
@@ -93,6 +106,7 @@ TEST_CASE(
   for_random_meshes(3000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) {
       options.guard = random.below(5) != 0;
+      options.record_min_shape = random.below(3) == 0;
       const Storage storage = fits_float32(mesh) && random.below(3) == 0 ? Storage::float32 : Storage::float64;
       const Run expected = options.precision == Precision::double_precision ? naive_run<double>(mesh, options, storage)
                                                                             : naive_run<float>(mesh, options, storage);

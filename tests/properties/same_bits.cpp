@@ -70,7 +70,7 @@ RandomMesh union_of(std::uint64_t first_seed, std::int32_t vertices) {
 }  // namespace
 
 TEST_CASE("runs repeated, plans used again, flat arrays, and evaluating all give the same bits") {
-  for_random_meshes(3000, [](const RandomMesh& mesh) {
+  for_random_meshes(2000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.record_min_shape = random.below(2) == 0;
       const Run expected = run(mesh, options);
@@ -103,7 +103,7 @@ TEST_CASE("runs repeated, plans used again, flat arrays, and evaluating all give
 TEST_CASE("the order of triangles, their corners and their directions do not matter") {
   std::int64_t tied = 0;
   std::int64_t looked_at = 0;
-  for_random_meshes(3000, [&](const RandomMesh& mesh) {
+  for_random_meshes(2000, [&](const RandomMesh& mesh) {
     // Of as many inverted triangles as others the order decides which they are.
     const bool is_tied = connectivity_of(mesh).is_tied;
     tied += is_tied ? 1 : 0;

@@ -124,7 +124,7 @@ TEST_CASE("a mesh shifted by any exact translation is smoothed to the same coord
   // not drawn.
   std::int64_t left_out = 0;
   std::int64_t looked_at = 0;
-  for_random_meshes(3000, [&](const RandomMesh& any) -> std::string {
+  for_random_meshes(2000, [&](const RandomMesh& any) -> std::string {
     RandomMesh mesh = on_lattice(any);
     test_meshes::Random jiggle = draws_for(any);
     for (auto& p : mesh.mesh.points) {
@@ -159,7 +159,7 @@ TEST_CASE("a mesh shifted by any exact translation is smoothed to the same coord
     });
   });
   UNSCOPED_INFO(left_out << " of " << looked_at << " left out");
-  CHECK(looked_at >= 2000);
+  CHECK(looked_at >= 1500);
   CHECK(10 * left_out < looked_at);
 }
 
