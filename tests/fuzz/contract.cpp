@@ -1,6 +1,7 @@
 #include "contract.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -66,10 +67,16 @@ ByContract smooth(std::span<const Point2<double>> points, std::span<const Triang
   std::vector<Point2<double>> after = before;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!(working[v] == narrow<T>(before[v]))) {
+      // The mean of the largest numbers may round to one beyond them.
+      const bool wide = storage == trismooth::Storage::float64;
+      const double largest =
+          wide ? std::numeric_limits<double>::max() : static_cast<double>(std::numeric_limits<float>::max());
+      const auto stored = [&](double x) {
+        const double within = std::clamp(x, -largest, largest);
+        return wide ? within : trismooth::rounded_to_float32(within);
+      };
       const Point2<double> left = frame.leave({static_cast<double>(working[v].x), static_cast<double>(working[v].y)});
-      result.points[v] = storage == trismooth::Storage::float64 ? left
-                                                                : Point2<double>{trismooth::rounded_to_float32(left.x),
-                                                                                 trismooth::rounded_to_float32(left.y)};
+      result.points[v] = {stored(left.x), stored(left.y)};
       after[v] = frame.enter(result.points[v]);
     }
   }

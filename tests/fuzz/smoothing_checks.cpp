@@ -41,6 +41,10 @@ std::vector<Point2<double>> in_local_frame(std::span<const Point2<double>> frame
   return local;
 }
 
+Triangle counter_clockwise(const Triangle& triangle, std::uint8_t reversed) {
+  return reversed != 0 ? Triangle{triangle[0], triangle[2], triangle[1]} : triangle;
+}
+
 /// The representative of `element` in a forest of parents.
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t element) {
   while (parents[element] != element) {
@@ -107,11 +111,10 @@ void orient_component(std::size_t first, std::span<const Point2<double>> local, 
   std::int64_t balance = 0;
   std::int64_t first_sign = 0;
   for (const std::size_t t : component) {
-    const double quotient = naive::element_quotient(local, triangles[t]);
+    const double quotient = naive::element_quotient(local, counter_clockwise(triangles[t], topology.reversed[t]));
     const int sign = (quotient > 0) - (quotient < 0);
-    const int turned = topology.reversed[t] != 0 ? -sign : sign;
-    balance += turned;
-    first_sign = first_sign == 0 ? turned : first_sign;
+    balance += sign;
+    first_sign = first_sign == 0 ? sign : first_sign;
   }
   if (balance < 0 || (balance == 0 && first_sign < 0)) {
     for (const std::size_t t : component) {
@@ -210,10 +213,7 @@ void require_never_worse(const Smoothing& smoothing) {
     touched[static_cast<std::size_t>(reverted.vertex)] = 1;
   }
   const auto quotients = [&](std::size_t t) {
-    Triangle corners = triangles[t];
-    if (topology.reversed[t] != 0) {
-      std::swap(corners[1], corners[2]);
-    }
+    const Triangle corners = counter_clockwise(triangles[t], topology.reversed[t]);
     return std::pair(naive::element_quotient(local_before, corners), naive::element_quotient(local_after, corners));
   };
   double threshold = std::numeric_limits<double>::infinity();
