@@ -16,7 +16,8 @@ void check(cudaError_t error, const char* call, const char* file, int line) {
   const std::string_view path(file);
   const std::string_view name = path.substr(path.find_last_of('/') + 1);
   throw DeviceError("CUDA: " + std::string(cudaGetErrorName(error)) + " (" + cudaGetErrorString(error) + ") from " +
-                    call + " at cuda/" + std::string(name) + ":" + std::to_string(line));
+                    call + " at cuda/" + std::string(name) + ":" + std::to_string(line) +
+                    (error == cudaErrorMemoryAllocation ? "; use a device with more memory, or '--backend cpu'" : ""));
 }
 
 }  // namespace trismooth::cuda

@@ -66,4 +66,10 @@ class MemoryBlock {
   std::size_t capacity_ = 0;
 };
 
+/// Throws std::bad_alloc where so much more memory cannot be had: in front of code that does not bear it well when it
+/// runs out of memory half-way (VTK; destructors that need some). Costs nothing where it can.
+inline void require_host_memory(std::size_t bytes) {
+  MemoryBlock().reserve_more(bytes);
+}
+
 }  // namespace trismooth

@@ -23,6 +23,7 @@
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/memory_block.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_cells.h"
 #include "trismooth/mesh_io/vtk_xml_reader.h"
@@ -143,6 +144,8 @@ std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, Vt
 template <VtkXmlKind kind>
 MeshDocument read(const std::filesystem::path& path, std::string bytes) {
   try {
+    constexpr std::size_t for_buffers = std::size_t{4} << 20;
+    require_host_memory(2 * bytes.size() + for_buffers);  // what VTK's arrays take at least
     VtkXmlFile file = read_vtk_xml(path, bytes, kind);
     // The bytes go before the cells come: not both in memory at once.
     std::string().swap(bytes);

@@ -29,6 +29,7 @@
 
 #include "trismooth/mesh_io/buffered_writer.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/memory_block.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/output_stream_buffer.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
@@ -223,6 +224,9 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 }  // namespace
 
 void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding) {
+  constexpr std::size_t for_buffers = std::size_t{4} << 20;
+  constexpr std::size_t kibibyte = 1024;  // what VTK counts in
+  require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <new>
 #include <type_traits>
 
 #include <expat.h>
@@ -153,6 +154,9 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
   }
   if (status != XML_STATUS_OK && !state.head.stopped) {
     const XML_Error code = XML_GetErrorCode(parser.get());
+    if (code == XML_ERROR_NO_MEMORY) {
+      throw std::bad_alloc();
+    }
     const bool is_cut = code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN ||
                         code == XML_ERROR_PARTIAL_CHAR || code == XML_ERROR_UNCLOSED_CDATA_SECTION;
     throw ReadError(path, state.line(),

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,6 +16,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "trismooth/mesh_io/silence_vtk.h"
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
 #include "trismooth/pipeline/interrupt.h"
@@ -118,6 +122,20 @@ void reserve_standard_streams() {
   }
 }
 
+// Memory for destructors and messages, given free when there is no more.
+std::atomic<void*> memory_for_the_end{nullptr};
+
+/// Where memory is used up, what is left must suffice to clean up and to say so: destructors that need some are
+/// otherwise the end of the program without a word.
+void reserve_memory_for_the_end() {
+  constexpr std::size_t bytes = std::size_t{1} << 20;
+  memory_for_the_end = std::malloc(bytes);
+  std::set_new_handler([] {
+    std::free(memory_for_the_end.exchange(nullptr));
+    throw std::bad_alloc();
+  });
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment) {
@@ -138,6 +156,8 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
 }
 
 int run_command_line(int argc, const char* const* argv) {
+  reserve_memory_for_the_end();
+  silence_vtk();
   reserve_standard_streams();
   // A file that gets larger than allowed (ulimit -f) is then an error like a full disk, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);

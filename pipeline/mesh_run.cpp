@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/memory_block.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/messages.h"
@@ -77,6 +78,13 @@ void try_outputs(const MeshRunSettings& settings) {
   }
 }
 
+/// More than it takes to make a report.
+std::size_t report_bytes(const PipelineResult& result) {
+  constexpr std::size_t of_all = std::size_t{4} << 20;
+  constexpr std::size_t of_a_sweep = 4096;
+  return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0);
+}
+
 /// Writes all reports that can be written; answers what went wrong with the first of the others. Those come off the
 /// list.
 std::exception_ptr write_reports(std::vector<std::filesystem::path>& reports, const PipelineOptions& options,
@@ -85,6 +93,7 @@ std::exception_ptr write_reports(std::vector<std::filesystem::path>& reports, co
   std::erase_if(reports, [&](const std::filesystem::path& report) {
     try {
       try {
+        require_host_memory(report_bytes(result));
         write_report(report, options, result);
         return false;
       } catch (const std::bad_alloc&) {

@@ -1,0 +1,168 @@
+"""Too little memory, and threads that the system refuses: a result or one clear message, no crash and no hang."""
+
+import os
+import resource
+import subprocess
+
+import tool
+
+DONE, BAD_INPUT, NOT_WRITTEN = 0, 3, 4
+FORMATS = ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp")
+KIB = 1024
+SANITIZED = "this program uses addresses without end"
+REASONS = "not enough memory|too large for the memory of this machine|Cannot allocate memory"
+
+
+class LittleMemoryTest(tool.ToolTest):
+
+    def limited(self, kibibytes, *arguments):
+        """The program with so many addresses."""
+        return self.run_tool(*arguments, expect=None, timeout=60,
+                             limits={resource.RLIMIT_AS: kibibytes * KIB, resource.RLIMIT_CORE: 0})
+
+    def least(self, low, high, succeeds):
+        """The smallest number, to a step of 128, for which it succeeds, as far as one can tell by halving."""
+        while high - low > 128:
+            middle = (low + high) // 2
+            low, high = (low, middle) if succeeds(middle) else (middle, high)
+        return high
+
+    def setUp(self):
+        super().setUp()
+        starts = lambda kibibytes: self.limited(kibibytes, "--version").code == DONE
+        most = 8 << 20
+        if not starts(most):
+            self.skipTest(SANITIZED)
+        # What the libraries take is not ours.
+        self.lowest = self.least(0, most, starts)
+
+    def assert_told(self, outcome, kibibytes):
+        story = f"{kibibytes} KiB: {outcome}"
+        self.assertIn(outcome.code, (DONE, BAD_INPUT, NOT_WRITTEN), story)
+        errors = [line for line in outcome.err.splitlines() if not line.startswith("trismooth: note: ")]
+        if outcome.code == DONE:
+            self.assertEqual(errors, [], story)
+        else:
+            self.assertEqual(len(errors), 1, story)
+            self.assertRegex(errors[0], f"^trismooth: error: .*({REASONS})", story)
+
+    def sweep(self, *arguments, outputs=(), steps=16):
+        """From what the program needs to start to what is enough. `outputs` are bytes, those ending in json or html any
+        of them."""
+        for name in outputs:
+            self.write(name, "precious")
+        self.run_tool(*arguments)
+        whole = {name: self.read(name) for name in outputs}
+        enough = self.least(self.lowest, self.lowest + (1 << 20),
+                            lambda kibibytes: self.limited(kibibytes, *arguments).code == DONE)
+        codes = []
+        # What is enough once may not be the next time, where threads are started; a little more is.
+        for kibibytes in [self.lowest + (enough - self.lowest) * step // steps for step in range(steps)] + [
+                enough, enough + (24 << 10)]:
+            for name in outputs:
+                self.write(name, "precious")
+            outcome = self.limited(kibibytes, *arguments)
+            codes.append(outcome.code)
+            self.assert_told(outcome, kibibytes)
+            for name in outputs:
+                content = self.read(name)
+                if content != b"precious" and not name.endswith(("json", "html")):
+                    self.assertEqual(content, whole[name], kibibytes)
+                if outcome.code == DONE:
+                    self.assertNotEqual(content, b"precious")
+            if outcome.code == BAD_INPUT and outputs and "plate." in outcome.err:
+                self.assertEqual(self.read(outputs[0]), b"precious")
+            self.assert_no_temporary_files()
+        return codes
+
+
+class Sweeps(LittleMemoryTest):
+
+    def test_every_format(self):
+        for extension in FORMATS:
+            self.run_tool("generate", f"plate.{extension}", "--vertices", "3000")
+            for threads in (1, 2):
+                with self.subTest(extension, threads=threads):
+                    more = ("--precision", "single") if threads == 2 else ()
+                    codes = self.sweep("smooth", f"plate.{extension}", f"out.{extension}", "--threads", threads,
+                                       "--report", "r.json", "--report", "r.html", "--annotate", *more,
+                                       outputs=(f"out.{extension}", "r.json", "r.html"))
+                    self.assertIn(BAD_INPUT, codes)
+                    self.assertEqual(codes[-1], DONE)
+
+    def test_other_formats_than_the_one_read(self):
+        self.run_tool("generate", "plate.off", "--vertices", "3000")
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        for source, target in (("plate.off", "out.vtu"), ("plate.off", "out.vtk"), ("plate.vtu", "out.ply"),
+                               ("plate.vtu", "out.stl"), ("plate.off", "out.vtp")):
+            with self.subTest(source, target=target):
+                self.sweep("smooth", source, target, "--threads", 1, outputs=(target,), steps=10)
+
+    def test_other_commands(self):
+        self.run_tool("generate", "plate.vtk", "--vertices", "3000")
+        self.sweep("quality", "plate.vtk", "--report", "r.html", outputs=("r.html",))
+        self.sweep("bench", "--sizes", "1K", "--runs", "1", "--versions", "serial,cpu", "--threads", "2", "--report",
+                   "r.json", outputs=("r.json",), steps=10)
+        for extension in ("off", "vtu"):
+            target = f"out.{extension}"
+            self.sweep("generate", target, "--vertices", "3000", outputs=(target,))
+
+    def test_many_threads(self):
+        """More memory means more threads, not always more left for the mesh: there is no one amount that is enough."""
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
+        codes = set()
+        for mebibytes in range(4, 100, 3):
+            self.write("out.vtu", "precious")
+            kibibytes = self.lowest + mebibytes * KIB + mebibytes * 37
+            outcome = self.limited(kibibytes, "smooth", "plate.vtu", "out.vtu", "--threads", "16")
+            codes.add(outcome.code)
+            self.assert_told(outcome, kibibytes)
+            self.assertEqual(self.read("out.vtu"), self.read("whole.vtu") if outcome.code == DONE else b"precious")
+            self.assert_no_temporary_files()
+        self.assertEqual(codes, {DONE, BAD_INPUT})
+
+    def test_the_message_names_the_mesh_and_what_to_do(self):
+        self.run_tool("generate", "plate.ply", "--vertices", "3000")
+        enough = self.least(self.lowest, self.lowest + (1 << 20), lambda kibibytes: self.limited(
+            kibibytes, "smooth", "plate.ply", "out.ply", "--threads", "1").code == DONE)
+        outcome = self.limited(enough - 512, "smooth", "plate.ply", "out.ply", "--threads", "1")
+        self.assertEqual(outcome.code, BAD_INPUT)
+        self.assertRegex(outcome.err, "^trismooth: error: plate.ply: not enough memory.*--threads 1.*smaller mesh\n$")
+
+
+class Processes(tool.ToolTest):
+
+    def test_threads_that_are_refused_are_done_without(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can become a user without other processes")
+        user = 54321
+        os.chmod(self.folder, 0o777)
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
+
+        def prepare(processes):
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
+            os.setgroups([])
+            os.setgid(user)
+            os.setuid(user)
+
+        try:
+            subprocess.run([tool.program, "--version"], preexec_fn=lambda: prepare(1), check=True,
+                           stdout=subprocess.DEVNULL)
+        except (OSError, subprocess.SubprocessError) as error:
+            self.skipTest(f"another user cannot run the program: {error}")
+        for processes in (1, 2, 3, 4, 7, 20):
+            for threads in ("1", "2", "5", "16", "64"):
+                with self.subTest(processes=processes, threads=threads):
+                    done = subprocess.run([tool.program, "smooth", "plate.vtu", "out.vtu", "--threads", threads],
+                                          cwd=self.folder, preexec_fn=lambda: prepare(processes), check=False,
+                                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+                    self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+                    self.assertEqual(self.read("out.vtu"), self.read("whole.vtu"))
+                    os.remove(self.path("out.vtu"))
+
+
+if __name__ == "__main__":
+    tool.main()
