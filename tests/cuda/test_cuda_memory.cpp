@@ -3,17 +3,24 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <span>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <cuda_runtime_api.h>
 
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/host_copy.h"
 #include "trismooth/cuda/memory_pool.h"
+#include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -60,6 +67,161 @@ void require_round_trip(cuda::HostCopier& copier, cuda::Context& context, const 
   copier.download(std::span(back), device);
   REQUIRE(back == values);
   context.synchronize();
+}
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+
+std::size_t free_bytes() {
+  std::size_t free = 0;
+  std::size_t total = 0;
+  REQUIRE(cudaMemGetInfo(&free, &total) == cudaSuccess);
+  return free;
+}
+
+/// What the pool has handed out, and nobody has given back.
+std::uint64_t used_bytes() {
+  REQUIRE(cudaDeviceSynchronize() == cudaSuccess);
+  std::uint64_t bytes = 0;
+  REQUIRE(cudaMemPoolGetAttribute(cuda::memory_pool(), cudaMemPoolAttrUsedMemCurrent, &bytes) == cudaSuccess);
+  return bytes;
+}
+
+/// Takes all memory of the device but a little, and gives it back in the end.
+class Ballast {
+ public:
+  explicit Ballast(std::size_t left) {
+    REQUIRE(cudaDeviceSynchronize() == cudaSuccess);
+    cuda::give_memory_back();
+    for (std::size_t chunk = std::size_t{1} << 38U; chunk >= 2 * mebibyte; chunk /= 2) {
+      void* memory = nullptr;
+      while (free_bytes() >= left + chunk && cudaMalloc(&memory, chunk) == cudaSuccess) {
+        chunks_.push_back(memory);
+      }
+      cudaGetLastError();
+    }
+  }
+  Ballast(const Ballast&) = delete;
+  Ballast& operator=(const Ballast&) = delete;
+  ~Ballast() {
+    for (void* const memory : chunks_) {
+      cudaFree(memory);
+    }
+  }
+
+ private:
+  std::vector<void*> chunks_;
+};
+
+/// Coordinates on the device that nobody but the test owns.
+template <class T>
+class DeviceArray {
+ public:
+  explicit DeviceArray(const std::vector<T>& values) : size_(values.size()) {
+    REQUIRE(cudaMalloc(&data_, size_ * sizeof(T)) == cudaSuccess);
+    REQUIRE(cudaMemcpy(data_, values.data(), size_ * sizeof(T), cudaMemcpyHostToDevice) == cudaSuccess);
+  }
+  DeviceArray(const DeviceArray&) = delete;
+  DeviceArray& operator=(const DeviceArray&) = delete;
+  ~DeviceArray() { cudaFree(data_); }
+
+  T* data() { return static_cast<T*>(data_); }
+  std::vector<double> values() const {
+    std::vector<T> values(size_);
+    REQUIRE(cudaMemcpy(values.data(), data_, size_ * sizeof(T), cudaMemcpyDeviceToHost) == cudaSuccess);
+    return {values.begin(), values.end()};
+  }
+
+ private:
+  void* data_ = nullptr;
+  std::size_t size_;
+};
+
+/// A way to the device: smooths `before` and leaves in `after` what the caller's coordinates are then, also where it
+/// throws. What the caller owns on the device is there before `all_but_little` takes the memory.
+struct Way {
+  std::string name;
+  std::function<void(const Mesh& mesh, const SmoothingOptions& options, const std::function<void()>& all_but_little,
+                     std::vector<double>& after)>
+      smooth;
+};
+
+std::vector<Way> ways_to_the_device() {
+  const auto from_host = [](Topology topology) {
+    return [topology](const Mesh& mesh, SmoothingOptions options, const std::function<void()>& all_but_little,
+                      std::vector<double>& after) {
+      options.topology = topology;
+      options.backend = &cuda::backend();
+      after = mesh.xy();
+      all_but_little();
+      smooth(after, mesh.indices(), {}, options);
+    };
+  };
+  const auto from_device = [](auto zero, bool planned) {
+    using T = decltype(zero);
+    return [planned](const Mesh& mesh, const SmoothingOptions& options, const std::function<void()>& all_but_little,
+                     std::vector<double>& after) {
+      const std::vector<double> xy = mesh.xy();
+      DeviceArray<std::int32_t> triangles(mesh.indices());
+      DeviceArray<T> coordinates(std::vector<T>(xy.begin(), xy.end()));
+      const cuda::DeviceMesh view{
+          mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}};
+      try {
+        if (planned) {
+          // What it takes to analyse the mesh is there, what it takes to smooth it is not.
+          cuda::Plan plan(view, options);
+          all_but_little();
+          plan.smooth(coordinates.data());
+        } else {
+          all_but_little();
+          cuda::smooth(view, coordinates.data(), options);
+        }
+      } catch (const DeviceError&) {
+        after = coordinates.values();
+        throw;
+      }
+      after = coordinates.values();
+    };
+  };
+  return {{"host arrays, topology of the host", from_host(Topology::halfedge)},
+          {"host arrays, topology of the device", from_host(Topology::device)},
+          {"device arrays", from_device(0.0, false)},
+          {"device arrays of floats", from_device(0.0F, false)},
+          {"a plan", from_device(0.0, true)},
+          {"a plan, of floats", from_device(0.0F, true)}};
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/// Smooths with so much memory left. True where that sufficed; else all must be as it was, and the message clear.
+bool smooth_with_little(const Way& way, const Mesh& mesh, const SmoothingOptions& options, std::size_t left,
+                        const std::vector<double>& input, const std::vector<double>& expected) {
+  REQUIRE(cudaDeviceSynchronize() == cudaSuccess);
+  cuda::give_memory_back();
+  const std::uint64_t used = used_bytes();
+  std::vector<double> after;
+  std::unique_ptr<Ballast> ballast;
+  const auto all_but_little = [&] { ballast = std::make_unique<Ballast>(left); };
+  bool sufficed = false;
+  std::string message;
+  try {
+    way.smooth(mesh, options, all_but_little, after);
+    sufficed = true;
+  } catch (const DeviceError& error) {
+    message = error.what();
+  }
+  CAPTURE(message);
+  REQUIRE(cudaGetLastError() == cudaSuccess);
+  REQUIRE(used_bytes() == used);
+  REQUIRE(same_bits(after, sufficed ? expected : input));
+  if (!sufficed) {
+    REQUIRE(message.find("CUDA: cudaErrorMemoryAllocation") == 0);
+    REQUIRE(message.find("needs ") != std::string::npos);
+    REQUIRE(message.find(" MiB") != std::string::npos);
+    REQUIRE(message.find("--backend cpu") != std::string::npos);
+  }
+  return sufficed;
 }
 
 }  // namespace
@@ -137,5 +299,54 @@ TEST_CASE("copies of several threads at a time do not meet") {
     CAPTURE(i);
     CHECK(found[i].front() == static_cast<std::int32_t>(i));
     CHECK(std::equal(found[i].begin() + 1, found[i].end(), values.begin() + 1));
+  }
+}
+
+TEST_CASE("however little memory is left: an error that says how much is needed, nothing leaked, nothing touched") {
+  const Mesh mesh = test_meshes::jittered_grid(500, 400, 0.3, 1);
+  const std::vector<double> xy = mesh.xy();
+  smooth_on_device(mesh);
+  constexpr std::size_t enough = 2048 * mebibyte;
+  const Ballast most(enough);  // to take all of it anew each time would take long
+  for (const Execution execution : {Execution::resident, Execution::single_block, Execution::cdp}) {
+    if (execution == Execution::cdp && !cuda::has_cdp()) {
+      continue;
+    }
+    for (const Form form : {Form::swap, Form::in_place}) {
+      SmoothingOptions options;
+      options.execution = execution;
+      options.form = form;
+      options.max_sweeps = 3;
+      for (const Way& way : ways_to_the_device()) {
+        CAPTURE(to_string(execution), to_string(form), way.name);
+        // With all the memory that there is; what CUDA itself keeps for these kernels is there from then on.
+        std::vector<double> expected;
+        way.smooth(
+            mesh, options, [] {}, expected);
+        const bool floats = way.name.find("floats") != std::string::npos;
+        const std::vector<float> rounded(xy.begin(), xy.end());
+        const std::vector<double> input = floats ? std::vector<double>(rounded.begin(), rounded.end()) : xy;
+        cuda::give_memory_back();
+        const std::size_t free_before = free_bytes();
+        // More by and by, until it suffices.
+        std::size_t left = 0;
+        int refused = 0;
+        while (left < enough && !smooth_with_little(way, mesh, options, left, input, expected)) {
+          left += 4 * mebibyte;
+          ++refused;
+        }
+        CAPTURE(left, refused);
+        CHECK(left < enough);
+        CHECK(refused > 0);
+        // Memory is back: so is the result.
+        std::vector<double> again;
+        way.smooth(
+            mesh, options, [] {}, again);
+        CHECK(same_bits(again, expected));
+        REQUIRE(cudaDeviceSynchronize() == cudaSuccess);
+        cuda::give_memory_back();
+        CHECK(free_bytes() + 8 * mebibyte >= free_before);
+      }
+    }
   }
 }
