@@ -171,6 +171,10 @@ class ArrayReader {
   }
 
   void add(DataArray array) {
+    if (array.bytes.empty() && array.components > most_components_without_rows) {
+      input_.fail(std::string(target_.kind) + " array " + trismooth::quoted(array.name) + " has " +
+                  std::to_string(array.components) + " components, but no rows");
+    }
     target_.names.push_back(array.name);
     target_.arrays.push_back(std::move(array));
   }

@@ -190,6 +190,12 @@ vtkSmartPointer<vtkPoints> Reader::read_points() {
 
 void Reader::add(const XmlElement& element, DecodedArray decoded, vtkFieldData& target) {
   const std::string name = decoded.type.name;
+  if (decoded.numbers.size() == 0 && decoded.strings.empty() &&
+      decoded.type.components > most_components_without_rows) {
+    throw ReadError(path_, element.line,
+                    "array " + trismooth::quoted(name) + " has " + std::to_string(decoded.type.components) +
+                        " components, but no rows");
+  }
   const vtkSmartPointer<vtkAbstractArray> array = make_values(std::move(decoded));
   set_component_names(element, *array);
   read_information_keys(element, *array->GetInformation(), file_.notes);

@@ -159,8 +159,8 @@ TEST_CASE("A hostile number in binary data is refused as a coordinate and as an 
     check_indices<std::int32_t>(file, binary, faults, sites);
     check_indices<std::int64_t>(file, binary, faults, sites);
     INFO(file.name);
-    CHECK(sites.coordinates >= 3 * binary.point_count() / stride_of(file));
-    CHECK((sites.indices >= 12 / stride_of(file) || file.extension == ".stl"));
+    CHECK(sites.coordinates >= 3 * binary.point_count() / (2 * stride_of(file)));
+    CHECK((sites.indices >= 12 / (2 * stride_of(file)) || file.extension == ".stl"));
   }
   CHECK(files > 15);
   REQUIRE_NONE(faults);

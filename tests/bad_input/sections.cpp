@@ -180,6 +180,27 @@ TEST_CASE("A file of another format under this extension is refused in one line"
   REQUIRE_NONE(faults);
 }
 
+TEST_CASE("An array of many components and no rows is refused: VTK would take memory for each component") {
+  const AcceptedFile& xml = file_named("vtu_ascii_little32");
+  const AcceptedFile& legacy = file_named("legacy_3.0_grid_ascii_rich");
+  for (const std::string components : {"100", "101", "1000000"}) {
+    const std::string empty_xml =
+        "<FieldData><DataArray type=\"Float64\" Name=\"e\" NumberOfTuples=\"0\" "
+        "NumberOfComponents=\"" +
+        components + "\"/>";
+    const std::string with_xml = replaced(xml.bytes, "<FieldData>", empty_xml);
+    const std::string with_legacy =
+        replaced(legacy.bytes, "FIELD FieldData 1\n", "FIELD FieldData 2\ne " + components + " 0 float\n");
+    if (components == "100") {
+      CHECK(read(xml, with_xml).document);
+      CHECK(read(legacy, with_legacy).document);
+    } else {
+      check_refused(xml, with_xml, "array 'e' has " + components + " components, but no rows");
+      check_refused(legacy, with_legacy, "field array 'e' has " + components + " components, but no rows");
+    }
+  }
+}
+
 TEST_CASE("A file that is cut off is called so") {
   const AcceptedFile& xml = file_named("vtu_ascii_little32");
   check_refused(xml, xml.bytes.substr(0, xml.bytes.find("</Points>")), ":27: ends within <Points>: it is cut off");

@@ -112,8 +112,8 @@ bool is_whole_stl(const AcceptedFile& file, std::size_t cut) {
   return text.substr(text.find_last_of("\r\n") + 1).starts_with("endsolid");
 }
 
-/// After their cells, legacy files end before every attribute and within METADATA. (The lines, polygons and so on of a
-/// POLYDATA are attributes in this sense, but for the first.)
+/// After their cells, legacy files end before every attribute and within METADATA, but for the names in it. (The lines,
+/// polygons and so on of a POLYDATA are attributes in this sense, but for the first.)
 bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
   const std::string& bytes = file.bytes;
   const bool binary = contains(bytes, "\nBINARY\n");
@@ -143,7 +143,9 @@ bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
     }
     const bool metadata = i + 1 < starts.size() && bytes.compare(starts[i], 8, "METADATA") == 0;
     if ((end <= cut && cut <= starts[i]) || (metadata && starts[i] + 8 <= cut && cut < starts[i + 1])) {
-      return true;
+      // Of the names of components there is a known number, the last of them an empty line.
+      const std::size_t names = metadata ? bytes.find("COMPONENT_NAMES", starts[i]) : bytes.npos;
+      return names == bytes.npos || cut < names + 15 || cut > bytes.find("\n\n", names) + 1;
     }
   }
   return false;
