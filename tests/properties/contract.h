@@ -24,7 +24,8 @@ Connectivity connectivity_of(const RandomMesh& mesh);
 
 /// What a run did that the contract forbids; empty: nothing. Fixed vertices and those that did not move keep their
 /// bits, every coordinate is finite, the counts are true; and with the guard nothing is worse: no element is invalid
-/// that was valid, none is worse than it was and than the worst of those that a moved vertex touched.
+/// that was valid, none is worse than it was and than the worst of those that a moved vertex touched. (So the number of
+/// elements that are not valid never rises; one without area may end inverted beside one that was more so.)
 std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, const Run& run, bool guard);
 
 }  // namespace properties

@@ -430,6 +430,7 @@ class Maker {
       for_points([&](Point p) { return Point{p.x == 0 ? -0.0 : p.x, p.y == 0 && one_in(2) ? -0.0 : p.y}; });
     }
     const double largest = std::numeric_limits<double>::max();
+    for_points([&](Point p) { return Point{std::clamp(p.x, -largest, largest), std::clamp(p.y, -largest, largest)}; });
     if (one_in(40)) {
       note("as large as numbers are");
       double extreme = std::numeric_limits<double>::min();
@@ -438,7 +439,6 @@ class Maker {
       }
       for_points([&](Point p) { return Point{p.x / extreme * largest, p.y / extreme * largest}; });
     }
-    for_points([&](Point p) { return Point{std::clamp(p.x, -largest, largest), std::clamp(p.y, -largest, largest)}; });
   }
 
   // ---- constraints ----
