@@ -124,6 +124,11 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
   mesh.points.resize(document.point_count());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     mesh.points[v] = plane->project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v));
+    if (!std::isfinite(mesh.points[v].x) || !std::isfinite(mesh.points[v].y)) {
+      throw ReadError(path,
+                      "the mesh is too large: coordinates along its tilted plane are beyond the range of double; "
+                      "scale it down");
+    }
   }
   return mesh;
 }

@@ -26,8 +26,8 @@ struct PlanarMesh {
 
 /// Finds the triangles and the plane of the document. A triangle that repeats a vertex counts as another cell: it is
 /// kept, its vertices are held, and a note says so. Throws ReadError naming `path` where the points do not lie in one
-/// plane (within 1e-6 of their extent) or the document holds cells but no triangle. A document without any cell is
-/// fine: nothing to smooth. Complexity: linear.
+/// plane (within 1e-6 of their extent) or have no finite coordinates in it (near the largest double), or the document
+/// holds cells but no triangle. A document without any cell is fine: nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
 
 /// The material regions of a mesh.

@@ -44,6 +44,9 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   std::vector<Point2<double>> points(mesh.n_vertices());
   for (std::size_t v = 0; v < points.size(); ++v) {
     points[v] = plane->project(Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
+    if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
+      throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
+    }
   }
   const LocalFrame frame = local_frame(points);
   std::vector<Point2<double>> local(points.size());

@@ -1,6 +1,7 @@
 #include "trismooth/mesh_io/planar_mesh.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -155,6 +156,21 @@ TEST_CASE("a mesh that is not planar is refused") {
   const std::string message = failure_of(document);
   CHECK(message.find("mesh.vtu: ") == 0);
   CHECK(contains(message, "not planar"));
+}
+
+TEST_CASE("a mesh whose coordinates along its tilted plane no double can hold is refused") {
+  MeshDocument document = document_of({{cell_type::triangle, {0, 1, 3}}});
+  for (std::size_t i = 0; i < document.points.size(); i += 3) {
+    const double x = 1.5e308 * (document.points[i] - 1);
+    document.points[i] = x;
+    document.points[i + 1] *= 1.5e308;
+    document.points[i + 2] = x;
+  }
+  CHECK(contains(message_of<ReadError>([&] { planar_mesh(document, "mesh.off"); }), "mesh.off: the mesh is too large"));
+  for (double& coordinate : document.points) {
+    coordinate /= 4;
+  }
+  CHECK(std::isfinite(planar_mesh(document, "mesh.off").points[0].x));
 }
 
 TEST_CASE("regions are numbered from 0 by ascending value, for the triangles alone") {

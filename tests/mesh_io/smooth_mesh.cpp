@@ -297,6 +297,15 @@ TEST_CASE("points that are not finite or lie in no plane are refused, the mesh i
   CHECK(points_of(mesh) == restored);
 }
 
+TEST_CASE("points that no double can place in their tilted plane are refused") {
+  std::mt19937_64 random(37);
+  const auto far_apart = [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(5e307 * (p.x() - 3), 5e307 * (p.y() - 3), 5e307 * (p.x() - 3));
+  };
+  TriangleMesh mesh = mesh_of(planar_samples::grid(6, 0.3, random), far_apart);
+  CHECK_THROWS_AS(trismooth::smooth(mesh), trismooth::MeshError);
+}
+
 TEST_CASE("options and constraints that do not fit are refused") {
   std::mt19937_64 random(37);
   TriangleMesh mesh = mesh_of(planar_samples::grid(4, 0.3, random));
