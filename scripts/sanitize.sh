@@ -16,8 +16,9 @@ least_coverage=90
 
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-# Under a sanitizer everything takes several times as long: random tests make fewer meshes.
-export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-0.1}
+# Under a sanitizer everything takes several times as long: random tests make so
+# many per cent of their meshes.
+export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-10}
 
 # build_and_run PRESET TEST...: builds the test programs and runs them, as many at a time as there are processors.
 build_and_run() {

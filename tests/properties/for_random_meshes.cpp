@@ -171,10 +171,14 @@ class Shrinker {
 
 }  // namespace
 
+std::int64_t meshes_of(std::int64_t count) {
+  return count * from_environment("TRISMOOTH_MESHES", 100) / 100;
+}
+
 void for_random_meshes(std::int64_t count, const Property& property) {
   const std::int64_t only = from_environment("TRISMOOTH_SEED", -1);
   const std::int64_t first = only >= 0 ? only : 0;
-  const std::int64_t last = only >= 0 ? only : count * from_environment("TRISMOOTH_MESHES", 1) - 1;
+  const std::int64_t last = only >= 0 ? only : meshes_of(count) - 1;
   for (std::int64_t seed = first; seed <= last; ++seed) {
     const RandomMesh mesh = random_meshes::random_mesh(static_cast<std::uint64_t>(seed));
     const std::string wrong = verdict(property, mesh);

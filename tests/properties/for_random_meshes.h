@@ -16,7 +16,10 @@ using Property = std::function<std::string(const RandomMesh&)>;
 
 /// Checks `count` random meshes, and fails the running test at the first of which the property does not hold (or
 /// throws): with its kind, its seed, and the smallest mesh found of which it does not hold either. In the environment,
-/// TRISMOOTH_MESHES=n multiplies the count, TRISMOOTH_SEED=n has that one mesh checked alone.
+/// TRISMOOTH_MESHES=n has n per cent of the count checked, TRISMOOTH_SEED=n that one mesh alone.
 void for_random_meshes(std::int64_t count, const Property& property);
+
+/// So many of `count` as are checked.
+std::int64_t meshes_of(std::int64_t count);
 
 }  // namespace properties
