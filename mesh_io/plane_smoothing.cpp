@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
@@ -16,6 +17,14 @@ Eigen::Vector3d rounded_to(Storage storage, const Eigen::Vector3d& point) {
   return storage == Storage::float64 ? point : point.unaryExpr(&rounded_to_float32).eval();
 }
 
+bool is_finite(const Eigen::Vector3d& point) {
+  return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
+}
+
+bool is_finite(Point2<double> point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
 void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
                      std::vector<Point2<double>>& points, const std::vector<Point2<double>>& moved, Storage storage,
@@ -27,6 +36,10 @@ void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double
   for (std::size_t v = 0; v < points.size(); ++v) {
     const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
     stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
+    // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
+    if (!is_finite(stored[v]) || !is_finite(plane.project(stored[v]))) {
+      stored[v] = old;
+    }
     before[v] = frame.enter(points[v]);
   }
   std::vector<Point2<double>> after(points.size());

@@ -49,9 +49,9 @@ std::string grid(FileFormat format) {
 /// Any bytes mean something to the flat arrays.
 std::vector<Seed> random_bytes() {
   std::vector<Seed> seeds;
-  for (std::uint64_t i = 0; i < 24; ++i) {
+  for (std::uint64_t i = 0; i < 256; ++i) {
     HashedChoices choices(i);
-    Seed seed{"random_" + std::to_string(i), std::string(32 * (i + 1), '\0')};
+    Seed seed{"random_" + std::to_string(i), std::string(16 + 2 * i, '\0')};
     std::ranges::generate(seed.bytes, [&] { return static_cast<char>(choices.below(256)); });
     seeds.push_back(std::move(seed));
   }
