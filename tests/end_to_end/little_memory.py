@@ -9,7 +9,6 @@ import tool
 DONE, BAD_INPUT, NOT_WRITTEN = 0, 3, 4
 FORMATS = ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp")
 KIB = 1024
-SANITIZED = "this program uses addresses without end"
 REASONS = "not enough memory|too large for the memory of this machine|Cannot allocate memory"
 
 
@@ -29,12 +28,9 @@ class LittleMemoryTest(tool.ToolTest):
 
     def setUp(self):
         super().setUp()
-        starts = lambda kibibytes: self.limited(kibibytes, "--version").code == DONE
-        most = 8 << 20
-        if not starts(most):
-            self.skipTest(SANITIZED)
+        self.skip_if_instrumented()
         # What the libraries take is not ours.
-        self.lowest = self.least(0, most, starts)
+        self.lowest = self.least(0, 8 << 20, lambda kibibytes: self.limited(kibibytes, "--version").code == DONE)
 
     def assert_told(self, outcome, kibibytes):
         story = f"{kibibytes} KiB: {outcome}"
@@ -136,6 +132,7 @@ class Processes(tool.ToolTest):
     def test_threads_that_are_refused_are_done_without(self):
         if os.geteuid() != 0:
             self.skipTest("only root can become a user without other processes")
+        self.skip_if_instrumented()
         user = 54321
         os.chmod(self.folder, 0o777)
         self.run_tool("generate", "plate.vtu", "--vertices", "3000")

@@ -53,6 +53,7 @@ class OutputsTest(tool.ToolTest):
 class Refusals(OutputsTest):
 
     def test_a_file_size_limit_is_an_error_not_the_end_of_the_program(self):
+        self.skip_if_instrumented()
         for target, arguments in self.commands(bench=True):
             with self.subTest(arguments):
                 self.write(target, "precious")
@@ -90,6 +91,7 @@ class Refusals(OutputsTest):
                     os.remove(self.path("report.json"))
 
     def test_few_files_may_be_open(self):
+        self.skip_if_instrumented()
         self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
         codes = set()
         for files in range(3, 12):

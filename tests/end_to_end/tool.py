@@ -72,6 +72,13 @@ class ToolTest(unittest.TestCase):
         self.run_tool(*arguments, "--quiet", "--report", "report.json", **options)
         return json.loads(self.read("report.json"))
 
+    def skip_if_instrumented(self):
+        """Where the program brings a sanitizer along: that needs files, addresses and the tracer's place for itself."""
+        with open(program, "rb") as file:
+            content = file.read()
+        if b"__asan_init" in content or b"__tsan_init" in content:
+            self.skipTest("the program is instrumented")
+
     def assert_no_temporary_files(self):
         """The program's temporary files are hidden ones; no test makes any."""
         self.assertEqual([name for name in os.listdir(self.folder) if name.startswith(".")], [])

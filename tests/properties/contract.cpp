@@ -53,7 +53,7 @@ T alpha(const Units& units, std::span<const double> xy, const Triangle& t) {
 }
 
 Triangle from_smallest(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   return t;
 }
 

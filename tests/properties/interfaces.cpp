@@ -65,6 +65,9 @@ TEST_CASE("a halfedge mesh, in whichever plane of two coordinate axes, is smooth
   for_random_meshes(3000, [&](const RandomMesh& mesh) {
     ++looked_at;
     const bool is_line = is_along_an_axis(mesh.mesh.points);
+    if (is_line && !keeps_digits(mesh.mesh.xy())) {
+      return std::string{};  // what was halved away is in some plane and not in another
+    }
     return for_some_options(mesh, 1, [&](const SmoothingOptions& options, test_meshes::Random& random) -> std::string {
       const Run expected = run(mesh, options);
       const double across = random.below(2) == 0 ? 0 : 4e7;

@@ -112,9 +112,10 @@ inline RandomMesh at_points(RandomMesh mesh, std::span<const double> xy) {
   return mesh;
 }
 
-/// Whether all numbers are zeros or in a range in which differences have all their digits as well.
+/// Whether all numbers are zeros or in a range in which differences have all their digits as well, and sums are finite.
 inline bool keeps_digits(std::span<const double> xy) {
-  return std::ranges::all_of(xy, [](double x) { return x == 0 || (std::abs(x) >= 0x1p-960 && std::isfinite(x)); });
+  return std::ranges::all_of(xy,
+                             [](double x) { return x == 0 || (std::abs(x) >= 0x1p-960 && std::abs(x) <= 0x1p1022); });
 }
 
 /// Whether a file of float32 could hold the mesh.
