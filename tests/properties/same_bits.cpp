@@ -21,7 +21,7 @@ namespace {
 
 RandomMesh with_other_corners_first(RandomMesh mesh, test_meshes::Random& random) {
   for (Triangle& t : mesh.mesh.triangles) {
-    std::ranges::rotate(t, t.begin() + random.below(3));
+    std::rotate(t.begin(), t.begin() + random.below(3), t.end());
   }
   return mesh;
 }
