@@ -16,7 +16,7 @@ METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ra
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
     "": {"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash", "uncommitted_hash",
-         "timings_ms", "peak_memory_bytes"},
+         "warnings", "timings_ms", "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
