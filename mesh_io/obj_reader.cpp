@@ -19,8 +19,6 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// The numbers of the cells by the statement (usemtl, g) that stands before them.
 class CellNumbering {
  public:

@@ -21,8 +21,6 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// The numbers that follow the coordinates or the indices on a line. No line has more than a vertex of STCNOFF.
 using Row = std::array<double, 9>;
 

@@ -15,7 +15,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::size_t block_bytes = std::size_t{1} << 18;
+constexpr std::size_t stream_block_bytes = std::size_t{1} << 18;
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw WriteError(path, std::string("cannot be written: ") + std::strerror(error));
@@ -25,7 +25,7 @@ constexpr std::size_t block_bytes = std::size_t{1} << 18;
 
 OutputStreamBuffer::OutputStreamBuffer(std::filesystem::path path)
     : path_(std::move(path)),
-      block_(block_bytes),
+      block_(stream_block_bytes),
       descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) {
     fail(path_, errno);

@@ -19,7 +19,7 @@ struct TypeName {
   std::string_view sized_name;
 };
 
-constexpr std::array<TypeName, 8> type_names{{
+constexpr std::array<TypeName, 8> ply_type_names{{
     {ScalarType::int8, "char", "int8"},
     {ScalarType::uint8, "uchar", "uint8"},
     {ScalarType::int16, "short", "int16"},
@@ -134,7 +134,7 @@ class HeaderParser {
   }
 
   ScalarType type_of(std::string_view name) const {
-    for (const TypeName& known : type_names) {
+    for (const TypeName& known : ply_type_names) {
       if (name == known.name || name == known.sized_name) {
         return known.type;
       }
@@ -192,7 +192,7 @@ bool is_ply_type(ScalarType type) {
 }
 
 std::string_view ply_type_name(ScalarType type) {
-  return std::ranges::find(type_names, type, &TypeName::type)->name;
+  return std::ranges::find(ply_type_names, type, &TypeName::type)->name;
 }
 
 }  // namespace trismooth

@@ -102,11 +102,11 @@ void append_row(std::string& bytes, std::span<const WrittenProperty> properties,
   }
 }
 
-constexpr std::array<std::uint8_t, 4> written_types{cell_type::triangle, cell_type::quad, cell_type::polygon,
-                                                    cell_type::line};
+constexpr std::array<std::uint8_t, 4> ply_cell_types{cell_type::triangle, cell_type::quad, cell_type::polygon,
+                                                     cell_type::line};
 
-bool is_face(std::uint8_t type) {
-  return type != cell_type::line && std::ranges::count(written_types, type) > 0;
+bool is_ply_face(std::uint8_t type) {
+  return type != cell_type::line && std::ranges::count(ply_cell_types, type) > 0;
 }
 
 /// The cells that PLY holds, in the order of their elements.
@@ -118,7 +118,7 @@ struct WrittenCells {
 
   explicit WrittenCells(const CellList& cells) {
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      if (is_face(cells.types[c])) {
+      if (is_ply_face(cells.types[c])) {
         reordered = reordered || !lines.empty();
         longest_face = std::max(longest_face, cells[c].size());
         faces.push_back(c);
@@ -241,7 +241,7 @@ void write_ply(const std::filesystem::path& path, const MeshDocument& document) 
 std::vector<std::string> what_ply_loses(const MeshDocument& document) {
   std::vector<std::string> lost;
   const WrittenCells cells(document.cells);
-  if (const std::string others = describe_other_cells(document.cells, written_types); !others.empty()) {
+  if (const std::string others = describe_other_cells(document.cells, ply_cell_types); !others.empty()) {
     lost.push_back("PLY holds triangles, quads, polygons and lines only: not written are " + others);
   }
   if (cells.reordered) {

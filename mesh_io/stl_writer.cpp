@@ -15,7 +15,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-constexpr std::array<std::uint8_t, 1> written_types{cell_type::triangle};
+constexpr std::array<std::uint8_t, 1> stl_cell_types{cell_type::triangle};
 
 Vector point_at(const MeshDocument& document, std::int32_t vertex) {
   const std::size_t first = 3 * static_cast<std::size_t>(vertex);
@@ -117,7 +117,7 @@ void write_stl(const std::filesystem::path& path, const MeshDocument& document) 
 
 std::vector<std::string> what_stl_loses(const MeshDocument& document) {
   std::vector<std::string> lost;
-  if (const std::string others = describe_other_cells(document.cells, written_types); !others.empty()) {
+  if (const std::string others = describe_other_cells(document.cells, stl_cell_types); !others.empty()) {
     lost.push_back("STL holds triangles only: not written are " + others);
   }
   describe_points(lost, document);

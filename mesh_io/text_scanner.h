@@ -7,6 +7,9 @@
 
 namespace trismooth {
 
+/// What some editors put in front of text in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Reads the white-space separated tokens of a text file and knows where it stands, for messages with a line number.
 /// LF, CR LF and CR alone end a line. Locale-independent. The text must outlive the scanner.
 class TextScanner {

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = VtkLegacyType::Kind;
 
-constexpr auto type_names = std::to_array<std::pair<std::string_view, VtkLegacyType>>({
+constexpr auto legacy_type_names = std::to_array<std::pair<std::string_view, VtkLegacyType>>({
     {"bit", {Kind::bits, ScalarType::uint8}},
     {"char", {Kind::numbers, ScalarType::int8}},
     {"signed_char", {Kind::numbers, ScalarType::int8}},
@@ -61,8 +61,8 @@ bool is_reserved(std::string_view name) {
 
 std::optional<VtkLegacyType> vtk_legacy_type(std::string_view name) {
   const auto* const found =
-      std::ranges::find(type_names, lower_case(name), &std::pair<std::string_view, VtkLegacyType>::first);
-  return found == type_names.end() ? std::nullopt : std::optional(found->second);
+      std::ranges::find(legacy_type_names, lower_case(name), &std::pair<std::string_view, VtkLegacyType>::first);
+  return found == legacy_type_names.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::string_view vtk_legacy_type_name(ScalarType type) {

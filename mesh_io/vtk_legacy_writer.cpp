@@ -18,7 +18,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::size_t block_bytes = std::size_t{1} << 16;
+constexpr std::size_t legacy_block_bytes = std::size_t{1} << 16;
 
 bool is_finite(const DataArray& array) {
   return visit_scalar_type(array.type, [&](auto zero) {
@@ -32,7 +32,7 @@ bool is_finite(const DataArray& array) {
 }
 
 bool are_finite(std::span<const DataArray> arrays) {
-  return std::ranges::all_of(arrays, is_finite);
+  return std::ranges::all_of(arrays, [](const DataArray& array) { return is_finite(array); });
 }
 
 template <class T>
@@ -83,7 +83,7 @@ void write_section(VtkLegacyOutput& output, std::string_view keyword, std::size_
 
 void VtkLegacyOutput::text(std::string_view text) {
   block_ += text;
-  if (block_.size() >= block_bytes) {
+  if (block_.size() >= legacy_block_bytes) {
     flush();
   }
 }
@@ -105,7 +105,7 @@ void VtkLegacyOutput::number(T value, char separator) {
     }
     block_ += separator;
   }
-  if (block_.size() >= block_bytes) {
+  if (block_.size() >= legacy_block_bytes) {
     flush();
   }
 }

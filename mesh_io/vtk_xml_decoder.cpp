@@ -62,18 +62,18 @@ void to_native_order(std::byte* bytes, std::size_t size, std::size_t word_size, 
   }
 }
 
-bool is_space(char c) {
+bool separates_tokens(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 /// Cuts the next token off the text; empty at its end.
 std::string_view take_token(std::string_view& text) {
   std::size_t begin = 0;
-  while (begin < text.size() && is_space(text[begin])) {
+  while (begin < text.size() && separates_tokens(text[begin])) {
     ++begin;
   }
   std::size_t end = begin;
-  while (end < text.size() && !is_space(text[end])) {
+  while (end < text.size() && !separates_tokens(text[end])) {
     ++end;
   }
   const std::string_view token = text.substr(begin, end - begin);

@@ -43,12 +43,12 @@ struct BenchSettings {
   std::vector<std::filesystem::path> reports;
 };
 
-using ReportWriter = std::string (*)(const bench::Report&);
+using BenchReportWriter = std::string (*)(const bench::Report&);
 
-ReportWriter writer_of(const std::filesystem::path& path) {
-  static constexpr std::array<ReportFormat<ReportWriter>, 3> formats{
+BenchReportWriter bench_writer_of(const std::filesystem::path& path) {
+  static constexpr std::array<ReportFormat<BenchReportWriter>, 3> formats{
       {{".json", &bench::json_of}, {".csv", &bench::csv_of}, {".html", &bench::page_of}}};
-  return writer_for<ReportWriter>(path, formats);
+  return writer_for<BenchReportWriter>(path, formats);
 }
 
 /// "1K", "50k", "2M" or plain digits.
@@ -156,7 +156,7 @@ void write_results(const bench::Report& report, const std::vector<std::filesyste
   }
   for (const std::filesystem::path& path : paths) {
     try {
-      write_report_text(path, writer_of(path)(report));
+      write_report_text(path, bench_writer_of(path)(report));
       out << "report: " << path.string() << '\n' << std::flush;
     } catch (const WriteError&) {
       failure = failure ? failure : std::current_exception();
@@ -224,7 +224,7 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
   add_parsed_option(
       command, "--report", "FILE", "Write a report: FILE.json, FILE.csv or FILE.html. Repeatable",
       [settings](const std::string& text) {
-        writer_of(text);
+        bench_writer_of(text);
         settings->reports.emplace_back(text);
       },
       repeatable);

@@ -33,7 +33,7 @@ constexpr const char* description =
     "Boundaries and material interfaces do not move, no element gets worse than the worst one touched,\n"
     "and everything else in the file stays as it is.";
 
-constexpr const char* footer =
+constexpr const char* help_footer =
     "Examples:\n"
     "  trismooth smooth plate.vtk smoother.vtk\n"
     "  trismooth smooth coast.vtu out.vtu --fixed-ids anchors.txt --report run.html\n"
@@ -97,7 +97,7 @@ ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const Comm
   for (const Subcommand& subcommand : subcommands) {
     subcommand.app->group("Commands");
   }
-  app.footer(footer);  // set last: commands would take it over
+  app.footer(help_footer);  // set last: commands would take it over
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

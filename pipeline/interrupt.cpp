@@ -10,6 +10,7 @@
 
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/exit_code.h"
+#include "trismooth/pipeline/terminal_line.h"
 
 namespace trismooth {
 
@@ -23,9 +24,6 @@ std::atomic<bool> on_terminal{false};
 std::atomic<bool> came_too_late{false};
 std::atomic<bool> leaving{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
-
-/// Over the line of a terminal on which progress may stand: ECMA-48 EL.
-constexpr std::string_view clear_line = "\r\x1b[K";
 
 void leave(std::string_view words) {
   if (on_terminal) {

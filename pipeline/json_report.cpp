@@ -17,12 +17,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json number_json(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
+Json number_json(const std::optional<double>& value) {
+  return value ? number_json(*value) : Json(nullptr);
 }
 
 Json text_or_null(const std::optional<std::string>& text) {
@@ -62,9 +62,9 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"guard", smoothing.guard},
           {"threads", result ? result->threads : smoothing.threads},
           {"max_sweeps", smoothing.max_sweeps},
-          {"tolerance", number(smoothing.tolerance)},
-          {"time_limit", number(smoothing.time_limit_seconds)},
-          {"target_quality", number(smoothing.target_quality)},
+          {"tolerance", number_json(smoothing.tolerance)},
+          {"time_limit", number_json(smoothing.time_limit_seconds)},
+          {"target_quality", number_json(smoothing.target_quality)},
           {"region_array", text_or_null(options.region_array)},
           {"fixed_array", text_or_null(options.fixed_array)},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
@@ -75,17 +75,17 @@ Json quality_json(const QualityReport& report) {
   Json metrics = Json::object();
   for (const MetricInfo& metric : all_metrics()) {
     const MetricSummary& summary = report[metric.metric];
-    metrics[std::string(metric.name)] = {{"min", number(summary.min)},
-                                         {"mean", number(summary.mean)},
-                                         {"max", number(summary.max)},
-                                         {"stddev", number(summary.stddev)},
-                                         {"acceptable_fraction", number(summary.acceptable_fraction)}};
+    metrics[std::string(metric.name)] = {{"min", number_json(summary.min)},
+                                         {"mean", number_json(summary.mean)},
+                                         {"max", number_json(summary.max)},
+                                         {"stddev", number_json(summary.stddev)},
+                                         {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {
     worst.push_back({{"cell", element.triangle},
-                     {"shape", number(element.shape)},
-                     {"centroid", Json::array({number(element.centroid.x), number(element.centroid.y)})}});
+                     {"shape", number_json(element.shape)},
+                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})}});
   }
   return {{"triangles", report.triangles},
           {"inverted", report.inverted},
@@ -100,8 +100,8 @@ Json smoothing_json(const SmoothingResult& smoothing) {
     history.push_back({{"sweep", record.sweep},
                        {"evaluated", record.evaluated},
                        {"moved", record.moved},
-                       {"max_relative_move", number(record.max_relative_move)},
-                       {"min_shape", number(record.min_shape)}});
+                       {"max_relative_move", number_json(record.max_relative_move)},
+                       {"min_shape", number_json(record.min_shape)}});
   }
   return {{"sweeps", smoothing.sweeps},
           {"stop_reason", name_of(smoothing.stop_reason)},
@@ -121,9 +121,9 @@ Json smoothing_json(const SmoothingResult& smoothing) {
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
-    json[std::string(name)] = number(milliseconds);
+    json[std::string(name)] = number_json(milliseconds);
   }
-  json["total"] = number(timings.total);
+  json["total"] = number_json(timings.total);
   return json;
 }
 

@@ -11,8 +11,6 @@ namespace {
 constexpr std::chrono::milliseconds least_interval{100};
 
 // Back to the start of the line, and erase to its end (ECMA-48 EL).
-constexpr std::string_view clear_line = "\r\x1b[K";
-
 }  // namespace
 
 TerminalLine::TerminalLine(std::ostream& terminal, std::function<Clock::time_point()> now)

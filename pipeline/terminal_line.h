@@ -7,6 +7,9 @@
 
 namespace trismooth {
 
+/// Erases the line of a terminal on which something may stand: ECMA-48 EL.
+inline constexpr std::string_view clear_line = "\r\x1b[K";
+
 /// One line of a terminal that is redrawn in place, with the seconds since it was made at its end. The destructor
 /// erases it.
 class TerminalLine {

@@ -86,7 +86,7 @@ wait
 status=0
 printf '%-12s %11s %8s %8s %8s %7s  %s\n' target executions exec/s edges of corpus result
 for target in "${targets[@]}"; do
-  edges=$(grep -a -o -E '\([0-9]+ inline' "$work/$target/log" | tr -dc '0-9\n' | tail -1)
+  edges=$(grep -a -o -E '\([0-9]+ inline' "$work/$target/log" | tr -dc '0-9\n' | tail -1 || true)
   result=nothing
   if [[ -e $work/$target/failed ]]; then
     result=FOUND
@@ -99,7 +99,7 @@ for target in "${targets[@]}"; do
   if [[ -e $work/$target/failed ]]; then
     echo
     echo "$target: $(grep -a -m 1 -E 'what\(\)|ERROR: |runtime error: ' "$work/$target/log" || tail -1 "$work/$target/log")"
-    find=$(grep -a -o 'Test unit written to .*' "$work/$target/log" | tail -1)
+    find=$(grep -a -o 'Test unit written to .*' "$work/$target/log" | tail -1 || true)
     if [[ -n $find ]]; then
       find=${find#Test unit written to }
       echo "  log:          $work/$target/log"

@@ -8,7 +8,7 @@ set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# A target that does not find what is wrong in this time has scripts/fuzz.sh for longer runs.
+# All targets together take two minutes of one processor. scripts/fuzz.sh is for longer runs.
 fuzz_seconds=13
 # Of the lines of these folders the tests must reach so many.
 covered_folders=(quality smoothing mesh_io)
@@ -20,13 +20,18 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 # many per cent of their meshes.
 export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-10}
 
-# build_and_run PRESET TEST...: builds the test programs and runs them, as many at a time as there are processors.
-build_and_run() {
+# build PRESET TARGET...
+build() {
   local preset=$1
   shift
-  local build=$project/build/$preset
   (cd "$project" && cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" --target "$@")
   echo "$preset: built after $SECONDS s"
+}
+
+# run PRESET TEST...: runs the test programs, as many at a time as there are processors.
+run() {
+  local preset=$1
+  shift
   # shellcheck disable=SC2016 # the inner shell expands
   printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" bash -c '
     log=$0/$1.log
@@ -36,11 +41,12 @@ build_and_run() {
       cat "$log"
       echo "error: $1 failed" >&2
       exit 255
-    fi' "$build"
+    fi' "$project/build/$preset"
   echo "$preset: run after $SECONDS s"
 }
 
-# print_coverage TEST...: lines reached by the programs that build_and_run has just run with preset asan.
+# print_coverage TEST...: lines reached by the programs that were just run with preset asan. Sources are known by their
+# own folder, headers by the link to it through which they are included.
 print_coverage() {
   local build=$project/build/asan programs=() profiles=() folder
   for program in "$@"; do
@@ -52,7 +58,8 @@ print_coverage() {
   for folder in "${covered_folders[@]}"; do
     # The last line is the sum; its columns: regions, missed, share, functions, missed, share, lines, missed, share.
     local share
-    share=$(llvm-cov report "${programs[@]:1}" -instr-profile="$build/tests.profdata" "$project/$folder" 2>/dev/null |
+    share=$(llvm-cov report "${programs[@]:1}" -instr-profile="$build/tests.profdata" \
+      "$project/$folder" "$build/include/trismooth/$folder" 2>/dev/null |
       awk '$1 == "TOTAL" { sub("%", "", $10); print $10 }')
     echo "coverage: $share % of the lines of $folder/"
     if ! awk -v share="$share" -v least="$least_coverage" 'BEGIN { exit !(share >= least) }'; then
@@ -64,18 +71,24 @@ print_coverage() {
 }
 
 run_asan() {
-  local tests=(test_smoothing test_mesh_io test_bad_input test_properties test_quality test_fuzz_regressions)
+  # The longest first.
+  local tests=(test_bad_input test_mesh_io test_smoothing test_properties test_quality test_fuzz_regressions)
   export TRISMOOTH_FUZZ_REGRESSIONS=$project/tests/fuzz/regressions
-  build_and_run asan "${tests[@]}"
+  build asan "${tests[@]}" fuzz
+  run asan "${tests[@]}"
   print_coverage "${tests[@]}"
-  "$project/scripts/fuzz.sh" --seconds "$fuzz_seconds"
+  "$project/scripts/fuzz.sh" --no-build --seconds "$fuzz_seconds"
+  echo "asan: fuzzed after $SECONDS s"
 }
 
 run_tsan() {
-  build_and_run tsan test_smoothing test_quality
+  local tests=(test_smoothing test_quality)
+  build tsan "${tests[@]}"
+  run tsan "${tests[@]}"
 }
 
 "$project/scripts/install-deps.sh" --tests
+keep_temporary_files_in_memory
 case "${1:-all}" in
   all)
     run_asan

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything and runs the tests. Arguments go to ctest: scripts/test.sh -R never_worse
-# ctest's summary, with the time that the tests took, is the last thing printed.
+# Builds everything and runs the tests, then the sanitizers (scripts/sanitize.sh). With arguments, which go to ctest,
+# the tests alone: scripts/test.sh -R never_worse
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -12,4 +12,11 @@ configured=$SECONDS
 build_target all
 built=$SECONDS
 echo "Set-up took $configured s, the build $((built - configured)) s. Tests:"
-exec ctest --test-dir "$build" --output-on-failure -j2 "$@"
+keep_temporary_files_in_memory
+ctest --test-dir "$build" --output-on-failure -j2 "$@"
+if (($# == 0)); then
+  tested=$SECONDS
+  "$project/scripts/sanitize.sh"
+  echo "Set-up took $configured s, the build $((built - configured)) s, the tests $((tested - built)) s," \
+    "the sanitizers $((SECONDS - tested)) s."
+fi

@@ -10,7 +10,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 4096;
+constexpr std::int64_t colouring_grain = 4096;
 constexpr std::int32_t uncoloured = -1;
 constexpr std::int32_t done = -1;
 
@@ -69,15 +69,16 @@ Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
     }
   }
   while (!waiting.empty()) {
-    workers.for_blocks(static_cast<std::int64_t>(waiting.size()), grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        const std::int32_t colour = colour_of(waiting[i], rings, colouring.colours);
-        if (colour != uncoloured) {
-          std::atomic_ref(colouring.colours[waiting[i]]).store(colour, std::memory_order_relaxed);
-          waiting[i] = done;
-        }
-      }
-    });
+    workers.for_blocks(static_cast<std::int64_t>(waiting.size()), colouring_grain,
+                       [&](std::int64_t begin, std::int64_t end) {
+                         for (std::int64_t i = begin; i < end; ++i) {
+                           const std::int32_t colour = colour_of(waiting[i], rings, colouring.colours);
+                           if (colour != uncoloured) {
+                             std::atomic_ref(colouring.colours[waiting[i]]).store(colour, std::memory_order_relaxed);
+                             waiting[i] = done;
+                           }
+                         }
+                       });
     std::erase(waiting, done);
   }
   for (const std::int32_t colour : colouring.colours) {

@@ -16,7 +16,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 8192;
+constexpr std::int64_t vertex_grain = 8192;
 
 class Stopwatch {
  public:
@@ -96,7 +96,7 @@ class CpuSmoother final : public PreparedSmoother {
       std::ranges::sort(result.reverted, {}, &RevertedVertex::vertex);
     }
     std::atomic<std::int64_t> moved{0};
-    workers_.for_blocks(rings_.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(rings_.free_count(), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
       std::int64_t moved_here = 0;
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         if (!(after[v] == before[v])) {
@@ -117,7 +117,7 @@ class CpuSmoother final : public PreparedSmoother {
 
   template <class Body>
   void for_vertices(std::int32_t count, const Body& body) {
-    workers_.for_blocks(count, grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(count, vertex_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         body(v);
       }

@@ -11,7 +11,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 2048;
+constexpr std::int64_t element_grain = 2048;
 
 class Guard {
  public:
@@ -55,7 +55,7 @@ class Guard {
   /// T, and every moved vertex is suspect to begin with.
   void find_threshold() {
     std::mutex joining;
-    workers_.for_blocks(rings_.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(rings_.size(), element_grain, [&](std::int64_t begin, std::int64_t end) {
       double worst = std::numeric_limits<double>::infinity();
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         if (has_moved(v)) {
@@ -74,7 +74,7 @@ class Guard {
   /// Marks the suspects that have an offending element; every moved vertex of such an element finds it by itself.
   bool find_offenders() {
     std::atomic<bool> found{false};
-    workers_.for_blocks(rings_.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(rings_.size(), element_grain, [&](std::int64_t begin, std::int64_t end) {
       bool found_here = false;
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         if (suspect_[v] != 0) {

@@ -11,7 +11,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 8192;
+constexpr std::int64_t packing_grain = 8192;
 constexpr std::int64_t window = 1024;  // vertices: 16 KiB of points
 
 /// `rings` renumbered: vertex order[v] becomes v. The first `free_count` vertices of the order have rings.
@@ -29,7 +29,7 @@ PackedRings renumbered(const RingView& rings, const std::vector<std::int32_t>& o
     }
   }
   packed.neighbours.resize(static_cast<std::size_t>(packed.offsets.back()));
-  workers.for_blocks(free_count, grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(free_count, packing_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
       std::ranges::transform(rings[order[v]], packed.neighbours.begin() + packed.offsets[v],
                              [&](std::int32_t neighbour) { return new_number[neighbour]; });

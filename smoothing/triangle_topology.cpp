@@ -12,7 +12,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 4096;
+constexpr std::int64_t topology_grain = 4096;
 
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -85,7 +85,7 @@ void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, Trian
       std::atomic_ref(topology.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
     }
   };
-  workers.for_blocks(topology.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto bucket =
           std::span(buckets.ends).subspan(buckets.offsets[b], buckets.offsets[b + 1] - buckets.offsets[b]);
@@ -219,14 +219,15 @@ std::int32_t fan_size(const TriangleTopology& topology, std::span<const Triangle
 /// Marks vertices whose triangles form more than one fan. Walks in the order of the triangles: files list them with
 /// more locality than vertices.
 void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
-  workers.for_blocks(static_cast<std::int64_t>(triangles.size()), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto corner = static_cast<std::int32_t>(3 * begin); corner < 3 * end; ++corner) {
-      const std::int32_t v = triangles[corner / 3][corner % 3];
-      if (topology.corner[v] == corner && fan_size(topology, triangles, corner) != topology.degree[v]) {
-        topology.hold[v] |= hold::bow_tie;
-      }
-    }
-  });
+  workers.for_blocks(
+      static_cast<std::int64_t>(triangles.size()), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto corner = static_cast<std::int32_t>(3 * begin); corner < 3 * end; ++corner) {
+          const std::int32_t v = triangles[corner / 3][corner % 3];
+          if (topology.corner[v] == corner && fan_size(topology, triangles, corner) != topology.degree[v]) {
+            topology.hold[v] |= hold::bow_tie;
+          }
+        }
+      });
 }
 
 }  // namespace

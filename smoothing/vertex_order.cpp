@@ -10,7 +10,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t grain = 16384;
+constexpr std::int64_t order_grain = 16384;
 constexpr int curve_order = 15;  // 30 bits of curve and 1 of kind beside a 32-bit vertex number in one 64-bit key
 
 }  // namespace
@@ -30,7 +30,7 @@ std::vector<std::int32_t> hilbert_order(std::span<const Point2<double>> points, 
   const double extent = std::max(high.x - low.x, high.y - low.y);
   const double cells = extent > 0 ? ((1 << curve_order) - 1) / extent : 0;
   std::vector<std::uint64_t> keys(points.size());
-  workers.for_blocks(count, grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(count, order_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t v = begin; v < end; ++v) {
       const auto x = static_cast<std::uint32_t>((points[v].x - low.x) * cells);
       const auto y = static_cast<std::uint32_t>((points[v].y - low.y) * cells);

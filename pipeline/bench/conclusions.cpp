@@ -15,7 +15,6 @@ namespace {
 
 constexpr double claimed_speedup = 44;
 constexpr std::array versions_of_paper{Version::gpu, Version::cdp};
-constexpr std::array forms{Form::swap, Form::in_place};
 constexpr std::array layouts{Layout::aos, Layout::soa};
 
 /// `or_equal`: the claim is that nothing is slower, so what is within the spread agrees with it.

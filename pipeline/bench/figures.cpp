@@ -14,8 +14,6 @@ namespace trismooth::bench {
 namespace {
 
 constexpr std::array all_versions{Version::serial, Version::cpu, Version::gpu, Version::cdp, Version::resident};
-constexpr std::array forms{Form::swap, Form::in_place};
-
 /// The colours can be told apart by everybody, the markers without colour.
 LineStyle style_of(Version version) {
   switch (version) {

@@ -6,7 +6,7 @@ namespace trismooth::bench {
 
 namespace {
 
-constexpr std::array<PublishedTable, 4> tables{{
+constexpr std::array<PublishedTable, 4> printed_tables{{
     {1,
      Version::gpu,
      Form::swap,
@@ -49,13 +49,14 @@ const PublishedRow* row_of_paper(const Case& what, std::int64_t vertices) {
 }  // namespace
 
 std::span<const PublishedTable> published_tables() {
-  return tables;
+  return printed_tables;
 }
 
 const PublishedRow* published_row(Version version, Form form, std::int64_t vertices) {
-  const auto* const table = std::ranges::find_if(
-      tables, [&](const PublishedTable& candidate) { return candidate.version == version && candidate.form == form; });
-  if (table == tables.end()) {
+  const auto* const table = std::ranges::find_if(printed_tables, [&](const PublishedTable& candidate) {
+    return candidate.version == version && candidate.form == form;
+  });
+  if (table == printed_tables.end()) {
     return nullptr;
   }
   const auto* const row = std::ranges::find(table->rows, vertices, &PublishedRow::vertices);

@@ -160,7 +160,7 @@ std::string table_html(const Table& table) {
 }
 
 /// The paper's, all; or the others, as far as something was measured.
-std::string tables(const Report& report, bool of_paper) {
+std::string tables_html(const Report& report, bool of_paper) {
   std::string html;
   for (const Table& table : report.tables) {
     if (of_paper ? table.number > 0 : table.number == 0 && table.missing_reason.empty()) {
@@ -236,11 +236,11 @@ std::string page_of(const Report& report) {
   std::string body = header(report);
   body +=
       section_of_class("conclusions", html_section("The paper's claims on this machine", claims(report.conclusions)));
-  if (const std::string of_paper = tables(report, true); !of_paper.empty()) {
+  if (const std::string of_paper = tables_html(report, true); !of_paper.empty()) {
     body += html_section("The paper's tables", paper + of_paper);
   }
   body += section_of_class("figures", html_section("The paper's figures", figures(report.result)));
-  if (const std::string beyond = tables(report, false); !beyond.empty()) {
+  if (const std::string beyond = tables_html(report, false); !beyond.empty()) {
     body += html_section("Beyond the paper", beyond);
   }
   body += html_section("All measurements", mesh_tables(report.result));

@@ -23,6 +23,9 @@ enum class Version : std::uint8_t {
   resident,  ///< the CUDA backend as users run it
 };
 
+/// Both, in the order of tables.
+inline constexpr std::array forms{Form::swap, Form::in_place};
+
 /// A version in one iteration form and layout.
 struct Case {
   Version version = Version::serial;

@@ -21,10 +21,6 @@ using trismooth::MeshDocument;
 
 namespace {
 
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
-
 std::vector<AcceptedFile> compressed_files() {
   std::vector<AcceptedFile> files;
   for (const AcceptedFile& file : accepted_files::all()) {

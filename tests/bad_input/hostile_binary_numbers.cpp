@@ -1,9 +1,12 @@
-// The same for binary data: hostile numbers of every width at every byte. Which bytes are a coordinate or an index is
-// found out by what a harmless number there changes.
+// The same for binary data: hostile numbers of every width at every byte, of encoded and compressed arrays at every
+// number. Which bytes are a coordinate or an index is found out by what a harmless number there changes.
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,9 +15,11 @@
 #include "input_checks.h"
 #include "support/accepted_files.h"
 #include "support/accepted_vtk_files.h"
+#include "support/xml_arrays.h"
 
 using accepted_files::AcceptedFile;
 using accepted_files::vtk::number_bytes;
+using accepted_files::vtk::XmlArrays;
 using trismooth::MeshDocument;
 
 namespace {
@@ -31,15 +36,32 @@ bool is_big_endian(const AcceptedFile& file) {
   return file.extension == ".vtk" || file.name.find("big") != std::string::npos;
 }
 
-class BinaryFile {
+/// Bytes of numbers, and the file that has them: as they are, or encoded.
+class BinaryNumbers {
  public:
-  explicit BinaryFile(const AcceptedFile& file) : file_(file), whole_(read(file).document.value()) {}
+  using Encode = std::function<std::string(const std::string& bytes)>;
+
+  /// All of the file.
+  explicit BinaryNumbers(const AcceptedFile& file)
+      : BinaryNumbers(
+            file, file.bytes, [](const std::string& bytes) { return bytes; }, stride_of(file)) {}
+  /// `step`: from one place that is tried to the next.
+  BinaryNumbers(const AcceptedFile& file, std::string bytes, Encode encode, std::size_t step)
+      : file_(file),
+        bytes_(std::move(bytes)),
+        encode_(std::move(encode)),
+        step_(step),
+        whole_(read(file).document.value()) {}
+
+  const std::string& file_name() const { return file_.name; }
+  std::size_t size() const { return bytes_.size(); }
+  std::size_t step() const { return step_; }
 
   template <class T>
   Outcome with(std::size_t at, T number) const {
-    std::string bytes = file_.bytes;
+    std::string bytes = bytes_;
     const std::string stored = number_bytes(number, is_big_endian(file_));
-    return read(file_, bytes.replace(at, stored.size(), stored));
+    return read(file_, encode_(bytes.replace(at, stored.size(), stored)));
   }
 
   /// True where a number of type T at that byte is a coordinate.
@@ -85,6 +107,9 @@ class BinaryFile {
 
  private:
   const AcceptedFile& file_;
+  std::string bytes_;
+  Encode encode_;
+  std::size_t step_;
   MeshDocument whole_;
 };
 
@@ -97,49 +122,58 @@ struct Sites {
 };
 
 template <class T>
-void check_coordinates(const AcceptedFile& file, const BinaryFile& binary, Faults& faults, Sites& sites) {
+void check_coordinates(const BinaryNumbers& numbers, Faults& faults, Sites& sites) {
   using Limits = std::numeric_limits<T>;
-  for (std::size_t at = 0; at + sizeof(T) <= file.bytes.size(); at += stride_of(file)) {
-    const bool is_site = binary.is_coordinate<T>(at);
+  for (std::size_t at = 0; at + sizeof(T) <= numbers.size(); at += numbers.step()) {
+    const bool is_site = numbers.is_coordinate<T>(at);
     if (!is_site && at % stride_elsewhere != 0) {
       continue;
     }
     sites.coordinates += is_site ? 1 : 0;
     for (const T hostile : {Limits::quiet_NaN(), -Limits::quiet_NaN(), Limits::signaling_NaN(), Limits::infinity(),
                             -Limits::infinity(), Limits::denorm_min(), -Limits::max()}) {
-      const Outcome outcome = binary.with(at, hostile);
+      const Outcome outcome = numbers.with(at, hostile);
       const std::string place = fmt::format("float{} {} at byte {}", 8 * sizeof(T), hostile, at);
-      faults.add_any(file.name, place, outcome.fault);
+      faults.add_any(numbers.file_name(), place, outcome.fault);
       if (is_site && outcome.document && !(hostile - hostile == 0)) {
-        faults.add(file.name, place, "is accepted");
+        faults.add(numbers.file_name(), place, "is accepted");
       }
     }
   }
 }
 
 template <class T>
-void check_indices(const AcceptedFile& file, const BinaryFile& binary, Faults& faults, Sites& sites) {
-  const auto count = static_cast<T>(binary.point_count());
+void check_indices(const BinaryNumbers& numbers, Faults& faults, Sites& sites) {
+  const auto count = static_cast<T>(numbers.point_count());
   std::vector<T> hostile_numbers{T{-1}, count, std::numeric_limits<T>::min(), std::numeric_limits<T>::max(),
                                  T{1'000'000'000}};
   if constexpr (sizeof(T) == 8) {
     hostile_numbers.insert(hostile_numbers.end(), {T{1} << 31, T{1} << 32, (T{1} << 32) + 1, (T{1} << 56) + 2});
   }
-  for (std::size_t at = 0; at + sizeof(T) <= file.bytes.size(); at += stride_of(file)) {
-    const bool is_site = sizeof(T) == 8 ? binary.is_wide_index(at) : binary.is_index<T>(at);
+  for (std::size_t at = 0; at + sizeof(T) <= numbers.size(); at += numbers.step()) {
+    const bool is_site = sizeof(T) == 8 ? numbers.is_wide_index(at) : numbers.is_index<T>(at);
     if (!is_site && at % stride_elsewhere != 0) {
       continue;
     }
     sites.indices += is_site ? 1 : 0;
     for (const T hostile : hostile_numbers) {
-      const Outcome outcome = binary.with(at, hostile);
+      const Outcome outcome = numbers.with(at, hostile);
       const std::string place = fmt::format("int{} {} at byte {}", 8 * sizeof(T), hostile, at);
-      faults.add_any(file.name, place, outcome.fault);
+      faults.add_any(numbers.file_name(), place, outcome.fault);
       if (is_site && outcome.document) {
-        faults.add(file.name, place, "is accepted");
+        faults.add(numbers.file_name(), place, "is accepted");
       }
     }
   }
+}
+
+Sites check(const BinaryNumbers& numbers, Faults& faults) {
+  Sites sites;
+  check_coordinates<float>(numbers, faults, sites);
+  check_coordinates<double>(numbers, faults, sites);
+  check_indices<std::int32_t>(numbers, faults, sites);
+  check_indices<std::int64_t>(numbers, faults, sites);
+  return sites;
 }
 
 }  // namespace
@@ -152,15 +186,41 @@ TEST_CASE("A hostile number in binary data is refused as a coordinate and as an 
       continue;
     }
     ++files;
-    const BinaryFile binary(file);
-    Sites sites;
-    check_coordinates<float>(file, binary, faults, sites);
-    check_coordinates<double>(file, binary, faults, sites);
-    check_indices<std::int32_t>(file, binary, faults, sites);
-    check_indices<std::int64_t>(file, binary, faults, sites);
+    const BinaryNumbers numbers(file);
+    const Sites sites = check(numbers, faults);
     INFO(file.name);
-    CHECK(sites.coordinates >= 3 * binary.point_count() / (2 * stride_of(file)));
+    CHECK(sites.coordinates >= 3 * numbers.point_count() / (2 * stride_of(file)));
     CHECK((sites.indices >= 12 / (2 * stride_of(file)) || file.extension == ".stl"));
+  }
+  CHECK(files > 15);
+  REQUIRE_NONE(faults);
+}
+
+TEST_CASE("A hostile number in an encoded or compressed array is refused as a coordinate and as an index") {
+  Faults faults;
+  std::size_t files = 0;
+  for (const AcceptedFile& file : accepted_files::all()) {
+    const XmlArrays arrays(file.bytes);
+    if (!is_vtk_xml(file) || is_binary(file) || arrays.arrays().empty()) {
+      continue;
+    }
+    ++files;
+    // Numbers in arrays are aligned; where encoding takes long, some will do.
+    const std::size_t numbers_a_step = (arrays.is_slow() ? 3 : 1) * stride_of(file);
+    Sites sites;
+    for (const XmlArrays::Array& array : arrays.arrays()) {
+      const BinaryNumbers numbers(
+          file, arrays.payload(array).value(),
+          [&](const std::string& bytes) { return arrays.with(array, arrays.with_payload(array, bytes)); },
+          sizeof(std::int32_t) * numbers_a_step);
+      const Sites found = check(numbers, faults);
+      sites.coordinates += found.coordinates;
+      sites.indices += found.indices;
+    }
+    INFO(file.name);
+    const std::size_t points = read(file).document.value().point_count();
+    CHECK(sites.coordinates >= 3 * points / (2 * numbers_a_step));
+    CHECK(sites.indices >= 12 / (2 * numbers_a_step));
   }
   CHECK(files > 15);
   REQUIRE_NONE(faults);

@@ -19,40 +19,50 @@ using trismooth::MeshDocument;
 namespace {
 
 constexpr std::string_view of_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-%";
+constexpr std::string_view of_line = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.+-% ";
 
 struct Place {
   std::size_t begin;
   std::size_t size;
 };
 
-/// The words that are decimal numbers.
-std::vector<Place> numbers_in(std::string_view text) {
-  std::vector<Place> places;
+/// Adds the words that are decimal numbers, in text that begins at `offset` of its file.
+void add_numbers(std::string_view text, std::size_t offset, std::vector<Place>& places) {
   for (std::size_t begin = text.find_first_of(of_words); begin != text.npos;) {
     const std::size_t end = std::min(text.find_first_not_of(of_words, begin), text.size());
     const std::string_view word = text.substr(begin, end - begin);
     const bool starts = word.find_first_of("0123456789") < 2;
     if (starts && word.find_first_not_of("0123456789.eE+-") == word.npos) {
-      places.push_back({begin, end - begin});
+      places.push_back({offset + begin, end - begin});
     }
     begin = text.find_first_of(of_words, end);
   }
-  return places;
 }
 
-/// True for the files that are text throughout, and what is text in the others: headers end where binary data begin.
-std::string_view text_part(const AcceptedFile& file) {
+/// The lines of a binary legacy file that are text: those that begin with a keyword.
+void add_keyword_numbers(std::string_view bytes, std::vector<Place>& places) {
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    const std::string_view line = bytes.substr(begin, end - begin);
+    if (line.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_") > 3 && line.find_first_not_of(of_line) == line.npos) {
+      add_numbers(line, begin, places);
+    }
+    begin = end + 1;
+  }
+}
+
+/// The numbers of what is text in the file; most of those that are not text throughout have a header that is.
+std::vector<Place> text_numbers(const AcceptedFile& file) {
   const std::string_view bytes = file.bytes;
-  if (file.extension == ".ply") {
-    return bytes.find("format ascii") != bytes.npos ? bytes : bytes.substr(0, bytes.find("end_header"));
-  }
-  if (file.name.starts_with("stl_binary")) {
-    return {};
-  }
+  std::vector<Place> places;
   if (file.extension == ".vtk" && bytes.find("\nBINARY") != bytes.npos) {
-    return {};  // keywords stand between the data; see the test of binary numbers
+    add_keyword_numbers(bytes, places);
+  } else if (file.extension == ".ply" && bytes.find("format ascii") == bytes.npos) {
+    add_numbers(bytes.substr(0, bytes.find("end_header")), 0, places);
+  } else if (!file.name.starts_with("stl_binary")) {
+    add_numbers(bytes.substr(0, bytes.find("<AppendedData")), 0, places);
   }
-  return bytes.substr(0, bytes.find("<AppendedData"));
+  return places;
 }
 
 enum class Role : std::uint8_t {
@@ -135,6 +145,11 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
   if (role == Role::structure || (!is_number && role != Role::value)) {
     return "is accepted";
   }
+  // No narrower number that it may be the same as in some of its bits.
+  const bool is_far_off = word.size() > 8 || (word.starts_with('-') && file.extension != ".obj");
+  if (role == Role::index && is_far_off) {
+    return "is accepted as the index of a vertex";
+  }
   if (!same_shape(whole, *outcome.document) && file.extension != ".obj") {
     return "is accepted with other numbers of points and cells";
   }
@@ -154,7 +169,7 @@ TEST_CASE("A hostile number in text is refused, or is a value that an array may 
   std::array<std::size_t, 5> roles{};
   for (const AcceptedFile& file : accepted_files::all()) {
     const MeshDocument whole = read(file).document.value();
-    const std::vector<Place> places = numbers_in(text_part(file));
+    const std::vector<Place> places = text_numbers(file);
     for (std::size_t i = 0; i < places.size(); i += stride_of(file)) {
       const Place& place = places[i];
       const std::string_view word = std::string_view(file.bytes).substr(place.begin, place.size);

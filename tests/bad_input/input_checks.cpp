@@ -20,6 +20,7 @@
 #include "trismooth/mesh_io/errors.h"
 
 #include "memory_peak.h"
+#include "support/sanitized.h"
 
 using trismooth::CellList;
 using trismooth::DataArray;
@@ -92,13 +93,9 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
   return file.extension == ".vtu" || file.extension == ".vtp";
 }
 
-std::size_t stride_of([[maybe_unused]] const accepted_files::AcceptedFile& file) {
-#ifdef TRISMOOTH_SANITIZED
+std::size_t stride_of(const accepted_files::AcceptedFile& file) {
   // Odd ones, which meet numbers at all their bytes.
-  return !is_vtk_xml(file) ? 3 : file.name.find("lzma") == std::string::npos ? 7 : 31;
-#else
-  return 1;
-#endif
+  return !is_sanitized ? 1 : !is_vtk_xml(file) ? 3 : file.name.find("lzma") == std::string::npos ? 13 : 61;
 }
 
 Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {

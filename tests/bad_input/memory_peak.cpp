@@ -6,6 +6,8 @@
 
 #include <malloc.h>
 
+#include "support/sanitized.h"
+
 #ifdef TRISMOOTH_SANITIZED
 #include <sanitizer/allocator_interface.h>
 #endif

@@ -32,10 +32,6 @@ std::vector<std::string> words(std::string_view text) {
   return all;
 }
 
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != std::string_view::npos;
-}
-
 /// OFF ends with its last face, and that face may have no colour, or one of 1, 3 or 4 numbers.
 bool is_whole_off(const AcceptedFile& file, std::size_t cut) {
   const std::string last_face = contains(file.bytes, "6 7 8") ? "6 7 8" : contains(file.bytes, "3 0 4") ? "3 0 4" : "?";

@@ -148,7 +148,7 @@ Picture draw(const LogChart& chart) {
 }
 
 /// Two panels, three lines, sizes of the paper.
-LogChart sample() {
+LogChart sample_chart() {
   const auto line = [](const std::string& label, double first, const LineStyle& style) {
     ChartSeries drawn = series(label, {}, style);
     for (const double x : {1e3, 5e3, 1e4, 5e4, 1e5}) {
@@ -182,7 +182,7 @@ TEST_CASE("a chart with hostile texts is well-formed and says them literally") {
 }
 
 TEST_CASE("a chart needs nothing from the page that it is in") {
-  const Picture picture = draw(sample());
+  const Picture picture = draw(sample_chart());
   CHECK(picture.elements.front().attribute("xmlns") == "http://www.w3.org/2000/svg");
   CHECK(picture.elements.front().attribute("font-family").ends_with("sans-serif"));
   REQUIRE(picture.elements.at(1).name == "rect");
@@ -195,7 +195,7 @@ TEST_CASE("a chart needs nothing from the page that it is in") {
 }
 
 TEST_CASE("a series has its line and a marker at every point of it") {
-  const Picture picture = draw(sample());
+  const Picture picture = draw(sample_chart());
   const std::vector<Element> lines = picture.all("polyline");
   const std::vector<Place> places = picture.places();
   REQUIRE(lines.size() == 5);
@@ -211,7 +211,7 @@ TEST_CASE("a series has its line and a marker at every point of it") {
 }
 
 TEST_CASE("faint lines are thinner and lie below the others, dashes and open markers are drawn") {
-  const Picture picture = draw(sample());
+  const Picture picture = draw(sample_chart());
   const std::vector<Element> lines = picture.all("polyline");
   const std::vector<Element> markers = picture.markers();
   REQUIRE(lines.size() == 5);
@@ -261,7 +261,7 @@ TEST_CASE("the panels share both axes") {
 }
 
 TEST_CASE("all points and whiskers lie inside their panel, and all panels inside the picture") {
-  const Picture picture = draw(sample());
+  const Picture picture = draw(sample_chart());
   const std::vector<Element> frames = picture.frames();
   REQUIRE(frames.size() == 2);
   const auto inside = [](const Element& frame, const Place& place, double space) {
@@ -370,7 +370,7 @@ TEST_CASE("labels of the legend do not overlap and are inside the picture") {
 }
 
 TEST_CASE("few sizes are labelled each, under every panel") {
-  const Picture picture = draw(sample());
+  const Picture picture = draw(sample_chart());
   for (const char* label : {"1K", "5K", "10K", "50K", "100K"}) {
     CAPTURE(label);
     CHECK(picture.texts(label) == 2);

@@ -1,4 +1,4 @@
-"""Disks that are full, or become so at any byte: the old file stays, nothing else is left, and the message says why."""
+"""Disks that are full, or become so on the way (a file system counts by pages): the old file stays, nothing else is left, and the message says why."""
 
 import json
 import os

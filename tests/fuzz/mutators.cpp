@@ -6,9 +6,11 @@
 #include <limits>
 #include <string_view>
 
-#include "xml_arrays.h"
+#include "support/xml_arrays.h"
 
 namespace fuzz {
+
+using accepted_files::vtk::XmlArrays;
 
 namespace {
 

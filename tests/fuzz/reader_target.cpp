@@ -160,7 +160,7 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
         document.points.begin() + static_cast<std::ptrdiff_t>(3 * v),
         [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
     require(!moved || prepared->found.fixed[v] == 0, "a fixed vertex moved in space");
-    require(same_bits(after[v], mesh.points[v]), "reports other coordinates than it stores");
+    require(fuzz::same_bits(after[v], mesh.points[v]), "reports other coordinates than it stores");
   }
   const NaiveTopology topology = naive_topology(before, mesh.triangles, prepared->constraints());
   require_never_worse({mesh.triangles, topology, before, after, options, result});

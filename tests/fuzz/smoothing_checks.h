@@ -37,7 +37,7 @@ struct Smoothing {
 };
 
 /// Everything is finite, fixed vertices have their bits, no element that was valid is not any more, none is below the
-/// worst that was touched and below what it was, no more are inverted, the result counts what happened. Throws Broken.
+/// worst that was touched and below what it was, the result counts what happened. Throws Broken.
 void require_never_worse(const Smoothing& smoothing);
 
 bool same_bits(Point2<double> a, Point2<double> b);

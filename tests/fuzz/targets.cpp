@@ -7,10 +7,10 @@
 
 #include "trismooth/mesh_io/errors.h"
 
-#include "accepted_files.h"
 #include "choices.h"
 #include "document_checks.h"
 #include "memory_file.h"
+#include "support/accepted_files.h"
 #include "support/test_meshes.h"
 
 namespace fuzz {

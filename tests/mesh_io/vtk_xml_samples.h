@@ -49,7 +49,7 @@ vtkSmartPointer<vtkPointSet> read_with_vtk(const std::filesystem::path& path, tr
 /// component names, active attributes and bits. Empty where there is none.
 std::string differences(vtkPointSet& a, vtkPointSet& b);
 
-/// Every way to encode a file.
+/// Every way to encode a file; under sanitizers one of those with LZMA.
 std::vector<trismooth::VtkXmlEncoding> all_encodings();
 std::string to_string(const trismooth::VtkXmlEncoding& encoding);
 

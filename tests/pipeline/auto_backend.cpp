@@ -19,7 +19,7 @@ using trismooth::SmoothingResult;
 
 namespace {
 
-constexpr std::int32_t columns = 12;
+constexpr std::int32_t grid_columns = 12;
 constexpr std::int64_t vertices = 144;
 constexpr std::int64_t free_vertices = 100;
 
@@ -33,7 +33,7 @@ struct Smoothed {
 };
 
 Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topology = trismooth::Topology::halfedge) {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
   SmoothingOptions options;
   options.backend = backend;
   options.topology = topology;
@@ -97,7 +97,7 @@ TEST_CASE("where the device fails, the CPU does the whole work, to the same bits
 TEST_CASE("a device that failed once is not asked again by the same plan") {
   const FakeBackend cuda(Failure::smooth);
   const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
   SmoothingOptions options;
   options.backend = &automatic;
   trismooth::SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
@@ -110,7 +110,7 @@ TEST_CASE("a device that failed once is not asked again by the same plan") {
 }
 
 TEST_CASE("auto has rings found by the device where the mesh is large enough and the device can") {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
   SmoothingOptions options;
   options.topology = trismooth::Topology::device;
   const auto find = [&](const AutoBackend& automatic) {
@@ -127,7 +127,7 @@ TEST_CASE("auto has rings found by the device where the mesh is large enough and
 }
 
 TEST_CASE("where the device fails to find the rings, the smoothing that follows says so, once") {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(columns, columns, 0.45, 3);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
   const FakeBackend cuda(Failure::rings);
   const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
   SmoothingOptions options;

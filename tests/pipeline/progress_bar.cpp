@@ -26,7 +26,7 @@ struct Scene {
   }
 };
 
-const std::string clear_line = "\r\x1b[K";
+const std::string erased = "\r\x1b[K";
 
 }  // namespace
 
@@ -34,19 +34,19 @@ TEST_CASE("a stage is drawn in place as soon as it starts") {
   Scene scene;
   scene.now += 1500ms;
   scene.bar.stage_started(Stage::read);
-  CHECK(scene.drawn() == clear_line + "reading ..., 1.5 s");
+  CHECK(scene.drawn() == erased + "reading ..., 1.5 s");
   scene.bar.stage_started(Stage::write);
-  CHECK(scene.drawn() == clear_line + "writing ..., 1.5 s");
+  CHECK(scene.drawn() == erased + "writing ..., 1.5 s");
 }
 
 TEST_CASE("a sweep is drawn with its number, its moves and the time") {
   Scene scene;
   scene.now += 200ms;
   scene.bar.sweep_done({12, 9000, 3456, 0.1});
-  CHECK(scene.drawn() == clear_line + "smoothing: sweep 12, 3456 vertices moved, 0.2 s");
+  CHECK(scene.drawn() == erased + "smoothing: sweep 12, 3456 vertices moved, 0.2 s");
   scene.now += 200ms;
   scene.bar.sweep_done({13, 9, 1, 0.1});
-  CHECK(scene.drawn() == clear_line + "smoothing: sweep 13, 1 vertex moved, 0.4 s");
+  CHECK(scene.drawn() == erased + "smoothing: sweep 13, 1 vertex moved, 0.4 s");
 }
 
 TEST_CASE("sweeps are drawn ten times a second at most") {
@@ -69,7 +69,7 @@ TEST_CASE("the line is erased at the end, and only if one was drawn") {
     bar.stage_started(Stage::topology);
     terminal.str("");
   }
-  CHECK(terminal.str() == clear_line);
+  CHECK(terminal.str() == erased);
 }
 
 TEST_CASE("no line is longer than a narrow terminal") {

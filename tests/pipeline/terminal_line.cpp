@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const std::string clear_line = "\r\x1b[K";
+const std::string erase_line = "\r\x1b[K";
 
 }  // namespace
 
@@ -22,7 +22,7 @@ TEST_CASE("a line is drawn over the last one, with the seconds since the beginni
   line.draw("one");
   now += 2500ms;
   line.draw("two");
-  CHECK(terminal.str() == clear_line + "one, 0.0 s" + clear_line + "two, 2.5 s");
+  CHECK(terminal.str() == erase_line + "one, 0.0 s" + erase_line + "two, 2.5 s");
 }
 
 TEST_CASE("what happens often is drawn ten times a second at most, and at first at once") {
@@ -34,7 +34,7 @@ TEST_CASE("what happens often is drawn ten times a second at most, and at first 
   line.draw_now_and_then("b");
   now += 1ms;
   line.draw_now_and_then("c");
-  CHECK(terminal.str() == clear_line + "a, 0.0 s" + clear_line + "c, 0.1 s");
+  CHECK(terminal.str() == erase_line + "a, 0.0 s" + erase_line + "c, 0.1 s");
 }
 
 TEST_CASE("a line of a terminal is erased at the end, and only if one was drawn") {
@@ -46,5 +46,5 @@ TEST_CASE("a line of a terminal is erased at the end, and only if one was drawn"
     line.draw("text");
     terminal.str("");
   }
-  CHECK(terminal.str() == clear_line);
+  CHECK(terminal.str() == erase_line);
 }

@@ -18,6 +18,10 @@ std::int64_t from_environment(const char* name, std::int64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoll(text, nullptr, 10);
 }
 
+std::int64_t only_seed() {
+  return from_environment("TRISMOOTH_SEED", -1);
+}
+
 std::string verdict(const Property& property, const RandomMesh& mesh) {
   try {
     return property(mesh);
@@ -172,11 +176,11 @@ class Shrinker {
 }  // namespace
 
 std::int64_t meshes_of(std::int64_t count) {
-  return count * from_environment("TRISMOOTH_MESHES", 100) / 100;
+  return only_seed() >= 0 ? 0 : count * from_environment("TRISMOOTH_MESHES", 100) / 100;
 }
 
 void for_random_meshes(std::int64_t count, const Property& property) {
-  const std::int64_t only = from_environment("TRISMOOTH_SEED", -1);
+  const std::int64_t only = only_seed();
   const std::int64_t first = only >= 0 ? only : 0;
   const std::int64_t last = only >= 0 ? only : meshes_of(count) - 1;
   for (std::int64_t seed = first; seed <= last; ++seed) {

@@ -19,7 +19,7 @@ using Property = std::function<std::string(const RandomMesh&)>;
 /// TRISMOOTH_MESHES=n has n per cent of the count checked, TRISMOOTH_SEED=n that one mesh alone.
 void for_random_meshes(std::int64_t count, const Property& property);
 
-/// So many of `count` as are checked.
+/// So many of `count` as are checked; 0 with TRISMOOTH_SEED, as nothing can be said of how many meshes do what then.
 std::int64_t meshes_of(std::int64_t count);
 
 }  // namespace properties

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "catch.h"
+#include "support/same_bits.h"
 
 using trismooth::local_frame;
 using trismooth::LocalFrame;
@@ -18,13 +19,6 @@ namespace {
 
 using Point = Point2<double>;
 using Points = std::vector<Point>;
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-bool same_bits(Point a, Point b) {
-  return same_bits(a.x, b.x) && same_bits(a.y, b.y);
-}
 
 /// Points of a box of the extents around the centre, the box's corners among them.
 Points random_points(Point centre, Point extent, std::uint64_t seed = 1) {

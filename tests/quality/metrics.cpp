@@ -19,6 +19,7 @@
 #include "trismooth/quality/triangle_quality.h"
 
 #include "catch.h"
+#include "support/same_bits.h"
 
 using trismooth::all_metrics;
 using trismooth::evaluate;
@@ -66,10 +67,6 @@ double value(Metric metric, const Corners& corners) {
 template <class Map>
 Corners mapped(const Corners& corners, const Map& map) {
   return {map(corners.a), map(corners.b), map(corners.c)};
-}
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 constexpr std::array signed_metrics{Metric::shape, Metric::area, Metric::condition, Metric::scaled_jacobian};

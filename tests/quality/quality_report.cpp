@@ -15,6 +15,7 @@
 #include "trismooth/quality/triangle_quality.h"
 
 #include "catch.h"
+#include "support/same_bits.h"
 
 using trismooth::all_metrics;
 using trismooth::evaluate;
@@ -67,10 +68,6 @@ Mesh random_mesh(std::size_t triangles, std::uint64_t seed = 1) {
     mesh.reversed.push_back(is_clockwise != is_folded ? 1 : 0);
   }
   return mesh;
-}
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 void require_same_bits(const QualityReport& a, const QualityReport& b) {

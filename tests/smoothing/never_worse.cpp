@@ -13,6 +13,7 @@
 
 #include "catch.h"
 #include "support/naive_smoothing.h"
+#include "support/same_bits.h"
 #include "support/test_meshes.h"
 
 using test_meshes::Mesh;
@@ -62,10 +63,6 @@ std::vector<Point> disturbed(const Mesh& mesh, const OneRings& rings, double rea
 /// conversion there and back is what compilers have got wrong.
 bool is_float32(double value) {
   return (std::bit_cast<std::uint64_t>(value) & 0x1fffffffU) == 0;
-}
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 /// The contract, element by element, and that everything else kept its bits. `uncommitted`: where the sweeps alone

@@ -19,7 +19,7 @@ using trismooth::Workers;
 
 namespace {
 
-OneRings rings_of(const Mesh& mesh) {
+OneRings smoothing_rings_of(const Mesh& mesh) {
   Workers workers(1);
   const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
   const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
@@ -53,7 +53,7 @@ TEST_CASE("packing renumbers the rings and changes nothing else") {
   Workers workers(1);
   for (const auto& [name, mesh] : test_meshes::zoo()) {
     CAPTURE(name);
-    const OneRings rings = rings_of(mesh);
+    const OneRings rings = smoothing_rings_of(mesh);
     for (const Form form : {Form::swap, Form::in_place}) {
       check_packed(pack_rings(rings, mesh.points, form, workers), rings);
     }
@@ -64,7 +64,7 @@ TEST_CASE("Form A has one batch of all free vertices, Form B one for each colour
   Workers workers(1);
   for (const auto& [name, mesh] : test_meshes::zoo()) {
     CAPTURE(name);
-    const OneRings rings = rings_of(mesh);
+    const OneRings rings = smoothing_rings_of(mesh);
     const PackedRings swap = pack_rings(rings, mesh.points, Form::swap, workers);
     CHECK(swap.colours == 0);
     CHECK(swap.batches == std::vector<std::int32_t>{0, swap.free_count()});
@@ -83,7 +83,7 @@ TEST_CASE("Form A has one batch of all free vertices, Form B one for each colour
 
 TEST_CASE("the packing does not depend on the number of threads") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(180, 180, 0.3, 1), 2);
-  const OneRings rings = rings_of(mesh);
+  const OneRings rings = smoothing_rings_of(mesh);
   for (const Form form : {Form::swap, Form::in_place}) {
     Workers one(1);
     const PackedRings expected = pack_rings(rings, mesh.points, form, one);

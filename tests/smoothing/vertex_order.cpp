@@ -18,7 +18,7 @@ using trismooth::Workers;
 
 namespace {
 
-OneRings rings_of(const Mesh& mesh) {
+OneRings one_rings_of(const Mesh& mesh) {
   const naive::Rings rings = naive::one_rings(mesh.vertex_count(), mesh.triangles);
   OneRings result = OneRings::with_sizes(mesh.vertex_count(),
                                          [&](std::int32_t v) { return static_cast<std::int64_t>(rings[v].size()); });
@@ -44,14 +44,14 @@ TEST_CASE("the order holds every vertex once, free ones first") {
   Workers workers(1);
   for (const auto& [name, mesh] : test_meshes::zoo()) {
     CAPTURE(name);
-    const OneRings rings = rings_of(mesh);
+    const OneRings rings = one_rings_of(mesh);
     check_order(hilbert_order(mesh.points, rings, workers), rings);
   }
 }
 
 TEST_CASE("vertices that follow each other in the order are near each other") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(60, 60, 0.3, 1), 2);
-  const OneRings rings = rings_of(mesh);
+  const OneRings rings = one_rings_of(mesh);
   Workers workers(1);
   const std::vector<std::int32_t> order = hilbert_order(mesh.points, rings, workers);
   double length = 0;
@@ -66,7 +66,7 @@ TEST_CASE("vertices that follow each other in the order are near each other") {
 
 TEST_CASE("the order does not depend on the number of threads") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(200, 200, 0.3, 1), 2);
-  const OneRings rings = rings_of(mesh);
+  const OneRings rings = one_rings_of(mesh);
   Workers one(1);
   const std::vector<std::int32_t> expected = hilbert_order(mesh.points, rings, one);
   for (const int threads : {2, 3, 8}) {
@@ -78,7 +78,7 @@ TEST_CASE("the order does not depend on the number of threads") {
 TEST_CASE("meshes without extent, along a line or of nothing are ordered, too") {
   Workers workers(1);
   Mesh mesh = test_meshes::jittered_grid(6, 6, 0, 1);
-  const OneRings rings = rings_of(mesh);
+  const OneRings rings = one_rings_of(mesh);
   for (Point& p : mesh.points) {
     p.y = -1;
   }

@@ -1,4 +1,4 @@
-#include "accepted_files.h"
+#include "support/accepted_files.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "accepted_vtk_files.h"
+#include "support/accepted_vtk_files.h"
 
 namespace accepted_files {
 

@@ -1,4 +1,4 @@
-#include "accepted_vtk_files.h"
+#include "support/accepted_vtk_files.h"
 
 #include <cstdint>
 #include <numeric>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "accepted_files.h"
+#include "support/accepted_files.h"
 
 /// The part of accepted_files.h that is VTK's formats.
 namespace accepted_files::vtk {

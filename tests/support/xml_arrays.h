@@ -9,11 +9,11 @@
 
 #include "trismooth/mesh_io/vtk_xml_header.h"
 
-namespace fuzz {
+namespace accepted_files::vtk {
 
-/// Takes the encoded arrays of a VTU or VTP file apart and puts changed ones in their place, so that a mutation of a
-/// number is not a broken base64 or a broken zlib stream. Only as exact as that needs: what it does not understand it
-/// does not find.
+/// Takes the encoded arrays of a VTU or VTP file apart and puts changed ones in their place, so that a changed number
+/// is not a broken base64 or a broken zlib stream. Only as exact as that needs: what it does not understand it does not
+/// find.
 class XmlArrays {
  public:
   struct Array {
@@ -53,4 +53,4 @@ class XmlArrays {
   std::vector<Array> arrays_;
 };
 
-}  // namespace fuzz
+}  // namespace accepted_files::vtk

@@ -1,4 +1,4 @@
-#include "xml_arrays.h"
+#include "support/xml_arrays.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "trismooth/mesh_io/encoded_bytes.h"
 #include "trismooth/mesh_io/vtk_compressor.h"
 
-namespace fuzz {
+namespace accepted_files::vtk {
 
 using trismooth::EncodedBytes;
 using trismooth::VtkXmlCompressor;
@@ -226,6 +226,8 @@ XmlArrays::Array XmlArrays::with_payload(const Array& array, const std::string& 
     return changed;
   }
   const auto compressor = trismooth::make_vtk_compressor(compressor_);
+  // LZMA's readers make room for the dictionary of the level.
+  compressor->SetCompressionLevel(1);
   std::string compressed(compressor->GetMaximumCompressionSpace(payload.size()), '\0');
   compressed.resize(compressor->Compress(reinterpret_cast<const unsigned char*>(payload.data()), payload.size(),
                                          reinterpret_cast<unsigned char*>(compressed.data()), compressed.size()));
@@ -262,4 +264,4 @@ std::string XmlArrays::with(const Array& array, const Array& changed) const {
   return file;
 }
 
-}  // namespace fuzz
+}  // namespace accepted_files::vtk

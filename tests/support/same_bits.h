@@ -1,0 +1,15 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "trismooth/quality/point2.h"
+
+/// Equal where zeros have the same sign, and a NaN equals itself.
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+inline bool same_bits(trismooth::Point2<double> a, trismooth::Point2<double> b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y);
+}
