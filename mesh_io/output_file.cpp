@@ -26,17 +26,18 @@ struct UnfinishedFile {
 };
 std::array<UnfinishedFile, 8> unfinished_files;
 
-void remember(const std::string& name) {
+void remember(std::string_view name) {
   for (UnfinishedFile& file : unfinished_files) {
     if (name.size() < file.name.size() && !file.used.exchange(true)) {
-      std::memcpy(file.name.data(), name.c_str(), name.size() + 1);
+      std::memcpy(file.name.data(), name.data(), name.size());
+      file.name[name.size()] = '\0';
       file.named = true;
       return;
     }
   }
 }
 
-void forget(const std::string& name) {
+void forget(std::string_view name) {
   for (UnfinishedFile& file : unfinished_files) {
     if (file.named && name == file.name.data()) {
       file.named = false;
@@ -98,40 +99,48 @@ std::string temporary_name(const std::filesystem::path& target) {
   return (target.parent_path() / ("." + stem + suffix + target.extension().string())).string();
 }
 
-/// Makes a new file beside `target`; sets `name` to its name. Negative where that is impossible.
-int create_beside(const std::filesystem::path& target, mode_t mode, std::string& name) {
+/// Makes a new file beside `target`; sets `path` to its name. Negative where that is impossible.
+int create_beside(const std::filesystem::path& target, mode_t mode, std::filesystem::path& path) {
   int descriptor = -1;
   do {
-    name = temporary_name(target);
-    remember(name);  // before it is there, or a signal could come in between
-    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    path = temporary_name(target);
+    remember(path.native());  // before it is there, or a signal could come in between
+    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (descriptor < 0) {
       const int error = errno;
-      forget(name);
+      forget(path.native());
       errno = error;
     }
   } while (descriptor < 0 && errno == EEXIST);
   return descriptor;
 }
 
-/// Gives the file the owner, the group and the permissions of `old`, the first two where that is allowed.
-bool adopt(int descriptor, const struct stat& old) {
-  if (::fchown(descriptor, old.st_uid, old.st_gid) != 0) {
-    [[maybe_unused]] const int refused = ::fchown(descriptor, static_cast<uid_t>(-1), old.st_gid);
+/// The folder of a file, kept open: telling the disk of a new name in it takes no memory, so it cannot fail for lack
+/// of any.
+class Folder {
+ public:
+  explicit Folder(const std::filesystem::path& file)
+      : descriptor_(
+            ::open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {}
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
   }
-  return ::fchmod(descriptor, old.st_mode & 07777) == 0;
-}
 
-/// The new name of a file in the folder is on the disk after this. Not every file system can do it for folders, and the
-/// file is in its place already: errors are no failure.
-void flush_folder_of(const std::filesystem::path& file) {
-  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    ::fsync(descriptor);
-    ::close(descriptor);
+  /// New names in it are on the disk after this. Not every file system can do it, and the file is in its place already:
+  /// errors are no failure.
+  void flush() const {
+    if (descriptor_ >= 0) {
+      ::fsync(descriptor_);
+    }
   }
-}
+
+ private:
+  int descriptor_;
+};
 
 sigset_t broken_pipe() {
   sigset_t signals;
@@ -159,15 +168,12 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
   target_ = follow_links(target);
   constexpr mode_t of_any_file = 0666;  // less the process's mask
   constexpr mode_t of_nobody_else = 0600;
-  struct stat old {};
-  const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  const bool writable = !replaces || ::access(target_.c_str(), W_OK) == 0;
-  std::string name;
-  const int descriptor = writable ? create_beside(target_, replaces ? of_nobody_else : of_any_file, name) : -1;
+  old_ = attributes_of(target_);
+  const bool writable = !old_ || ::access(target_.c_str(), W_OK) == 0;
+  const int descriptor = writable ? create_beside(target_, old_ ? of_nobody_else : of_any_file, path_) : -1;
   if (descriptor < 0) {
     fail(target, "cannot be written");
   }
-  path_ = name;
   ::close(descriptor);
 }
 
@@ -183,8 +189,33 @@ OutputFile::~OutputFile() {
   }
   if (!done_) {
     ::unlink(path_.c_str());
-    forget(path_.string());
+    forget(path_.native());
   }
+}
+
+std::optional<OutputFile::Attributes> OutputFile::attributes_of(const std::filesystem::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) {
+    return std::nullopt;
+  }
+  constexpr mode_t all_permissions = 07777;
+  return Attributes{status.st_uid, status.st_gid, status.st_mode & all_permissions};
+}
+
+/// The owner and the group where that is allowed. File systems without permissions of their own allow no change, and
+/// need none.
+bool OutputFile::set_attributes(int descriptor, const Attributes& attributes) {
+  if (::fchown(descriptor, attributes.owner, attributes.group) != 0) {
+    [[maybe_unused]] const int refused = ::fchown(descriptor, static_cast<uid_t>(-1), attributes.group);
+  }
+  if (::fchmod(descriptor, attributes.permissions) == 0) {
+    return true;
+  }
+  const int error = errno;
+  struct stat status {};
+  const bool is_so = ::fstat(descriptor, &status) == 0 && (status.st_mode & ~S_IFMT) == attributes.permissions;
+  errno = error;
+  return is_so;
 }
 
 void OutputFile::commit() {
@@ -195,8 +226,10 @@ void OutputFile::commit() {
   if (descriptor < 0) {
     fail(given_, "cannot be written");
   }
-  struct stat old {};
-  const bool adopted = ::stat(target_.c_str(), &old) != 0 || adopt(descriptor, old);
+  // Somebody may have removed the old file, or changed its permissions.
+  const std::optional<Attributes> now = attributes_of(target_);
+  const std::optional<Attributes>& kept = now ? now : old_;
+  const bool adopted = !kept || set_attributes(descriptor, *kept);
   const bool flushed = adopted && ::fsync(descriptor) == 0;
   const int error = errno;
   ::close(descriptor);
@@ -204,13 +237,14 @@ void OutputFile::commit() {
     errno = error;
     fail(given_, adopted ? "cannot be flushed to the disk" : "cannot be given the permissions of the old file");
   }
+  const Folder folder(target_);
   begin_commit();
   if (::rename(path_.c_str(), target_.c_str()) != 0) {
     fail(given_, "cannot be replaced");
   }
   done_ = true;
-  forget(path_.string());
-  flush_folder_of(target_);
+  forget(path_.native());
+  folder.flush();
 }
 
 std::uint64_t OutputFile::commits_begun() noexcept {

@@ -3,6 +3,9 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+
+#include <sys/types.h>
 
 namespace trismooth {
 
@@ -31,16 +34,28 @@ class OutputFile {
 
   /// For a signal handler that is to end the process: where no commit was begun beyond the first `commits`, removes the
   /// temporary files and answers true; no later commit comes through, it waits for the end. False, and nothing done,
-  /// where one was begun, or where this has answered true before. Async-signal-safe.
+  /// where one was begun, or where this has answered true before. What was written directly does not count: a pipe
+  /// cannot be taken back. Async-signal-safe.
   static bool give_up(std::uint64_t commits) noexcept;
 
   /// Removes the temporary files of this process, if any: for abrupt ends at any time. Async-signal-safe.
   static void remove_unfinished() noexcept;
 
  private:
+  /// What a file keeps when its content is replaced.
+  struct Attributes {
+    uid_t owner;
+    gid_t group;
+    mode_t permissions;
+  };
+
+  static std::optional<Attributes> attributes_of(const std::filesystem::path& file);
+  static bool set_attributes(int descriptor, const Attributes& attributes);
+
   std::filesystem::path given_;
   std::filesystem::path target_;  ///< every link followed
   std::filesystem::path path_;
+  std::optional<Attributes> old_;  ///< of the target
   bool direct_ = false;
   bool done_ = false;
   sigset_t signals_before_{};  ///< where it is written directly

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include <vtkLogger.h>
 #include <vtkObject.h>
-
-#include "trismooth/mesh_io/silence_vtk.h"
 
 namespace trismooth {
 
@@ -16,10 +13,6 @@ void VtkMessages::watch(vtkObject* object) {
 
 void VtkMessages::unwatch(vtkObject* object) {
   object->RemoveObserver(collector_);
-}
-
-void silence_vtk() {
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
 void VtkMessages::Collector::Execute(vtkObject*, unsigned long event, void* data) {

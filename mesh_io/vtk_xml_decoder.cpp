@@ -304,7 +304,13 @@ void VtkXmlDecoder::expect_empty(const XmlElement& array) {
   }
   // The first word is a number of bytes or of blocks.
   EncodedBytes source = source_of(array);
-  if (!take_token(text).empty() && read_header_words(array, source, 1)[0] != 0) {
+  if (take_token(text).empty()) {
+    return;
+  }
+  const bool declares_data = read_header_words(array, source, 1)[0] != 0;
+  std::string_view rest = source.rest();
+  // A compressed array of no blocks may go on with their size.
+  if (declares_data || (compressor_ == nullptr && !take_token(rest).empty())) {
     fail(array, unexpected_data);
   }
 }

@@ -51,16 +51,6 @@ VtkXmlPiece read_piece(const std::filesystem::path& path, const XmlElement& elem
   return piece;
 }
 
-/// What is known stands there once: VTK takes one of two and drops the other.
-void refuse_second(const std::filesystem::path& path, const XmlElement& parent, std::string_view name) {
-  const auto is_named = [name](const XmlElement& child) { return child.name == name; };
-  const auto first = std::ranges::find_if(parent.children, is_named);
-  const auto second = first == parent.children.end() ? first : std::find_if(first + 1, parent.children.end(), is_named);
-  if (second != parent.children.end()) {
-    throw ReadError(path, second->line, "a second <" + std::string(name) + "> in <" + parent.name + ">");
-  }
-}
-
 /// Whatever of a section is no array.
 void note_other_children(const XmlElement& section, std::vector<std::string>& notes) {
   for (const XmlElement& child : section.children) {
@@ -79,6 +69,15 @@ bool is_known_in_piece(std::string_view name, VtkXmlKind kind) {
 }
 
 }  // namespace
+
+void refuse_second(const std::filesystem::path& path, const XmlElement& parent, std::string_view name) {
+  const auto is_named = [name](const XmlElement& child) { return child.name == name; };
+  const auto first = std::ranges::find_if(parent.children, is_named);
+  const auto second = first == parent.children.end() ? first : std::find_if(first + 1, parent.children.end(), is_named);
+  if (second != parent.children.end()) {
+    throw ReadError(path, second->line, "a second <" + std::string(name) + "> in <" + parent.name + ">");
+  }
+}
 
 std::optional<std::uint64_t> whole_number_attribute(const std::filesystem::path& path, const XmlElement& element,
                                                     std::string_view attribute) {

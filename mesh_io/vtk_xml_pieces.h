@@ -23,6 +23,10 @@ struct VtkXmlPiece {
   std::array<std::uint64_t, poly_data_groups> groups{};  ///< of vtkPolyData, by PolyDataGroup
 };
 
+/// What is known stands in its parent once: VTK takes one of two and drops the other. Throws ReadError at a second
+/// child of that name.
+void refuse_second(const std::filesystem::path& path, const XmlElement& parent, std::string_view name);
+
 /// The pieces of a data set element; the element itself where it holds none, as VTK reads it. Refuses time steps and
 /// sections that stand there twice. Elements without a meaning here give a sentence in `notes`. Throws ReadError.
 std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, const XmlElement& data_set,

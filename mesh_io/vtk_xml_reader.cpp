@@ -365,9 +365,7 @@ VtkXmlFile Reader::read() {
   if (data_set == nullptr) {
     throw ReadError(path_, head_.root.line, "<VTKFile> has no <" + data_set_name + ">");
   }
-  if (std::ranges::count(head_.root.children, data_set_name, &XmlElement::name) > 1) {
-    throw ReadError(path_, head_.root.line, "<VTKFile> has more than one <" + data_set_name + ">");
-  }
+  refuse_second(path_, head_.root, data_set_name);
   pieces_ = find_vtk_xml_pieces(path_, *data_set, file_.kind, file_.notes);
   const vtkSmartPointer<vtkPoints> points = read_points();
   file_.data = file_.kind == VtkXmlKind::unstructured_grid ? read_unstructured_grid() : read_poly_data();

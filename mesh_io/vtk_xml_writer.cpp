@@ -189,7 +189,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
   writer->SetCompressor(make_vtk_compressor(encoding.compressor));
-  // For a loop over the types of cells it would start threads, which a user may have asked not to do.
+  // VTK loops over the types of cells on TBB's threads where it was built with it; a user may have asked for one.
   const bool written = tbb::task_arena(1).execute([&] { return writer->Write() != 0; });
   const unsigned long code = writer->GetErrorCode();
   if (!written || code != vtkErrorCode::NoError || !messages.first_error().empty()) {
@@ -233,6 +233,9 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
     // VTK's writer goes back and forth in what it writes; a pipe or a device cannot.
     std::ostringstream text;
     write_to_stream(text, path, data, encoding);
+    if (!text) {
+      throw std::bad_alloc();  // which a string stream keeps to itself
+    }
     BufferedWriter file(path);
     file.write(text.view());
     file.close();

@@ -24,6 +24,7 @@
 #include "trismooth/pipeline/bench/report.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/output_attempts.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/pipeline/report_format.h"
 #include "trismooth/pipeline/subcommands.h"
@@ -145,26 +146,28 @@ bench::ExperimentResult run_watched(bench::ExperimentOptions options, const Cuda
   return bench::run_experiment(options, cuda);
 }
 
-/// The tables and then all reports; in the end throws what went wrong with the first that could not be written.
-void write_results(const bench::Report& report, const std::vector<std::filesystem::path>& paths, std::ostream& out) {
-  std::exception_ptr failure;
-  out << bench::text_of(report);
+/// The tables, and all reports that can be written; answers whether those are all. Throws WriteError in the end where
+/// the tables could not be printed.
+bool write_results(const bench::Report& report, const std::vector<std::filesystem::path>& paths,
+                   const CommandEnvironment& environment) {
+  std::exception_ptr not_printed;
   try {
-    flush_results(out);
+    print_results(environment.out, bench::text_of(report));
   } catch (const WriteError&) {
-    failure = std::current_exception();
+    not_printed = std::current_exception();
   }
+  bool all = true;
   for (const std::filesystem::path& path : paths) {
-    try {
-      write_report_text(path, bench_writer_of(path)(report));
-      out << "report: " << path.string() << '\n' << std::flush;
-    } catch (const WriteError&) {
-      failure = failure ? failure : std::current_exception();
+    if (could_write(path, environment.err, [&] { write_report_text(path, bench_writer_of(path)(report)); })) {
+      environment.out << "report: " << path.string() << '\n' << std::flush;
+    } else {
+      all = false;
     }
   }
-  if (failure) {
-    std::rethrow_exception(failure);
+  if (not_printed) {
+    std::rethrow_exception(not_printed);
   }
+  return all;
 }
 
 ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment) {
@@ -176,7 +179,9 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
   const bench::Report report =
       bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
                          cuda.backend != nullptr ? cuda.lines() : std::string{});
-  write_results(report, settings.reports, environment.out);
+  if (!write_results(report, settings.reports, environment)) {
+    return ExitCode::not_written;
+  }
   if (!report.result.same_bits()) {
     print_error(environment.err, "runs that must give the same bits did not; please report this");
     return ExitCode::gate_failed;

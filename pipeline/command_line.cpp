@@ -20,7 +20,7 @@
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
 #include "trismooth/pipeline/interrupt.h"
-#include "trismooth/pipeline/messages.h"
+#include "trismooth/pipeline/output_attempts.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 

@@ -21,7 +21,8 @@ struct CommandEnvironment {
 /// anything that the user or a file did: that becomes a message.
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
 
-/// The same for the program: on the standard streams of this process, whose signals it takes; see end_on_interrupt().
+/// The same for the program, once in a process, which it takes over: the standard streams (closed ones are opened), the
+/// signals (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what VTK says.
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace trismooth

@@ -3,9 +3,10 @@
 namespace trismooth {
 
 /// For the program, once, at its start: from now on SIGINT (Ctrl-C), SIGTERM and SIGHUP end the process at once with
-/// status 130, unfinished output files removed and one line on standard error; nothing was written then. Once an output
-/// file is being put in its place, the first signal comes too late and changes nothing, the run comes to its end; a
-/// second one ends it. A signal that is ignored (a job in the background of a script, nohup) stays ignored.
+/// status 130, unfinished output files removed and one line on standard error; nothing was written then, but what a
+/// pipe or a device has taken. Once an output file is being put in its place, the first signal comes too late and
+/// changes nothing, the run comes to its end; a second one ends it. A signal that is ignored (a job in the background
+/// of a script, nohup) stays ignored.
 void end_on_interrupt();
 
 }  // namespace trismooth

@@ -15,6 +15,7 @@
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/output_attempts.h"
 #include "trismooth/pipeline/progress_bar.h"
 #include "trismooth/pipeline/report_file.h"
 #include "trismooth/pipeline/text_report.h"
@@ -85,28 +86,6 @@ std::size_t report_bytes(const PipelineResult& result) {
   return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0);
 }
 
-/// Writes all reports that can be written; answers what went wrong with the first of the others. Those come off the
-/// list.
-std::exception_ptr write_reports(std::vector<std::filesystem::path>& reports, const PipelineOptions& options,
-                                 const PipelineResult& result) {
-  std::exception_ptr failure;
-  std::erase_if(reports, [&](const std::filesystem::path& report) {
-    try {
-      try {
-        require_host_memory(report_bytes(result));
-        write_report(report, options, result);
-        return false;
-      } catch (const std::bad_alloc&) {
-        throw WriteError(report, "cannot be written: not enough memory");
-      }
-    } catch (const WriteError&) {
-      failure = failure ? failure : std::current_exception();
-      return true;
-    }
-  });
-  return failure;
-}
-
 /// Runs the pipeline while it shows the progress.
 PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
   std::optional<ProgressBar> bar;
@@ -123,12 +102,10 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
     if (verbosity == Verbosity::quiet) {
       return;
     }
-    const bool drawing = bar.has_value();
-    bar.reset();  // its line goes first
-    print_warning(environment.err, warning);
-    if (drawing) {
-      bar.emplace(environment.err);
+    if (bar) {
+      bar->erase();
     }
+    print_warning(environment.err, warning);
   };
   options.smoothing.progress = [&](const SweepRecord& record) {
     if (bar) {
@@ -214,16 +191,22 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   const PipelineResult result = run_watched(options, verbosity, environment);
 
   // Files first: a reader of the standard output that goes away (head) ends the program.
-  std::exception_ptr not_written = write_reports(settings.reports, options, result);
+  const auto lost = std::erase_if(settings.reports, [&](const std::filesystem::path& report) {
+    return !could_write(report, environment.err, [&] {
+      require_host_memory(report_bytes(result));
+      write_report(report, options, result);
+    });
+  });
+  std::exception_ptr not_printed;
   if (verbosity != Verbosity::quiet) {
-    environment.out << text_report(options, result);
+    std::string text = text_report(options, result);
     for (const std::filesystem::path& report : settings.reports) {
-      environment.out << "report:     " << report.string() << '\n';
+      text += "report:     " + report.string() + '\n';
     }
     try {
-      flush_results(environment.out);
+      print_results(environment.out, text);
     } catch (const WriteError&) {
-      not_written = not_written ? not_written : std::current_exception();
+      not_printed = std::current_exception();
     }
     print_notes(result, verbosity, environment.err);
   }
@@ -237,10 +220,10 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
       code = ExitCode::gate_failed;
     }
   }
-  if (not_written) {
-    std::rethrow_exception(not_written);
+  if (not_printed) {
+    std::rethrow_exception(not_printed);
   }
-  return code;
+  return lost > 0 ? ExitCode::not_written : code;
 }
 
 }  // namespace trismooth

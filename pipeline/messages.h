@@ -1,12 +1,7 @@
 #pragma once
 
-#include <cerrno>
-#include <cstring>
 #include <ostream>
-#include <string>
 #include <string_view>
-
-#include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
@@ -19,15 +14,6 @@ inline void print_warning(std::ostream& stream, std::string_view message) {
 }
 inline void print_note(std::ostream& stream, std::string_view message) {
   stream << "trismooth: note: " << message << '\n';
-}
-
-/// Writes out what was printed so far. Throws WriteError, which names the standard output, where that fails.
-inline void flush_results(std::ostream& stream) {
-  errno = 0;
-  if (!stream.flush()) {
-    throw WriteError("standard output",
-                     "cannot be written" + (errno != 0 ? std::string(": ") + std::strerror(errno) : std::string()));
-  }
 }
 
 }  // namespace trismooth

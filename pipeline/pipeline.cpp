@@ -164,7 +164,9 @@ class Run {
     if (!loss.any()) {
       return;
     }
-    result_.warnings.push_back(describe(loss));
+    result_.warnings.push_back(describe(loss) +
+                               (options_.smoothing.guard ? "; the guard checks the result in double" : "") +
+                               "; --precision double smooths it as it is");
     if (options_.warned) {
       options_.warned(result_.warnings.back());
     }

@@ -23,6 +23,8 @@ class ProgressBar {
 
   void stage_started(Stage stage);
   void sweep_done(const SweepRecord& record);
+  /// Until it is drawn again, for other text.
+  void erase() { line_.erase(); }
 
  private:
   TerminalLine line_;

@@ -26,8 +26,10 @@ class TerminalLine {
   /// Draws if the last drawing was a tenth of a second ago: for what happens often.
   void draw_now_and_then(std::string_view text);
 
- private:
+  /// Until it is drawn again.
   void erase();
+
+ private:
   void draw_at(std::string_view text, Clock::time_point now);
 
   std::ostream& terminal_;

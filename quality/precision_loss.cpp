@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/quality/workers.h"
 
@@ -46,15 +48,15 @@ PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
 
 std::string describe(const PrecisionLoss& loss) {
   std::string lost;
-  if (loss.collapsed > 0) {
-    lost = std::to_string(loss.collapsed) + " collapse";
-  }
-  if (loss.distorted > 0) {
-    lost += (lost.empty() ? "" : " and ") + std::to_string(loss.distorted) + " change their shape by more than 0.01";
-  }
-  return "single precision cannot hold this mesh: of " + std::to_string(loss.triangles) + " triangles " + lost +
-         " when their coordinates are rounded to it. The result is checked in double and will not be worse than the "
-         "input; --precision double smooths it as it is";
+  const auto add = [&](std::int64_t count, const std::string& what) {
+    if (count > 0) {
+      lost +=
+          (lost.empty() ? "" : ", ") + what + ": " + std::to_string(count) + " of " + std::to_string(loss.triangles);
+    }
+  };
+  add(loss.collapsed, "triangles that collapse");
+  add(loss.distorted, fmt::format("triangles whose shape changes by more than {}", distortion_limit));
+  return "single precision cannot hold this mesh; rounded to it, " + lost;
 }
 
 }  // namespace trismooth

@@ -24,7 +24,7 @@ inline constexpr double distortion_limit = 0.01;
 /// Counts them; the corners in their canonical order. `threads` as in QualityOptions. Complexity: linear.
 PrecisionLoss single_precision_loss(const TriangleView& view, int threads = 0);
 
-/// One sentence that says what was lost and what to do, for people.
+/// One sentence that says what was lost, for people. There is something.
 std::string describe(const PrecisionLoss& loss);
 
 }  // namespace trismooth

@@ -29,7 +29,7 @@ class Starter {
   }
 
   int started() const { return started_; }
-  bool was_refused() const { return started_ < count_; }
+  bool was_refused() const { return was_refused_; }
 
  private:
   void add() {
@@ -54,13 +54,14 @@ class Starter {
         });
       });
     } catch (...) {
-      // Refused. What was started before is there all the same.
+      was_refused_ = true;  // what was started before is there all the same
     }
     release();
   }
 
+  /// False where nobody comes: no refusal, but all of TBB's threads are at other work, or wait for this one.
   static bool await(const std::atomic<bool>& came) {
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
     while (!came && std::chrono::steady_clock::now() < give_up) {
       std::this_thread::yield();
     }
@@ -75,6 +76,7 @@ class Starter {
   const std::thread::id caller_ = std::this_thread::get_id();
   const int count_;
   int started_ = 1;
+  bool was_refused_ = false;
   std::atomic<bool> released_{false};
 };
 

@@ -5,8 +5,9 @@ namespace trismooth {
 /// Sees to it that `count` threads, the calling one included, can be at work at a time, before a loop asks TBB for
 /// them. TBB lets its threads start each other when they are needed, and ends the program where the system refuses one
 /// (a limit of processes, of address space). Here they are started one by one; where one is refused, TBB has to do with
-/// those that could be started, in the whole process from then on. Answers how many may be asked for. Cheap where they
-/// are there already.
+/// those that could be started, in the whole process from then on. Where none comes within half a second, as TBB's
+/// threads are busy elsewhere, no more are started. Answers how many may be asked for. Cheap where they are there
+/// already.
 int start_worker_threads(int count);
 
 /// `count`, or what is left of it where the system has refused threads before.

@@ -38,7 +38,7 @@ std::vector<std::int32_t> hilbert_order(std::span<const Point2<double>> points, 
       keys[v] = (fixed << 62U) | (hilbert_index(x, y, curve_order) << 32U) | static_cast<std::uint64_t>(v);
     }
   });
-  if (workers.count() == 1) {
+  if (workers.count() == 1 || count <= order_grain) {
     std::ranges::sort(keys);
   } else {
     workers.start();

@@ -55,7 +55,7 @@ TEST_CASE("A section of a VTU or VTP that stands there twice is refused: one of 
     }
     const std::string data_set = poly_data ? "PolyData" : "UnstructuredGrid";
     const std::string once = element(file.bytes, data_set);
-    check_refused(file, replaced(file.bytes, once, once + once), "more than one <" + data_set + ">");
+    check_refused(file, replaced(file.bytes, once, once + once), "a second <" + data_set + ">");
   }
   const AcceptedFile& file = file_named("vtu_ascii_little32");
   const std::string begin = "<DataArray type=\"Int32\" Name=\"offsets\"";
@@ -90,6 +90,14 @@ TEST_CASE("Data in a VTU or VTP for which it declares no rows are refused") {
                     "'connectivity' holds data, but the file declares no rows");
     }
   }
+  // More base64 behind a length of nothing.
+  const AcceptedFile& encoded = file_named("vtp_inline_big32");
+  const std::string hidden =
+      "<Strips><DataArray type=\"Int64\" Name=\"connectivity\" format=\"binary\">AAAAAA==AAAAAA==</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"binary\">AAAAAA==</DataArray></Strips></Piece>";
+  check_refused(encoded, replaced(encoded.bytes, "</Piece>", hidden),
+                "'connectivity' holds data, but the file declares no rows");
+  CHECK(read(encoded, replaced(encoded.bytes, "</Piece>", replaced(hidden, "AAAAAA==AAAAAA==", "AAAAAA=="))).document);
   // An array without rows at the place of another one is no loss.
   const AcceptedFile& raw = file_named("vtp_appended_raw_big64");
   const std::string empty =

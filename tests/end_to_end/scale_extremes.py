@@ -160,13 +160,19 @@ class ScaleTest(tool.ToolTest):
         _, _, outcome = self.smooth(points, triangles, "--precision", "single", "--verbose")
         lines = outcome.err.splitlines()
         warned = [i for i, line in enumerate(lines) if line.startswith(
-            "trismooth: warning: single precision cannot hold this mesh: of ")]
+            "trismooth: warning: single precision cannot hold this mesh; rounded to it, ")]
         first_sweep = next(i for i, line in enumerate(lines) if line.startswith("sweep 1:"))
         self.assertEqual(len(warned), 1, outcome.err)
         self.assertLess(warned[0], first_sweep)
-        self.assertIn("--precision double", lines[warned[0]])
+        self.assertIn("; the guard checks the result in double; --precision double", lines[warned[0]])
         report = self.report("smooth", "in.off", "out.off", "--precision", "single")
         self.assertEqual(["trismooth: warning: " + text for text in report["warnings"]], [lines[warned[0]]])
+
+    def test_no_guard_is_promised_where_it_is_off(self):
+        points, triangles = graded_disc(1e9)
+        _, _, outcome = self.smooth(points, triangles, "--precision", "single", "--guard", "off")
+        self.assertIn("single precision cannot hold this mesh", outcome.err)
+        self.assertNotIn("guard", outcome.err)
 
     def test_single_precision_says_nothing_of_a_mesh_that_it_holds(self):
         points, triangles = graded_disc(1e3)

@@ -84,6 +84,16 @@ TEST_CASE("the permissions are those of the file replaced, else those of any new
   CHECK(mode_of(folder / "fresh.off") == mode_of(folder.write("plain", "")));
 }
 
+TEST_CASE("the permissions are those of the old file, too, where it is removed meanwhile") {
+  const ScratchFolder folder;
+  const fs::path target = folder.write("mesh.off", "old");
+  ::chmod(target.c_str(), 0644);
+  OutputFile replacing(target);
+  fs::remove(target);
+  replacing.commit();
+  CHECK(mode_of(target) == 0644);
+}
+
 TEST_CASE("what replaces a private file is private from the start") {
   const ScratchFolder folder;
   const fs::path target = folder.write("mesh.off", "old");

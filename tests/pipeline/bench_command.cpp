@@ -183,6 +183,7 @@ TEST_CASE("a report that cannot be written is told by its name") {
 TEST_CASE("a report that cannot be written in the end keeps no other from being written") {
   const ScratchFolder folder;
   const auto bad = folder.path() / "gone" / "a.json";
+  const auto worse = folder.path() / "gone" / "c.html";
   const auto good = folder.path() / "b.json";
   std::filesystem::create_directories(bad.parent_path());
   fakes::FakeBackend backend;
@@ -192,9 +193,11 @@ TEST_CASE("a report that cannot be written in the end keeps no other from being 
     std::filesystem::remove_all(bad.parent_path());
     return std::string("CUDA: lines of a test\n");
   };
-  const Outcome outcome = bench({"--report", bad.string(), "--report", good.string()}, cuda);
+  const Outcome outcome =
+      bench({"--report", bad.string(), "--report", good.string(), "--report", worse.string()}, cuda);
   CHECK(outcome.code == 4);
   CHECK(outcome.says("gone/a.json"));
+  CHECK(outcome.says("gone/c.html"));
   CHECK(outcome.shows("Table 1"));
   CHECK(std::filesystem::exists(good));
 }

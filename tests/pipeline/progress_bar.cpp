@@ -72,6 +72,19 @@ TEST_CASE("the line is erased at the end, and only if one was drawn") {
   CHECK(terminal.str() == erased);
 }
 
+TEST_CASE("an erased line is drawn again with the time since the beginning") {
+  Scene scene;
+  scene.bar.stage_started(Stage::read);
+  scene.now += 2s;
+  scene.drawn();
+  scene.bar.erase();
+  CHECK(scene.drawn() == erased);
+  scene.bar.erase();
+  CHECK(scene.drawn().empty());
+  scene.bar.stage_started(Stage::smooth);
+  CHECK(scene.drawn() == erased + "smoothing ..., 2.0 s");
+}
+
 TEST_CASE("no line is longer than a narrow terminal") {
   Scene scene;
   for (const auto& [stage, text] : trismooth::EnumText<Stage>::texts) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "trismooth/quality/local_frame.h"
@@ -68,12 +69,11 @@ TEST_CASE("a triangle whose squares vanish in float32 has collapsed") {
   CHECK(trismooth::single_precision_loss({points, triangles, {}}).collapsed == 1);
 }
 
-TEST_CASE("the description says how many of what, and what to do") {
-  CHECK(describe(PrecisionLoss{18, 4, 0})
-            .starts_with("single precision cannot hold this mesh: of 18 triangles 4 collapse when their coordinates "
-                         "are rounded to it."));
-  CHECK(describe(PrecisionLoss{18, 4, 3}).find("4 collapse and 3 change their shape by more than 0.01 when") !=
-        std::string::npos);
-  CHECK(describe(PrecisionLoss{18, 0, 3}).find("of 18 triangles 3 change") != std::string::npos);
-  CHECK(describe(PrecisionLoss{18, 0, 3}).find("--precision double") != std::string::npos);
+TEST_CASE("the description says how many of what") {
+  const std::string begin = "single precision cannot hold this mesh; rounded to it, ";
+  const std::string collapsed = "triangles that collapse: 4 of 18";
+  const std::string distorted = "triangles whose shape changes by more than 0.01: 1 of 18";
+  CHECK(describe(PrecisionLoss{18, 4, 0}) == begin + collapsed);
+  CHECK(describe(PrecisionLoss{18, 0, 1}) == begin + distorted);
+  CHECK(describe(PrecisionLoss{18, 4, 1}) == begin + collapsed + ", " + distorted);
 }

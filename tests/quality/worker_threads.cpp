@@ -1,5 +1,6 @@
 #include "trismooth/quality/worker_threads.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
@@ -7,6 +8,8 @@
 
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include "trismooth/quality/workers.h"
@@ -51,6 +54,21 @@ TEST_CASE("threads that the system does not refuse may all be asked for") {
   CHECK(trismooth::start_worker_threads(5) == 5);
   CHECK(trismooth::start_worker_threads(3) == 3);
   CHECK(trismooth::allowed_threads(12) == 12);
+}
+
+TEST_CASE("threads that are busy have not been refused") {
+  // All that TBB has are in loops, of which each asks for more.
+  constexpr int wanted = 30;
+  std::atomic<int> allowed{0};
+  tbb::parallel_for(tbb::blocked_range<int>(0, 16, 1), [&](const auto&) {
+    int fewest = allowed;
+    const int mine = trismooth::start_worker_threads(wanted);
+    while (!allowed.compare_exchange_weak(fewest, fewest == 0 ? mine : std::min(fewest, mine))) {
+    }
+  });
+  CHECK(allowed == wanted);
+  CHECK(trismooth::allowed_threads(wanted) == wanted);
+  CHECK(loops_visit_everything(4));
 }
 
 TEST_CASE("where the system refuses threads, loops run on fewer") {

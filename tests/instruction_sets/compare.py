@@ -1,0 +1,17 @@
+"""compare.py PROGRAM OTHER: both print the same, and many lines. Ends with 77 where OTHER cannot run on this machine."""
+
+import subprocess
+import sys
+
+SKIPPED = 77
+
+one, other = (subprocess.run([program], capture_output=True, text=True, check=False) for program in sys.argv[1:3])
+if other.returncode == SKIPPED:
+    print(other.stdout, end="")
+    sys.exit(SKIPPED)
+for run in (one, other):
+    if run.returncode != 0 or len(run.stdout.splitlines()) < 400:
+        sys.exit(f"{run.args[0]} ended with {run.returncode}: {run.stderr}")
+differences = [lines for lines in zip(one.stdout.splitlines(), other.stdout.splitlines()) if lines[0] != lines[1]]
+if differences:
+    sys.exit(f"{len(differences)} meshes differ, the first: {differences[:1]}")
