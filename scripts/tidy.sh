@@ -19,7 +19,7 @@ fi
 # A configuration of its own: every source has its own compile command.
 build=$project/build/tidy
 cd "$project"
-cmake --preset release -B "$build" --log-level=ERROR
+cmake --preset release -B "$build" --log-level=ERROR -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 if ((${#files[@]} == 0)); then
   # Sources that are built, and of this project. compile_commands.json is one line an entry.
   mapfile -t files < <(sed -n 's/^ *"file": "\(.*\.cpp\)",\{0,1\}$/\1/p' "$build/compile_commands.json" | sort -u)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
+#include <set>
 #include <utility>
 
 #include "trismooth/quality/float32_rounding.h"
@@ -23,24 +23,13 @@ std::vector<Triangle> counter_clockwise(std::span<const Triangle> triangles, con
 }
 
 naive::Rings rings_of(std::span<const Triangle> triangles, const NaiveTopology& topology) {
-  std::vector<std::map<std::int32_t, std::int32_t>> following(topology.fixed.size());
-  for (const Triangle& t : triangles) {
-    for (int i = 0; i < 3; ++i) {
-      following[static_cast<std::size_t>(t[i])][t[(i + 1) % 3]] = t[(i + 2) % 3];
+  std::set<std::int32_t> fixed;
+  for (std::size_t v = 0; v < topology.fixed.size(); ++v) {
+    if (topology.fixed[v] != 0) {
+      fixed.insert(static_cast<std::int32_t>(v));
     }
   }
-  naive::Rings rings(following.size());
-  for (std::size_t v = 0; v < rings.size(); ++v) {
-    if (topology.fixed[v] == 0) {
-      const std::int32_t first = following[v].begin()->first;
-      std::int32_t neighbour = first;
-      do {
-        rings[v].push_back(neighbour);
-        neighbour = following[v].at(neighbour);
-      } while (neighbour != first);
-    }
-  }
-  return rings;
+  return naive::one_rings(static_cast<std::int32_t>(topology.fixed.size()), triangles, fixed);
 }
 
 template <class T>

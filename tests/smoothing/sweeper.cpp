@@ -23,7 +23,6 @@ using trismooth::Point2;
 using trismooth::Precision;
 using trismooth::SmoothingOptions;
 using trismooth::SmoothingResult;
-using trismooth::StopReason;
 
 namespace {
 

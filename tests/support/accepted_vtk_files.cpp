@@ -11,6 +11,8 @@
 #include "trismooth/mesh_io/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_xml_header.h"
 
+#include "support/xml_arrays.h"
+
 namespace accepted_files::vtk {
 
 namespace {
@@ -173,22 +175,6 @@ std::string legacy(const std::string& version, bool binary, bool poly_data, bool
   return file.text();
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = (group << 8) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? alphabet[(group >> (18 - 6 * k)) & 63] : '=';
-    }
-  }
-  return text;
-}
-
 /// The elements of an XML file, and the section of appended data that they fill.
 class XmlText {
  public:
@@ -252,7 +238,7 @@ class XmlText {
   std::string encoded(const std::string& bytes, bool as_base64) const {
     if (compressor_ == nullptr) {
       const std::string all = words({bytes.size()}) + bytes;
-      return as_base64 ? base64(all) : all;
+      return as_base64 ? base64_of(all) : all;
     }
     // So small that the larger arrays have several blocks.
     constexpr std::size_t block_size = 96;
@@ -267,7 +253,7 @@ class XmlText {
       header.push_back(compressed.size());
       body.append(compressed.begin(), compressed.end());
     }
-    return as_base64 ? base64(words(header)) + base64(body) : words(header) + body;
+    return as_base64 ? base64_of(words(header)) + base64_of(body) : words(header) + body;
   }
 
   VtkXmlEncoding encoding_;

@@ -78,7 +78,8 @@ inline Rings one_rings(std::int32_t vertex_count, std::span<const Triangle> tria
 
 /// SplitMix64 as its authors print it: a state that advances, and the output made from it.
 inline std::uint64_t hashed(std::uint64_t state) {
-  std::uint64_t z = (state += 0x9e3779b97f4a7c15U);
+  state += 0x9e3779b97f4a7c15U;
+  std::uint64_t z = state;
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
   return z ^ (z >> 31U);

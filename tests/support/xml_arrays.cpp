@@ -30,22 +30,6 @@ VtkXmlCompressor compressor_of(std::string_view file) {
                                 : VtkXmlCompressor::none;
 }
 
-std::string base64_of(std::string_view bytes) {
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = group << 8U | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += j <= count ? alphabet[group >> (18 - 6 * j) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
 std::size_t encoded_length(std::size_t bytes, bool base64) {
   return base64 ? (bytes + 2) / 3 * 4 : bytes;
 }
@@ -81,6 +65,22 @@ void for_all_array_tags(std::string_view file, const Use& use) {
 }
 
 }  // namespace
+
+std::string base64_of(std::string_view bytes) {
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      group = group << 8U | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += j <= count ? alphabet[group >> (18 - 6 * j) & 63U] : '=';
+    }
+  }
+  return text;
+}
 
 XmlArrays::XmlArrays(std::string file)
     : file_(std::move(file)),

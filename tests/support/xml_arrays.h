@@ -11,6 +11,8 @@
 
 namespace accepted_files::vtk {
 
+std::string base64_of(std::string_view bytes);
+
 /// Takes the encoded arrays of a VTU or VTP file apart and puts changed ones in their place, so that a changed number
 /// is not a broken base64 or a broken zlib stream. Only as exact as that needs: what it does not understand it does not
 /// find.
