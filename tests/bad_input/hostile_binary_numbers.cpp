@@ -1,6 +1,7 @@
 // The same for binary data: hostile numbers of every width at every byte, of encoded and compressed arrays at every
 // number. Which bytes are a coordinate or an index is found out by what a harmless number there changes.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -135,7 +136,7 @@ void check_coordinates(const BinaryNumbers& numbers, Faults& faults, Sites& site
       const Outcome outcome = numbers.with(at, hostile);
       const std::string place = fmt::format("float{} {} at byte {}", 8 * sizeof(T), hostile, at);
       faults.add_any(numbers.file_name(), place, outcome.fault);
-      if (is_site && outcome.document && !(hostile - hostile == 0)) {
+      if (is_site && outcome.document && !std::isfinite(hostile)) {
         faults.add(numbers.file_name(), place, "is accepted");
       }
     }

@@ -60,7 +60,7 @@ RandomMesh union_of(std::uint64_t first_seed, std::int32_t vertices) {
     const RandomMesh next = random_meshes::random_mesh(seed);
     const bool is_usual = std::ranges::all_of(next.mesh.xy(), [](double x) { return std::abs(x) < 10; });
     if (is_usual) {
-      const double place = static_cast<double>(seed - first_seed);
+      const auto place = static_cast<double>(seed - first_seed);
       all.mesh = test_meshes::together(std::move(all.mesh), next.mesh, {place, 0});
     }
   }

@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE("no method moves a vertex where a position is no number or in
     for (int i = 0; i < 500; ++i) {
       RingOf<double> ring = random_rings::any<double>(random);
       const Point2<double> here{random.between(-1, 1), random.between(-1, 1)};
-      const std::size_t which = static_cast<std::size_t>(random.below(ring.size()));
+      const auto which = static_cast<std::size_t>(random.below(ring.size()));
       (random.below(2) == 0 ? ring.positions[which].x : ring.positions[which].y) = bad;
       const auto move = TestType::template update<double>(here, ring);
       // Weighted: a neighbour at infinity has no weight at all, times infinity: no number either.

@@ -16,7 +16,7 @@ namespace accepted_files {
 
 namespace {
 
-std::string with_line_ends(std::string text, std::string_view line_end) {
+std::string with_line_ends(std::string_view text, std::string_view line_end) {
   std::string changed;
   for (const char c : text) {
     changed += c == '\n' ? std::string(line_end) : std::string(1, c);

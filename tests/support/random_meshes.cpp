@@ -118,7 +118,7 @@ class Maker {
 
   void base(std::int32_t size) {
     const auto side = static_cast<std::int32_t>(std::sqrt(size));
-    const std::uint64_t seed = static_cast<std::uint64_t>(random_.below(1 << 30));
+    const auto seed = static_cast<std::uint64_t>(random_.below(1 << 30));
     switch (random_.below(12)) {
       case 0:
       case 1:

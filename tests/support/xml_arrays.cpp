@@ -257,9 +257,10 @@ std::string XmlArrays::with(const Array& array, const Array& changed) const {
                          offsets.emplace_back(begin + static_cast<std::size_t>(text.data() - tag.data()), text);
                        }
                      });
-  for (auto place = offsets.rbegin(); place != offsets.rend(); ++place) {
-    const std::size_t offset = *whole_number(place->second) + encoded.size() - array.length;
-    file.replace(place->first, place->second.size(), std::to_string(offset));
+  std::reverse(offsets.begin(), offsets.end());
+  for (const auto& [place, text] : offsets) {
+    const std::size_t offset = *whole_number(text) + encoded.size() - array.length;
+    file.replace(place, text.size(), std::to_string(offset));
   }
   return file;
 }
