@@ -100,7 +100,7 @@ void edit(InputBytes& input, Arrays& arrays) {
   for (int edits = input.below(8); edits > 0 && arrays.xy.size() > 1 && !arrays.triangles.empty(); --edits) {
     const std::size_t number = input.raw<std::uint16_t>() % arrays.xy.size();
     const std::size_t index = input.raw<std::uint16_t>() % arrays.triangles.size();
-    const std::ptrdiff_t triangle = static_cast<std::ptrdiff_t>(index / 3 * 3);
+    const auto triangle = static_cast<std::ptrdiff_t>(index / 3 * 3);
     const auto corners = arrays.triangles.begin() + triangle;
     const auto vertices = static_cast<std::int32_t>(arrays.xy.size() / 2);
     switch (input.below(10)) {
@@ -390,7 +390,7 @@ void check_accepted(const Case& chosen) {
   const NaiveTopology topology = naive_topology(before, chosen.triangles(), chosen.holds.view());
   require_never_worse({chosen.triangles(), topology, before, after, options, result});
   for (std::size_t i = 0; chosen.storage == Storage::float32 && i < xy.size(); ++i) {
-    const double rounded = static_cast<double>(static_cast<float>(xy[i]));
+    const auto rounded = static_cast<double>(static_cast<float>(xy[i]));
     require(
         rounded == xy[i] || std::bit_cast<std::uint64_t>(xy[i]) == std::bit_cast<std::uint64_t>(chosen.arrays.xy[i]),
         "a coordinate that was stored as float32 is not one");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ std::uint64_t hash_of(const properties::RandomMesh& mesh) {
 
 }  // namespace
 
-int main() {
+int main() try {
 #ifdef TRISMOOTH_NEEDS_AVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     std::puts("skipped: this processor has no AVX2");
@@ -73,4 +74,7 @@ int main() {
     fmt::print("{} {:016x}\n", seed, hash_of(random_meshes::random_mesh(seed)));
   }
   return 0;
+} catch (const std::exception& error) {
+  std::fputs(error.what(), stderr);
+  return 1;
 }
