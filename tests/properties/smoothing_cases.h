@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,6 +14,7 @@
 #include "trismooth/smoothing/splitmix64.h"
 
 #include "support/random_meshes.h"
+#include "support/same_bits.h"
 
 /// Ways to smooth a random mesh, and what comes of them.
 namespace properties {
@@ -77,10 +77,6 @@ inline Run run(const RandomMesh& mesh, const SmoothingOptions& options, Storage 
   run.result = trismooth::plan(mesh.mesh.vertex_count(), mesh.mesh.indices(), mesh.constraints(), options)
                    .smooth(run.xy, storage);
   return run;
-}
-
-inline bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 /// The first difference of two lists of coordinates; empty where there is none.
