@@ -24,46 +24,57 @@ __device__ void raise(unsigned long long* word, unsigned long long key) {
   }
 }
 
-/// Judges every element of a moved vertex once: at the corner with the smallest packed number, which is a free vertex
-/// if any is, as these are numbered first. The block's verdict says later whether to look at its elements again.
+/// Keys of the elements of moved vertices that a thread looks at.
+class KeyTally {
+ public:
+  __device__ void operator()(const Corner& a, const Corner& b, const Corner& c) {
+    if (a.moved() || b.moved() || c.moved()) {
+      const Quotients found = quotients(a, b, c);
+      const double worsened = worsened_quotient(found.before, found.after);
+      before_ = found.before < before_ ? found.before : before_;
+      worsened_ = worsened < worsened_ ? worsened : worsened_;
+    }
+  }
+  __device__ GuardKeys keys() const { return {falling_key(before_), falling_key(worsened_)}; }
+
+ private:
+  double before_ = std::numeric_limits<double>::infinity();
+  double worsened_ = std::numeric_limits<double>::infinity();
+};
+
+/// Looks at every element of a moved vertex once: at the corner with the smallest packed number, which is a free vertex
+/// if any is, as these are numbered first. The keys of the block say later whether to look at its elements again.
 template <class View>
-__global__ void __launch_bounds__(block_size, 4) judge(View view, unsigned long long* verdicts, CommitState* state) {
+__global__ void __launch_bounds__(block_size, 4) judge(View view, GuardKeys* keys, CommitState* state) {
   if (!view.run_is_over()) {
     return;
   }
-  __shared__ unsigned long long keys[2];
-  if (threadIdx.x < 2) {
-    keys[threadIdx.x] = 0;
+  __shared__ GuardKeys shared;
+  if (threadIdx.x == 0) {
+    shared = {};
   }
   __syncthreads();
-  Quotients smallest{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  bool spoilt = false;
+  KeyTally tally;
   const std::uint32_t i = blockIdx.x * block_size + threadIdx.x;
   if (i < static_cast<std::uint32_t>(view.rings.size)) {
     const Positions<View> positions(view);
     const auto v = static_cast<std::int32_t>(i);
-    for_elements(view, positions, v, v, [&](const Corner& own, const Corner& b, const Corner& c) {
-      if (own.moved() || b.moved() || c.moved()) {
-        const Quotients found = quotients(own, b, c);
-        smallest.before = found.before < smallest.before ? found.before : smallest.before;
-        smallest.after = found.after < smallest.after ? found.after : smallest.after;
-        spoilt = spoilt || (found.before > 0 && !(found.after > 0)) || !(found.after - found.after == 0);
-      }
-    });
+    for_elements(view, positions, v, v, tally);
   }
-  join_largest(&keys[0], falling_key(smallest.before));
-  join_largest(&keys[1], spoilt ? CommitState::spoilt : falling_key(smallest.after));
+  const GuardKeys own = tally.keys();
+  join_largest(&shared.before, own.before);
+  join_largest(&shared.worsened, own.worsened);
   __syncthreads();
   if (threadIdx.x == 0) {
-    verdicts[blockIdx.x] = keys[1];
-    raise(&state->before, keys[0]);
-    raise(&state->after, keys[1]);
+    keys[blockIdx.x] = shared;
+    raise(&state->all.before, shared.before);
+    raise(&state->all.worsened, shared.worsened);
   }
 }
 
 /// The buffers of a guarded commit, for kernels.
 struct Work {
-  unsigned long long* verdicts;
+  GuardKeys* keys;
   std::uint32_t* marks;
   Offender* list;
   std::uint32_t list_size;
@@ -94,8 +105,8 @@ class RepeatedBarrier {
 /// Marks and lists the moved corners of elements that offend, each once.
 class OffenderSearch {
  public:
-  __device__ OffenderSearch(const Work& work, unsigned long long before, std::uint32_t* listed)
-      : work_(work), threshold_(from_falling_key(before)), listed_(listed) {}
+  __device__ OffenderSearch(const Work& work, unsigned long long threshold, std::uint32_t* listed)
+      : work_(work), threshold_(from_falling_key(threshold)), listed_(listed) {}
 
   __device__ void operator()(const Corner& a, const Corner& b, const Corner& c) const {
     if (!a.moved() && !b.moved() && !c.moved()) {
@@ -127,61 +138,134 @@ class OffenderSearch {
 
 /// Threads of a block that makes rounds, one on each multiprocessor.
 constexpr unsigned round_threads = 1024;
-/// Threads that look at the elements of one vertex together.
-constexpr unsigned team_size = 8;
+constexpr unsigned warp_size = 32;
 
-/// The rounds that take offenders back, until there are none or more than the list holds. All blocks are on the device
-/// at the same time.
+/// The rounds that take offenders back, until there are none or more than the list holds. All blocks of threads are on
+/// the device at the same time. A warp looks after every so-manieth block of vertices: a round reads the keys of each,
+/// but looks at elements only where vertices have gone back or something offends.
 template <class View>
-__global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, Work work, CommitState* state) {
-  if (!view.run_is_over() || state->nothing_offends()) {
-    return;
-  }
-  const Positions<View> positions(view);
-  const unsigned long long before = state->before;
-  const OffenderSearch search(work, before, &state->listed);
-  RepeatedBarrier barrier(state->barriers);
-  const std::int64_t thread = thread_index();
-  const std::int64_t threads = static_cast<std::int64_t>(gridDim.x) * round_threads;
-  // First all elements, but for those of blocks without anything that is spoilt or below T.
-  for (std::int64_t i = thread; i < view.rings.size; i += threads) {
-    if (work.verdicts[i / block_size] > before) {
-      const auto v = static_cast<std::int32_t>(i);
-      for_elements(view, positions, v, v, search);
+class Rounds {
+ public:
+  __device__ Rounds(const View& view, const Work& work, CommitState* state)
+      : view_(view),
+        work_(work),
+        state_(state),
+        positions_(view),
+        barrier_(state->barriers),
+        threads_(static_cast<std::int64_t>(gridDim.x) * round_threads),
+        blocks_((view.rings.size + std::int64_t{block_size} - 1) / block_size) {}
+
+  __device__ void run() {
+    std::uint32_t taken_back = 0;
+    std::uint32_t rounds = 0;
+    std::uint32_t listed = 0;
+    for (;; ++rounds) {
+      const unsigned long long threshold = find_threshold(rounds % 3);
+      search(threshold);
+      barrier_.wait();
+      listed = load_relaxed(&state_->listed);
+      if (listed == taken_back || listed > work_.list_size) {
+        break;
+      }
+      take_back(taken_back, listed);
+      taken_back = listed;
+      barrier_.wait();
+    }
+    if (thread_index() == 0) {
+      state_->taken_back = taken_back;
+      state_->rounds += rounds;
+      state_->settled = listed == taken_back ? 1 : 0;
     }
   }
-  std::uint32_t taken_back = 0;
-  std::uint32_t rounds = 0;
-  std::uint32_t listed = 0;
-  for (;;) {
-    barrier.wait();
-    listed = load_relaxed(&state->listed);
-    if (listed == taken_back || listed > work.list_size) {
-      break;
+
+ private:
+  /// Calls body(block, lane) for the blocks of vertices of this warp.
+  template <class Body>
+  __device__ void for_blocks(const Body& body) const {
+    const auto lane = static_cast<std::int32_t>(threadIdx.x % warp_size);
+    for (std::int64_t block = thread_index() / warp_size; block < blocks_; block += threads_ / warp_size) {
+      body(block, lane);
     }
-    ++rounds;
-    for (std::int64_t i = taken_back + thread; i < listed; i += threads) {
-      const std::int32_t v = work.list[i].vertex;
-      work.list[i] = {v, view.input_index[v], positions.stored(v)};
-      positions.take_back(v);
-      work.marks[v / 32] = 0;  // all marks are of vertices that go back
+  }
+
+  /// The elements of a block, by a warp.
+  template <class Visit>
+  __device__ void for_elements_of(std::int64_t block, std::int32_t lane, Visit& visit) const {
+    const std::int64_t end = min(static_cast<std::int64_t>(view_.rings.size), (block + 1) * block_size);
+    for (std::int64_t v = block * block_size + lane; v < end; v += warp_size) {
+      for_elements(view_, positions_, static_cast<std::int32_t>(v), static_cast<std::int32_t>(v), visit);
     }
-    barrier.wait();
-    // Then what has changed: the elements of the vertices that went back.
-    for (std::int64_t i = taken_back + thread / team_size; i < listed; i += threads / team_size) {
-      const std::int32_t v = work.list[i].vertex;
-      const std::int32_t size = view.rings.ring_size(v);
-      const auto ring = view.rings.ring(v);
-      for (auto k = static_cast<std::int32_t>(thread % team_size); k < size; k += team_size) {
-        search(positions.corner(v), positions.corner(ring[k]), positions.corner(ring[k + 1 < size ? k + 1 : 0]));
+  }
+
+  /// Brings the keys up to date, and the key of T with them, in the word of this round.
+  __device__ unsigned long long find_threshold(std::uint32_t word) {
+    unsigned long long largest = 0;
+    for_blocks([&](std::int64_t block, std::int32_t lane) {
+      unsigned long long before = work_.keys[block].before;
+      if (before == GuardKeys::outdated) {
+        KeyTally tally;
+        for_elements_of(block, lane, tally);
+        const GuardKeys own = tally.keys();
+        before = largest_of_warp(own.before);
+        const unsigned long long worsened = largest_of_warp(own.worsened);
+        if (lane == 0) {
+          work_.keys[block] = {before, worsened};
+        }
+      }
+      largest = before > largest ? before : largest;
+    });
+    if (threadIdx.x % warp_size == 0) {
+      raise(&state_->thresholds[word], largest);
+    }
+    if (thread_index() == 0) {
+      state_->thresholds[word == 2 ? 0 : word + 1] = 0;
+    }
+    barrier_.wait();
+    return *static_cast<volatile unsigned long long*>(&state_->thresholds[word]);
+  }
+
+  /// Lists the moved corners of elements that offend.
+  __device__ void search(unsigned long long threshold) const {
+    OffenderSearch offenders(work_, threshold, &state_->listed);
+    for_blocks([&](std::int64_t block, std::int32_t lane) {
+      if (work_.keys[block].worsened > threshold) {
+        for_elements_of(block, lane, offenders);
+      }
+    });
+  }
+
+  /// Puts back what has been listed since the last round. The keys of blocks that may hold one of its elements are
+  /// outdated: a vertex and its neighbours are the corners that elements may be looked at from.
+  __device__ void take_back(std::uint32_t begin, std::uint32_t end) const {
+    for (std::int64_t i = begin + thread_index(); i < end; i += threads_) {
+      const std::int32_t v = work_.list[i].vertex;
+      work_.list[i] = {v, view_.input_index[v], positions_.stored(v)};
+      positions_.take_back(v);
+      work_.marks[v / 32] = 0;  // all marks are of vertices that go back
+      work_.keys[v / block_size].before = GuardKeys::outdated;
+      const std::int32_t size = view_.rings.ring_size(v);
+      const auto ring = view_.rings.ring(v);
+      for (std::int32_t k = 0; k < size; ++k) {
+        if (ring[k] < view_.rings.size) {
+          work_.keys[ring[k] / block_size].before = GuardKeys::outdated;
+        }
       }
     }
-    taken_back = listed;
   }
-  if (thread == 0) {
-    state->taken_back = taken_back;
-    state->rounds += rounds;
-    state->settled = listed == taken_back ? 1 : 0;
+
+  const View& view_;
+  const Work& work_;
+  CommitState* state_;
+  Positions<View> positions_;
+  RepeatedBarrier barrier_;
+  std::int64_t threads_;
+  std::int64_t blocks_;
+};
+
+template <class View>
+__global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, Work work, CommitState* state) {
+  if (view.run_is_over() && !state->nothing_offends()) {
+    Rounds<View>(view, work, state).run();
   }
 }
 
@@ -234,7 +318,7 @@ std::int64_t launch_rounds(const View& view, CommitBuffers& buffers, Point2<doub
                            cudaStream_t stream) {
   if (buffers.guard()) {
     View view_argument = view;
-    Work work{buffers.verdicts.data(), buffers.marks.data(), buffers.list.data(),
+    Work work{buffers.keys.data(), buffers.marks.data(), buffers.list.data(),
               static_cast<std::uint32_t>(buffers.list.size())};
     void* arguments[] = {&view_argument, &work, &state};
     const auto blocks =
@@ -260,7 +344,7 @@ void collect(const DeviceBuffer<Offender>& list, std::uint32_t count, std::vecto
 }  // namespace
 
 CommitBuffers::CommitBuffers(Context& context, std::int32_t free_count)
-    : verdicts(context, blocks_for(free_count)),
+    : keys(context, blocks_for(free_count)),
       marks(context, (static_cast<std::size_t>(free_count) + 31) / 32),
       list(context, static_cast<std::size_t>(list_size(free_count))) {
   marks.fill_bytes(0);
@@ -272,7 +356,7 @@ std::int64_t launch_commit(const CommitInput<T, layout>& input, CommitBuffers& b
   std::int64_t launches = 0;
   with_view(input, [&](const auto& view) {
     if (buffers.guard()) {
-      judge<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.verdicts.data(), state);
+      judge<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.keys.data(), state);
       TRISMOOTH_CUDA_CHECK(cudaGetLastError());
       ++launches;
     }
@@ -291,12 +375,13 @@ CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& inpu
     // The round that did not fit is found once more, among all elements: those of vertices that went back have changed
     // since they were judged.
     buffers.marks.fill_bytes(0);
-    buffers.verdicts.fill_bytes(0xFF);
+    buffers.keys.fill_bytes(0xFF);  // outdated
     if (const std::size_t round_size = found.listed - found.taken_back; round_size > buffers.list.size()) {
       buffers.list = DeviceBuffer<Offender>(context, std::min(2 * round_size, free_count));
     }
     found.listed = 0;
     std::ranges::fill(found.barriers, 0ULL);
+    std::ranges::fill(found.thresholds, 0ULL);
     TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(state, &found, sizeof(found), cudaMemcpyHostToDevice, context.stream()));
     with_view(input,
               [&](const auto& view) { launches += launch_rounds(view, buffers, stored, state, context.stream()); });

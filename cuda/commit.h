@@ -30,25 +30,31 @@ struct CommitInput {
   Storage storage;
 };
 
+/// What the guard knows of the elements of a set of vertices, as keys of which the largest counts: falling_key() of the
+/// smallest quotient before and of the smallest worsened_quotient() among those of moved vertices. So some element
+/// offends where `worsened` is above the key of T.
+struct GuardKeys {
+  unsigned long long before;
+  unsigned long long worsened;
+
+  /// In place of `before` where vertices have gone back since: above the keys of all numbers.
+  static constexpr unsigned long long outdated = ~0ULL;
+};
+
 /// What the kernels of the commit tell each other and the host; all zeros to begin with.
 struct CommitState {
-  /// A key that is above those of all quotients: of an element that was valid and is not any more, or that has a
-  /// quotient that is no number.
-  static constexpr unsigned long long spoilt = ~0ULL;
+  GuardKeys all;                     ///< of all elements as the sweeps left them
+  unsigned long long thresholds[3];  ///< keys of T, of this round, the last and the next
+  unsigned long long barriers[3];    ///< of the blocks that make rounds
+  std::uint32_t listed;              ///< offenders found, those that the list has no room for among them
+  std::uint32_t taken_back;          ///< of those, how many went back: the first ones of the list
+  std::uint32_t rounds;              ///< that took something back
+  std::uint32_t settled;             ///< not 0: the rounds are over, nothing offends any more
+  std::uint32_t moved;               ///< vertices written
 
-  unsigned long long before;  ///< falling_key() of T, the smallest quotient before of the elements of moved vertices
-  unsigned long long after;   ///< falling_key() of the smallest quotient of the same elements after, or spoilt
-  unsigned long long barriers[3];  ///< of the blocks that make rounds
-  std::uint32_t listed;            ///< offenders found, those that the list has no room for among them
-  std::uint32_t taken_back;        ///< of those, how many went back: the first ones of the list
-  std::uint32_t rounds;            ///< that took something back
-  std::uint32_t settled;           ///< not 0: the rounds are over, nothing offends any more
-  std::uint32_t moved;             ///< vertices written
-
-  /// Whether all elements pass without a second look: where none is spoilt, and the smallest quotient after is not
-  /// below T, no quotient after is below T. So offends() holds for none, and no round would take anything back. (A
-  /// falling key is the larger, the smaller the number.)
-  TRISMOOTH_HOST_DEVICE bool nothing_offends() const { return after <= before; }
+  /// Whether no element offends from the start: no round would take anything back. (A falling key is the larger, the
+  /// smaller the number.)
+  TRISMOOTH_HOST_DEVICE bool nothing_offends() const { return all.worsened <= all.before; }
   TRISMOOTH_HOST_DEVICE bool may_write() const { return nothing_offends() || settled != 0; }
 };
 
@@ -61,8 +67,8 @@ struct Offender {
 
 /// What a guarded commit needs beside its input, made once for a mesh: about a byte for each free vertex.
 struct CommitBuffers {
-  DeviceBuffer<unsigned long long> verdicts;  ///< of each block of free vertices: see CommitState::after
-  DeviceBuffer<std::uint32_t> marks;          ///< a bit for each free vertex; all zeros between commits
+  DeviceBuffer<GuardKeys> keys;       ///< of the elements of each block of free vertices
+  DeviceBuffer<std::uint32_t> marks;  ///< a bit for each free vertex; all zeros between commits
   DeviceBuffer<Offender> list;
 
   /// For a commit that is not guarded.

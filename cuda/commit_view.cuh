@@ -120,7 +120,7 @@ __device__ inline Quotients quotients(const Corner& a, const Corner& b, const Co
 /// which v is one. Each corner is looked at once, but for one.
 template <class View, class Visit>
 __device__ void for_elements(const View& view, const Positions<View>& positions, std::int32_t v, std::int32_t lowest,
-                             const Visit& visit) {
+                             Visit& visit) {
   const std::int32_t size = view.rings.ring_size(v);
   if (size == 0) {
     return;

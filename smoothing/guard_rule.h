@@ -1,15 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
 
+/// The quotient that an element was brought down to, for the never-worse guard: `after` where it got worse, minus
+/// infinity where it was valid and is not any more or `after` is no number, infinity where it is as good as it was or
+/// better. So an element offends where this is below T, and the smallest of many elements tells of all of them.
+constexpr TRISMOOTH_HOST_DEVICE double worsened_quotient(double before, double after) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if ((before > 0 && !(after > 0)) || !(after - after == 0)) {
+    return -infinity;
+  }
+  return after < before ? after : infinity;
+}
+
 /// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
-/// Written so that a quotient that is no number offends.
 constexpr TRISMOOTH_HOST_DEVICE bool offends(double before, double after, double threshold) {
-  return (before > 0 && !(after > 0)) || !(after >= threshold || after >= before);
+  return worsened_quotient(before, after) < threshold;
 }
 
 /// The shape quotient of the element with these corners (counter-clockwise) and input indices, in canonical corner

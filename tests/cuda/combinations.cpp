@@ -118,9 +118,8 @@ class DelaunayMesh final : public TestMesh {
         return "a fixed vertex moved";
       }
     }
-    const auto was_moved = [&](std::int32_t v) { return !(uncommitted_[v] == mesh_.points[v]); };
     for (const auto& [a, b, c] : mesh_.triangles) {
-      if (was_moved(a) || was_moved(b) || was_moved(c)) {
+      if (moved(a) || moved(b) || moved(c)) {
         threshold = std::min(threshold, quotient(mesh_.points, a, b, c));
       }
     }

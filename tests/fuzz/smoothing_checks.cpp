@@ -205,20 +205,16 @@ void require_never_worse(const Smoothing& smoothing) {
 
   const std::vector<Point2<double>> local_before = in_local_frame(before, before);
   const std::vector<Point2<double>> local_after = in_local_frame(before, after);
-  std::vector<std::uint8_t> touched(before.size(), 0);
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    touched[v] = same_bits(before[v], after[v]) ? 0 : 1;
-  }
-  for (const auto& reverted : result.reverted) {
-    touched[static_cast<std::size_t>(reverted.vertex)] = 1;
-  }
+  const auto has_moved = [&](std::int32_t v) {
+    return !same_bits(before[static_cast<std::size_t>(v)], after[static_cast<std::size_t>(v)]);
+  };
   const auto quotients = [&](std::size_t t) {
     const Triangle corners = counter_clockwise(triangles[t], topology.reversed[t]);
     return std::pair(naive::element_quotient(local_before, corners), naive::element_quotient(local_after, corners));
   };
   double threshold = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (std::ranges::any_of(triangles[t], [&](std::int32_t v) { return touched[static_cast<std::size_t>(v)] != 0; })) {
+    if (std::ranges::any_of(triangles[t], has_moved)) {
       threshold = std::min(threshold, quotients(t).first);
     }
   }

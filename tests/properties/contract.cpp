@@ -239,7 +239,7 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
   const Units units(before);
   double threshold = std::numeric_limits<double>::infinity();
   for (const Triangle& t : connectivity.elements) {
-    if (std::ranges::any_of(t, [&](std::int32_t v) { return is_elsewhere(uncommitted, v); })) {
+    if (std::ranges::any_of(t, [&](std::int32_t v) { return is_elsewhere(after, v); })) {
       threshold = std::min(threshold, alpha<double>(units, before, t));
     }
   }

@@ -72,13 +72,13 @@ Real margin_of_commit(const std::vector<Triangle>& elements, const Points& befor
   const auto has_moved = [&](const Triangle& t) {
     return std::ranges::any_of(t, [&](std::int32_t v) { return !(before[v] == after[v]); });
   };
-  Real threshold = infinity;
-  for (const Triangle& t : elements) {
-    threshold = has_moved(t) ? std::min(threshold, quotient(before, t)) : threshold;
-  }
   Real margin = infinity;
   for (bool changed = true; changed;) {
     changed = false;
+    Real threshold = infinity;
+    for (const Triangle& t : elements) {
+      threshold = has_moved(t) ? std::min(threshold, quotient(before, t)) : threshold;
+    }
     std::set<std::int32_t> back;
     for (const Triangle& t : elements) {
       if (!has_moved(t)) {

@@ -251,7 +251,7 @@ struct Commit {
   std::int64_t rounds = 0;
 };
 
-/// T of the commit: the smallest quotient before among the elements with a vertex that is elsewhere after.
+/// T of the guard: the smallest quotient before among the elements with a vertex that is elsewhere after.
 inline double touched_minimum(std::span<const Triangle> triangles, std::span<const Point2<double>> before,
                               std::span<const Point2<double>> after) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -273,10 +273,10 @@ inline bool offends(double before, double after, double threshold) {
 /// The never-worse commit, looking at every element in every round.
 inline Commit commit(std::span<const Triangle> triangles, std::span<const Point2<double>> before,
                      std::span<Point2<double>> after) {
-  const double threshold = touched_minimum(triangles, before, after);
   std::set<std::int32_t> reverted;
   Commit result;
   for (;;) {
+    const double threshold = touched_minimum(triangles, before, after);
     std::set<std::int32_t> back;
     for (const Triangle& t : triangles) {
       if (offends(element_quotient(before, t), element_quotient(after, t), threshold)) {

@@ -1,0 +1,79 @@
+#include "trismooth/smoothing/guard_minima.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using trismooth::GuardMinima;
+using trismooth::GuardMinimum;
+
+namespace {
+
+GuardMinimum smallest_of(const std::vector<GuardMinimum>& blocks) {
+  GuardMinimum smallest;
+  for (const GuardMinimum& block : blocks) {
+    smallest.before = std::min(smallest.before, block.before);
+    smallest.worsened = std::min(smallest.worsened, block.worsened);
+  }
+  return smallest;
+}
+
+std::vector<std::int32_t> below(const std::vector<GuardMinimum>& blocks, double threshold) {
+  std::vector<std::int32_t> found;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].worsened < threshold) {
+      found.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return found;
+}
+
+void require_same(const GuardMinima& minima, const std::vector<GuardMinimum>& blocks, double threshold) {
+  const GuardMinimum smallest = smallest_of(blocks);
+  REQUIRE(minima.total().before == smallest.before);
+  REQUIRE(minima.total().worsened == smallest.worsened);
+  std::vector<std::int32_t> found;
+  minima.find_below(threshold, found);
+  REQUIRE(found == below(blocks, threshold));
+}
+
+}  // namespace
+
+TEST_CASE("the minimum of all blocks and the blocks below a threshold are those of a look at every block") {
+  test_meshes::Random random(1);
+  for (const int count : {1, 2, 15, 16, 17, 255, 256, 257, 5000}) {
+    CAPTURE(count);
+    GuardMinima minima(static_cast<std::size_t>(count));
+    std::vector<GuardMinimum> blocks(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      minima[i] = blocks[i] = {random.between(-1, 1), random.between(-1, 1)};
+    }
+    minima.update();
+    require_same(minima, blocks, -0.9);
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::int32_t> changed;
+      for (int i = 0; i < 1 + round / 10; ++i) {
+        const auto block = static_cast<std::size_t>(random.below(count));
+        // Minima may rise: vertices went back.
+        minima[block] = blocks[block] = {random.between(-1, 2), random.between(-1, 2)};
+        changed.push_back(static_cast<std::int32_t>(block));
+      }
+      minima.update(changed);
+      require_same(minima, blocks, random.between(-1, 1));
+    }
+  }
+}
+
+TEST_CASE("where no vertex has moved there is nothing below any threshold") {
+  for (const std::size_t count : {0, 1, 100}) {
+    GuardMinima minima(count);
+    minima.update();
+    CHECK(minima.total().before == std::numeric_limits<double>::infinity());
+    std::vector<std::int32_t> found;
+    minima.find_below(minima.total().before, found);
+    CHECK(found.empty());
+  }
+}
