@@ -11,6 +11,7 @@
 #include "trismooth/cuda/bounding_box.h"
 #include "trismooth/cuda/commit.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/sweep_batches.h"
 #include "trismooth/cuda/sweep_engine.h"
 #include "trismooth/cuda/timeline.h"
 #include "trismooth/smoothing/errors.h"
@@ -67,12 +68,8 @@ class TypedSmoother final : public DeviceSmoother {
       frame = extent_.frame();
       ++result.kernel_launches;
     }
-    const auto [first, second] = engine_->input();
-    launch_enter(stored, rings_.input_index.data(), rings_.vertex_count(), frame, before_.data(), first, second,
-                 context_.stream());
-    engine_->begin();
-    ++result.kernel_launches;
     Commit commit{{&rings_, before_.data(), {}, {}, &record_.data()->state, false, frame, storage}, stored};
+    enter(commit, result);
     run(fixed_quotient, commit, result);
     end(commit, result);
     result.timings.smooth = timeline_.milliseconds(0);
@@ -118,16 +115,23 @@ class TypedSmoother final : public DeviceSmoother {
     }
   }
 
-  /// Whether the host looks in after every sweep: it has a callback or a clock to ask.
-  bool host_decides() const {
-    return options_.progress || options_.time_limit_seconds < std::numeric_limits<double>::infinity();
+  /// Queues the way to the working positions from those that are stored.
+  void enter(const Commit& commit, SmoothingResult& result) {
+    const auto [first, second] = engine_->input();
+    launch_enter(commit.stored, rings_.input_index.data(), rings_.vertex_count(), commit.input.frame, before_.data(),
+                 first, second, context_.stream());
+    engine_->begin();
+    ++result.kernel_launches;
   }
 
   /// Sweeps to a stop and queues the commit. Behind resident sweeps it is queued without waiting for them: should they
   /// not have ended the run, it does nothing, and is queued again. Else the commit comes when the host knows of the
-  /// end.
+  /// end, as it does where the caller may have said stop before that.
   void run(double fixed_quotient, Commit& commit, SmoothingResult& result) {
     const auto start = Clock::now();
+    const auto seconds_since = [](Clock::time_point moment) {
+      return std::chrono::duration<double>(Clock::now() - moment).count();
+    };
     LoopRules loop = rules(fixed_quotient);
     LoopState& state = host_record_.state;
     state = LoopState{};
@@ -136,23 +140,33 @@ class TypedSmoother final : public DeviceSmoother {
       commit_now(commit, result);
       return;
     }
-    const bool commits_behind = options_.execution == Execution::resident && !host_decides();
+    const bool commits_behind = options_.execution == Execution::resident && !options_.progress;
+    const bool watched = static_cast<bool>(options_.progress);
+    SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
     for (;;) {
-      loop.sweeps = host_decides() ? 1 : RunRecord::most_sweeps;
+      const auto launched = Clock::now();
+      loop.sweeps = batches.size();
       if (options_.max_sweeps > 0) {
-        const std::int64_t remaining = options_.max_sweeps - result.sweeps;
-        loop.remaining = host_decides() ? 0 : remaining;
-        loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, remaining));
-        commit.input.is_over = loop.sweeps == remaining;
+        loop.remaining = options_.max_sweeps - result.sweeps;
+        loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
+        commit.input.is_over = loop.sweeps == loop.remaining;
       }
       launch(loop, result);
       if (commits_behind) {
         queue_commit(commit, result);
       }
       read_record(result);
-      const bool stopped = read_sweeps(loop, result);
-      if (state.stop == LoopState::repeating) {
-        repeat_last_two(result);
+      bool stopped = read_sweeps(loop, result);
+      const bool is_repeating = state.stop == LoopState::repeating;
+      if (is_repeating && !stopped) {
+        stopped = repeat_last_two(result);
+      }
+      // The last sweep that the caller was told of is not the last that was made, or `current` not where it left us.
+      const bool overran = stopped && (is_repeating || result.sweeps != sweeps_before_ + state.sweeps);
+      if (overran) {
+        sweep_again(loop, commit, result);
+        result.stop_reason = StopReason::cancelled;
+      } else if (is_repeating) {
         result.stop_reason = StopReason::sweep_limit;
       } else if (state.stop != LoopState::running) {
         result.stop_reason = static_cast<StopReason>(state.stop);
@@ -160,15 +174,29 @@ class TypedSmoother final : public DeviceSmoother {
         result.stop_reason = StopReason::cancelled;
       } else if (result.sweeps == options_.max_sweeps) {
         result.stop_reason = StopReason::sweep_limit;
-      } else if (std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_seconds) {
+      } else if (seconds_since(start) >= options_.time_limit_seconds) {
         result.stop_reason = StopReason::time_limit;
       } else {
+        batches.adapt(seconds_since(launched), seconds_since(start));
         continue;
       }
-      if (!commits_behind) {
+      if (!commits_behind || result.stop_reason == StopReason::time_limit) {
         commit_now(commit, result);
       }
       return;
+    }
+  }
+
+  /// The run once more up to the sweep at which the caller said stop: it gives the same bits again (but for
+  /// Order::unordered), and costs less than to keep the positions of every sweep.
+  void sweep_again(LoopRules loop, const Commit& commit, SmoothingResult& result) {
+    enter(commit, result);
+    host_record_.state = LoopState{};
+    loop.remaining = 0;
+    for (std::int64_t left = result.sweeps; left > 0; left -= host_record_.state.sweeps) {
+      loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(left, RunRecord::most_sweeps));
+      launch(loop, result);
+      read_record(result);
     }
   }
 
@@ -230,32 +258,43 @@ class TypedSmoother final : public DeviceSmoother {
     result.moved_vertices = outcome.moved;
   }
 
-  /// Writes the sweeps of a launch into the history. True where the caller's callback said stop.
-  bool read_sweeps(const LoopRules& loop, SmoothingResult& result) const {
-    bool stopped = false;
+  /// Writes the sweeps of a launch into the history, up to one at which the caller's callback says stop: true then.
+  bool read_sweeps(const LoopRules& loop, SmoothingResult& result) {
+    sweeps_before_ = result.sweeps;
     for (std::int32_t i = 0; i < host_record_.state.sweeps; ++i) {
       const SweepSums& sums = host_record_.sums[static_cast<std::size_t>(i)];
       const auto largest = static_cast<T>(std::bit_cast<double>(sums.max_relative));
-      SweepRecord record{++result.sweeps, static_cast<std::int64_t>(sums.evaluated),
+      SweepRecord record{result.sweeps + 1, static_cast<std::int64_t>(sums.evaluated),
                          static_cast<std::int64_t>(sums.moved), static_cast<double>(std::sqrt(largest))};
       if (loop.measures_shape) {
         record.min_shape = min_shape_after(sums, loop);
       }
-      result.vertex_updates += record.evaluated;
-      result.history.push_back(record);
-      stopped = options_.progress && options_.progress(record) == Progress::stop;
+      if (add(record, result)) {
+        return true;
+      }
     }
-    return stopped;
+    return false;
   }
 
-  /// The sweeps that are left until the limit: each is the one two before it once more.
-  void repeat_last_two(SmoothingResult& result) const {
+  /// The sweeps that are left until the limit: each is the one two before it once more. True where the caller's
+  /// callback said stop.
+  bool repeat_last_two(SmoothingResult& result) const {
     while (result.sweeps < options_.max_sweeps) {
       SweepRecord record = result.history[result.history.size() - 2];
-      record.sweep = ++result.sweeps;
-      result.vertex_updates += record.evaluated;
-      result.history.push_back(record);
+      record.sweep = result.sweeps + 1;
+      if (add(record, result)) {
+        return true;
+      }
     }
+    return false;
+  }
+
+  /// One more sweep for the history. True where the caller's callback said stop.
+  bool add(const SweepRecord& record, SmoothingResult& result) const {
+    result.sweeps = record.sweep;
+    result.vertex_updates += record.evaluated;
+    result.history.push_back(record);
+    return options_.progress && options_.progress(record) == Progress::stop;
   }
 
   double min_shape_now(const LoopRules& loop, SmoothingResult& result) {
@@ -276,6 +315,7 @@ class TypedSmoother final : public DeviceSmoother {
   ExtentFinder extent_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
+  std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began
   Timeline timeline_;
   std::unique_ptr<SweepEngine<T, layout>> engine_;
 };

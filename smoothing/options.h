@@ -112,12 +112,14 @@ struct SmoothingOptions {
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
-  double time_limit_seconds = std::numeric_limits<double>::infinity();  ///< checked after every sweep
+  /// Looked at after every sweep; a device may be up to a hundredth of a second late.
+  double time_limit_seconds = std::numeric_limits<double>::infinity();
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
   int threads = 0;                         ///< 0: one for each core. The result does not depend on it
   bool record_min_shape = false;           ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
-  /// Called after every sweep, from the thread that called; `stop` ends the smoothing with a valid mesh. With it, and
-  /// with a time limit, a device waits for the host after every sweep.
+  /// Called for every sweep in order, from the thread that called; `stop` ends the smoothing with a valid mesh, as that
+  /// sweep left it. A device hands the records over in batches, some hundred times a second, so that a callback costs
+  /// nothing; where it says stop the device has gone on meanwhile and makes the sweeps up to there again.
   std::function<Progress(const SweepRecord&)> progress{};
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
   const Backend* backend = nullptr;

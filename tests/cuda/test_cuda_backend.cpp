@@ -243,10 +243,42 @@ TEST_CASE("every reason to stop is the CPU's, at the same sweep") {
     require_cpu_results(mesh, options);
   }
   SECTION("cancelled by the caller") {
+    // Inside the first batch of records, at its end, after it.
+    for (const std::int64_t last : {1, 3, 23, 24, 25, 40}) {
+      SmoothingOptions options;
+      options.tolerance = 0;
+      options.progress = [last](const SweepRecord& record) {
+        return record.sweep == last ? Progress::stop : Progress::proceed;
+      };
+      require_cpu_results(mesh, options);
+    }
+  }
+}
+
+TEST_CASE("who stops sweeps that go to and fro for ever has the positions of that sweep") {
+  const Mesh mesh = test_meshes::jittered_grid(5, 5, 0.45, 4);
+  for (const std::int64_t last : {299, 300, 997, 1000}) {
     SmoothingOptions options;
-    options.progress = [](const SweepRecord& record) { return record.sweep == 3 ? Progress::stop : Progress::proceed; };
+    options.method = Method::weighted;
+    options.form = Form::swap;
+    options.tolerance = 0;
+    options.progress = [last](const SweepRecord& record) {
+      return record.sweep == last ? Progress::stop : Progress::proceed;
+    };
     require_cpu_results(mesh, options);
   }
+}
+
+TEST_CASE("a callback that only watches costs a few launches, not one a sweep") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(60, 60, 0.45, 6), 3);
+  SmoothingOptions options = on_cuda(Execution::resident);
+  options.tolerance = 0;
+  const Run alone = run(mesh, options);
+  options.progress = [](const SweepRecord& /*record*/) { return Progress::proceed; };
+  const Run watched = run(mesh, options);
+  require_same(watched, alone);
+  REQUIRE(alone.result.sweeps > 20);
+  CHECK(watched.result.kernel_launches <= alone.result.kernel_launches + 10);
 }
 
 TEST_CASE("the callback hears of every sweep in order") {
