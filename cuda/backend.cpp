@@ -48,7 +48,9 @@ DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
 class RingSmoother final : public PreparedSmoother {
  public:
   RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
-      : copier_(context_, options.threads), stored_(context_, with_room_for(rings, options, points.size())) {
+      : copier_(context_, options.threads),
+        stored_(context_, with_room_for(rings, options, points.size())),
+        frame_(context_, 1) {
     const auto start = std::chrono::steady_clock::now();
     smoother_ = make_device_smoother(
         context_, pack_rings(context_, uploaded(copier_, rings), copier_.uploaded(points), options), options);
@@ -56,9 +58,12 @@ class RingSmoother final : public PreparedSmoother {
     prepare_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
-    SmoothingResult result = smooth_host_points(
-        context_, copier_, stored_, points, [&] { return smoother_->smooth(stored_.data(), storage, fixed_quotient); });
+  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
+                         double fixed_quotient) override {
+    frame_.upload({&frame, 1});
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, [&] {
+      return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
+    });
     result.timings.prepare = prepare_ms_;
     return result;
   }
@@ -73,6 +78,7 @@ class RingSmoother final : public PreparedSmoother {
   Context context_;
   HostCopier copier_;
   DeviceBuffer<Point2<double>> stored_;
+  DeviceBuffer<LocalFrame> frame_;
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;
 };

@@ -6,6 +6,7 @@
 #include "trismooth/cuda/largest_key.cuh"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/sweep_state.h"
+#include "trismooth/smoothing/hold.h"
 
 namespace trismooth::cuda {
 
@@ -16,7 +17,7 @@ constexpr unsigned most_blocks = 528;
 constexpr unsigned threads = 512;
 
 /// Takes what the blocks have found, and leaves zeros for the next search.
-__device__ Extent take_extent(ExtentKeys* keys, bool is_empty) {
+__device__ Extent take_extent(ExtentKeys* keys) {
   const Point2<double> low{from_falling_key(atomicExch(&keys->low_x, 0)),
                            from_falling_key(atomicExch(&keys->low_y, 0))};
   const Point2<double> high{-from_falling_key(atomicExch(&keys->high_x, 0)),
@@ -24,17 +25,18 @@ __device__ Extent take_extent(ExtentKeys* keys, bool is_empty) {
   const unsigned first = atomicExch(&keys->first_not_finite, 0);
   keys->finished_blocks = 0;
   Extent extent;
-  if (!is_empty) {
+  extent.first_not_finite = first == 0 ? -1 : static_cast<std::int32_t>(~first);
+  if (low.x <= high.x) {
     extent.box = {low, high};
     extent.frame = local_frame(low, high);
-    extent.first_not_finite = first == 0 ? -1 : static_cast<std::int32_t>(~first);
   }
   return extent;
 }
 
 /// The block that finishes last computes the frame of what all have found: no launch of its own, and nobody waits.
 __global__ void __launch_bounds__(threads)
-    find_extent(const double2* __restrict__ points, std::uint32_t count, ExtentKeys* keys, Extent* found) {
+    find_extent(const double2* __restrict__ points, std::uint32_t count, const std::uint8_t* __restrict__ reasons,
+                ExtentKeys* keys, Extent* found) {
   __shared__ ExtentKeys block;
   if (threadIdx.x == 0) {
     block = ExtentKeys{};
@@ -47,8 +49,10 @@ __global__ void __launch_bounds__(threads)
 #pragma unroll 4
   for (std::uint32_t i = blockIdx.x * threads + threadIdx.x; i < count; i += gridDim.x * threads) {
     const double2 p = points[i];
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
+    if (reasons == nullptr || !hold::is_unused(reasons[i])) {
+      low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
+      high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
+    }
     if (!(p.x - p.x == 0 && p.y - p.y == 0)) {
       first_not_finite = max(first_not_finite, ~i);
     }
@@ -74,7 +78,7 @@ __global__ void __launch_bounds__(threads)
   __threadfence();
   if (atomicAdd(&keys->finished_blocks, 1) + 1 == gridDim.x) {
     __threadfence();
-    *found = take_extent(keys, count == 0);
+    *found = take_extent(keys);
   }
 }
 
@@ -86,10 +90,11 @@ ExtentFinder::ExtentFinder(Context& context) : context_(&context), keys_(context
   found_.fill_bytes(0);
 }
 
-void ExtentFinder::find(const Point2<double>* points, std::int32_t count) {
+void ExtentFinder::find(const Point2<double>* points, std::int32_t count, const std::uint8_t* reasons) {
   const unsigned blocks = std::clamp(blocks_for(count, threads), 1U, most_blocks);
-  find_extent<<<blocks, threads, 0, context_->stream()>>>(
-      reinterpret_cast<const double2*>(points), static_cast<std::uint32_t>(count), keys_.data(), found_.data());
+  find_extent<<<blocks, threads, 0, context_->stream()>>>(reinterpret_cast<const double2*>(points),
+                                                          static_cast<std::uint32_t>(count), reasons, keys_.data(),
+                                                          found_.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 

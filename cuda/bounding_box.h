@@ -16,8 +16,8 @@ struct BoundingBox {
 
 /// Where points are.
 struct Extent {
-  BoundingBox box{};
-  LocalFrame frame;                    ///< local_frame() of the box; the identity for no points
+  BoundingBox box{};                   ///< of those that count
+  LocalFrame frame;                    ///< local_frame() of the box; the identity where no point counts
   std::int32_t first_not_finite = -1;  ///< number of the first point with a coordinate that is not finite; -1: none is.
                                        ///< Box and frame mean nothing where there is one
 };
@@ -37,8 +37,9 @@ class ExtentFinder {
  public:
   explicit ExtentFinder(Context& context);
 
-  /// Queues the search. `points` are aligned to 16 bytes.
-  void find(const Point2<double>* points, std::int32_t count);
+  /// Queues the search. `points` are aligned to 16 bytes. Those that are hold::is_unused() by their byte of `reasons`
+  /// do not count, but are looked at for being finite; null: all count.
+  void find(const Point2<double>* points, std::int32_t count, const std::uint8_t* reasons = nullptr);
 
   /// On the device: the local frame of the points last searched.
   const LocalFrame* frame() const { return &found_.data()->frame; }

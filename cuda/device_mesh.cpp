@@ -49,7 +49,7 @@ class Plan::Implementation {
  private:
   /// Finds the local frame, orients the mesh by its coordinates, and packs it where that is new.
   void prepare(const Point2<double>* stored, double& fixed_quotient) {
-    extent_.find(stored, vertex_count_);
+    extent_.find(stored, vertex_count_, topology_.fixed());
     DeviceBuffer<Point2<double>> local(context_, static_cast<std::size_t>(vertex_count_));
     enter_frame(context_, stored, vertex_count_, extent_.frame(), local.data());
     if (topology_.orient(local.data())) {

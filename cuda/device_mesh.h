@@ -35,6 +35,7 @@ class Plan {
   ~Plan();
 
   /// Smooths `xy` (x and y of every vertex, in device memory, aligned to 16 bytes as device allocations are) in place.
+  /// Where vertices are that no triangle and no other cell uses changes nothing.
   /// Vertices that do not move keep their bits, the others are rounded to `storage`, or to float. The first call also
   /// finds orientation and rings and orders the mesh in memory; a later one repeats that only if the majority
   /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite, DeviceError; `xy` is

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/cuda/bounding_box.h"
 #include "trismooth/cuda/commit.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/sweep_batches.h"
@@ -38,7 +37,6 @@ class TypedSmoother final : public DeviceSmoother {
         device_(require_device()),
         rings_(std::move(rings)),
         before_(context, static_cast<std::size_t>(rings_.vertex_count())),
-        extent_(context),
         record_(context, 1),
         timeline_(context) {
     if (rings_.free_count() > 0) {
@@ -63,11 +61,6 @@ class TypedSmoother final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    if (frame == nullptr) {
-      extent_.find(stored, rings_.vertex_count());
-      frame = extent_.frame();
-      ++result.kernel_launches;
-    }
     Commit commit{{&rings_, before_.data(), {}, {}, &record_.data()->state, false, frame, storage}, stored};
     enter(commit, result);
     run(fixed_quotient, commit, result);
@@ -312,7 +305,6 @@ class TypedSmoother final : public DeviceSmoother {
   PackedDeviceRings rings_;
   DeviceBuffer<Point2<double>> before_;
   CommitBuffers commit_buffers_;
-  ExtentFinder extent_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
   std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began

@@ -19,14 +19,11 @@ class DeviceSmoother {
   virtual ~DeviceSmoother() = default;
 
   /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, commit.
-  /// They are finite. `frame`: their local frame, on the device; null: it is found here. `fixed_quotient`: see
-  /// PreparedSmoother::smooth(). Fills all of the result but transfers and preparation. From the call on until the
-  /// commit is done the device is not waited for, unless there is a callback, a time limit or a quality target to ask.
+  /// They are finite. `frame`: their local frame, on the device. `fixed_quotient`: see PreparedSmoother::smooth().
+  /// Fills all of the result but transfers and preparation. From the call on until the commit is done the device is not
+  /// waited for, unless there is a callback, a time limit or a quality target to ask.
   virtual SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                                  double fixed_quotient) = 0;
-  SmoothingResult smooth(Point2<double>* stored, Storage storage, double fixed_quotient) {
-    return smooth(stored, nullptr, storage, fixed_quotient);
-  }
 };
 
 /// The smoother for the precision, the layout and the execution that the options name. `context` outlives it.

@@ -31,6 +31,10 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
   std::int64_t degenerate = 0;
   std::size_t first_degenerate = 0;
   mesh.in_other_cell.assign(document.point_count(), 0);
+  mesh.in_cell.assign(document.point_count(), 0);
+  for (const std::int32_t v : document.cells.connectivity) {
+    mesh.in_cell[static_cast<std::size_t>(v)] = 1;
+  }
   mesh.triangles.reserve(document.cells.size());
   mesh.cells.reserve(document.cells.size());
   for (std::size_t c = 0; c < document.cells.size(); ++c) {
@@ -99,6 +103,25 @@ Regions number_regions(const DataArray& array, const PlanarMesh& mesh) {
   return regions;
 }
 
+Storage storage_of(const MeshDocument& document) {
+  return document.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
+}
+
+void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
+                    const std::filesystem::path& path) {
+  if (!fit.is_planar()) {
+    throw ReadError(path, fit.fault() + "; only planar meshes can be smoothed");
+  }
+  auto points = project(fit.plane, document.points, mesh.in_cell);
+  if (!points) {
+    throw ReadError(path,
+                    "the mesh is too large: coordinates along its tilted plane are beyond the range of double; "
+                    "scale it down");
+  }
+  mesh.plane = fit.plane;
+  mesh.points = *std::move(points);
+}
+
 }  // namespace
 
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
@@ -114,23 +137,17 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
   if (mesh.triangles.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
   }
-  const auto plane = fit_plane(document.points);
-  if (!plane) {
-    throw ReadError(path,
-                    "the mesh is not planar: its points leave every plane by more than 1e-6 of its extent; "
-                    "only planar meshes can be smoothed");
-  }
-  mesh.plane = *plane;
-  mesh.points.resize(document.point_count());
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    mesh.points[v] = plane->project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v));
-    if (!std::isfinite(mesh.points[v].x) || !std::isfinite(mesh.points[v].y)) {
-      throw ReadError(path,
-                      "the mesh is too large: coordinates along its tilted plane are beyond the range of double; "
-                      "scale it down");
-    }
-  }
+  lay_into_plane(mesh, fit_plane(document.points, mesh.in_cell, document.cells, storage_of(document)), document, path);
   return mesh;
+}
+
+bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
+                  const std::filesystem::path& path) {
+  const auto fit = plane_of_fixed(mesh.plane, document.points, mesh.in_cell, fixed, storage_of(document));
+  if (fit) {
+    lay_into_plane(mesh, *fit, document, path);
+  }
+  return fit.has_value();
 }
 
 Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const std::optional<std::string>& name) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,22 @@ struct PlanarMesh {
   std::vector<Triangle> triangles;          ///< in the document's order, each in the document's vertex order
   std::vector<std::int32_t> cells;          ///< the document's cell of each triangle
   std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
-  std::int64_t other_cells = 0;             ///< cells that are not triangles
-  std::vector<std::string> notes;           ///< what the user should know, one sentence each
+  std::vector<std::uint8_t> in_cell;  ///< per vertex: 1 where any cell uses it; the others have no say in anything
+  std::int64_t other_cells = 0;       ///< cells that are not triangles
+  std::vector<std::string> notes;     ///< what the user should know, one sentence each
 };
 
 /// Finds the triangles and the plane of the document. A triangle that repeats a vertex counts as another cell: it is
-/// kept, its vertices are held, and a note says so. Throws ReadError naming `path` where the points do not lie in one
-/// plane (within 1e-6 of their extent) or have no finite coordinates in it (near the largest double), or the document
+/// kept, its vertices are held, and a note says so. Throws ReadError naming `path` where the vertices of cells do not
+/// lie in one plane (see fit_plane()) or have no finite coordinates in it (near the largest double), or the document
 /// holds cells but no triangle. A document without any cell is fine: nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
+
+/// Brings the document's mesh into the plane in which it is to be smoothed, now that it is known which vertices are
+/// `fixed` (not 0): see plane_of_fixed(). Throws ReadError as planar_mesh() does. True where plane and points are
+/// others now.
+bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
+                  const std::filesystem::path& path);
 
 /// The material regions of a mesh.
 struct Regions {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/never_worse.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -27,23 +26,26 @@ bool is_finite(Point2<double> point) {
 
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
 void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
-                     std::vector<Point2<double>>& points, const std::vector<Point2<double>>& moved, Storage storage,
-                     const SmoothingOptions& options, SmoothingResult& result) {
+                     std::vector<Point2<double>>& points, const LocalFrame& frame,
+                     const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
+                     SmoothingResult& result) {
   const auto start = std::chrono::steady_clock::now();
-  const LocalFrame frame = local_frame(points);
   std::vector<Eigen::Vector3d> stored(points.size());
   std::vector<Point2<double>> before(points.size());
+  std::ranges::transform(points, before.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  std::vector<Point2<double>> after = before;
   for (std::size_t v = 0; v < points.size(); ++v) {
+    if (moved[v] == points[v]) {
+      continue;
+    }
     const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
     stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
     // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
-    if (!is_finite(stored[v]) || !is_finite(plane.project(stored[v]))) {
-      stored[v] = old;
+    const Point2<double> place = plane.project(stored[v]);
+    if (is_finite(stored[v]) && is_finite(place)) {
+      after[v] = frame.enter(place);
     }
-    before[v] = frame.enter(points[v]);
   }
-  std::vector<Point2<double>> after(points.size());
-  std::ranges::transform(stored, after.begin(), [&](const auto& p) { return frame.enter(plane.project(p)); });
   if (options.guard) {
     Workers workers(options.threads);
     const GuardOutcome outcome = keep_never_worse(rings.view(), before, after, workers);
@@ -67,21 +69,24 @@ void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double
 }  // namespace
 
 SmoothingResult smooth_in_plane(const OneRings& rings, const Plane& plane, std::span<double> xyz,
-                                std::vector<Point2<double>>& points, std::span<const Point2<double>> local,
-                                double fixed_quotient, Storage storage, const SmoothingOptions& options) {
+                                std::vector<Point2<double>>& points, const LocalFrame& frame,
+                                std::span<const Point2<double>> local, double fixed_quotient, Storage storage,
+                                const SmoothingOptions& options) {
   SmoothingOptions in_plane = options;
   in_plane.guard = options.guard && plane.aligned;
   const auto smoother = backend_of(options).prepare(rings, local, in_plane);
   if (!plane.aligned) {
     std::vector<Point2<double>> moved = points;
-    SmoothingResult result = smoother->smooth(moved, Storage::float64, fixed_quotient);
-    commit_in_space(rings, plane, xyz, points, moved, storage, options, result);
+    SmoothingResult result = smoother->smooth(moved, frame, Storage::float64, fixed_quotient);
+    commit_in_space(rings, plane, xyz, points, frame, moved, storage, options, result);
     return result;
   }
-  SmoothingResult result = smoother->smooth(points, storage, fixed_quotient);
+  SmoothingResult result = smoother->smooth(points, frame, storage, fixed_quotient);
   for (std::size_t v = 0; v < points.size(); ++v) {
-    xyz[3 * v + static_cast<std::size_t>(plane.axes[0])] = points[v].x;
-    xyz[3 * v + static_cast<std::size_t>(plane.axes[1])] = points[v].y;
+    Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
+    if (const Point2<double> before = plane.project(point); !(before == points[v])) {
+      point = rounded_to(storage, plane.moved(point, before, points[v]));
+    }
   }
   return result;
 }

@@ -25,6 +25,51 @@ void require_no_deleted_elements(const TriangleMesh& mesh) {
   }
 }
 
+/// One flag a vertex. Flags of a wrong length are refused later, with the other constraints.
+std::vector<std::uint8_t> used_vertices(std::size_t count, std::span<const Triangle> triangles,
+                                        std::span<const std::uint8_t> other_cells) {
+  std::vector<std::uint8_t> used(count, 0);
+  for (const Triangle& t : triangles) {
+    for (const std::int32_t v : t) {
+      used[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < std::min(count, other_cells.size()); ++v) {
+    used[v] |= other_cells[v] != 0 ? std::uint8_t{1} : std::uint8_t{0};
+  }
+  return used;
+}
+
+CellList cells_of(std::span<const Triangle> triangles) {
+  CellList cells;
+  for (const Triangle& t : triangles) {
+    cells.append(cell_type::triangle, t);
+  }
+  return cells;
+}
+
+/// A mesh laid into a plane.
+struct InPlane {
+  Plane plane;
+  std::vector<Point2<double>> points;
+  LocalFrame frame;
+  std::vector<Point2<double>> local;
+
+  InPlane(const PlaneFit& fit, std::span<const double> xyz, std::span<const std::uint8_t> in_cell) : plane(fit.plane) {
+    if (!fit.is_planar()) {
+      throw MeshError(fit.fault());
+    }
+    auto projected = project(plane, xyz, in_cell);
+    if (!projected) {
+      throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
+    }
+    points = *std::move(projected);
+    frame = local_frame(points, [&](std::size_t v) { return in_cell[v] != 0; });
+    local.resize(points.size());
+    std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  }
+};
+
 }  // namespace
 
 SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const SmoothingOptions& options) {
@@ -37,31 +82,22 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   if (!std::ranges::all_of(xyz, [](double x) { return std::isfinite(x); })) {
     throw MeshError("the mesh has a coordinate that is not finite");
   }
-  const auto plane = fit_plane(xyz);
-  if (!plane) {
-    throw MeshError("the mesh is not planar: its points leave every plane by more than 1e-6 of its extent");
-  }
-  std::vector<Point2<double>> points(mesh.n_vertices());
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    points[v] = plane->project(Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
-    if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
-      throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
-    }
-  }
-  const LocalFrame frame = local_frame(points);
-  std::vector<Point2<double>> local(points.size());
-  std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  const std::vector<Triangle> triangles = face_list(mesh);
+  const std::vector<std::uint8_t> in_cell = used_vertices(xyz.size() / 3, triangles, constraints.other_cells);
+  InPlane placed(fit_plane(xyz, in_cell, cells_of(triangles)), xyz, in_cell);
 
   Workers workers(options.threads);
-  const std::vector<Triangle> triangles = face_list(mesh);
-  const MeshRings found = rings_for(options, local, triangles, constraints, workers,
+  const MeshRings found = rings_for(options, placed.local, triangles, constraints, workers,
                                     [&](const TriangleTopology& /*topology*/, const MeshRings& known) {
                                       return one_rings(mesh, known.fixed, known.reversed, workers);
                                     });
-  const double fixed_quotient = smallest_fixed_quotient(local, triangles, found.reversed, found.fixed);
-  SmoothingResult result =
-      smooth_in_plane(found.rings, *plane, xyz, points, local, fixed_quotient, Storage::float64, options);
-  for (std::size_t v = 0; v < points.size(); ++v) {
+  if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
+    placed = InPlane(*fit, xyz, in_cell);
+  }
+  const double fixed_quotient = smallest_fixed_quotient(placed.local, triangles, found.reversed, found.fixed);
+  SmoothingResult result = smooth_in_plane(found.rings, placed.plane, xyz, placed.points, placed.frame, placed.local,
+                                           fixed_quotient, Storage::float64, options);
+  for (std::size_t v = 0; v < placed.points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
   }
   return result;

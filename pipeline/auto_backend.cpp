@@ -30,8 +30,9 @@ class NotedSmoother final : public PreparedSmoother {
   NotedSmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
       : smoother_(std::move(smoother)), note_(std::move(note)) {}
 
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
-    SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
+  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
+                         double fixed_quotient) override {
+    SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
     result.backend_note = joined(note_, result.backend_note);
     return result;
   }
@@ -52,25 +53,25 @@ class FallingBackSmoother final : public PreparedSmoother {
         rings_(std::move(rings)),
         options_(std::move(options)) {}
 
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
+                         double fixed_quotient) override {
     if (!fell_back_) {
       // A device that fails on the way back has written some of them.
       const std::vector<Point2<double>> before(points.begin(), points.end());
       try {
-        SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
+        SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
         result.timings.prepare += device_start_ms_;
         return result;
       } catch (const DeviceError& error) {
         std::ranges::copy(before, points.begin());
-        fall_back(before, failure_note(error));
+        fall_back(before, frame, failure_note(error));
       }
     }
-    return smoother_->smooth(points, storage, fixed_quotient);
+    return smoother_->smooth(points, frame, storage, fixed_quotient);
   }
 
  private:
-  void fall_back(const std::vector<Point2<double>>& points, std::string note) {
-    const LocalFrame frame = local_frame(points);
+  void fall_back(const std::vector<Point2<double>>& points, const LocalFrame& frame, std::string note) {
     std::vector<Point2<double>> local(points.size());
     std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
     smoother_ = std::make_unique<NotedSmoother>(cpu_.prepare(rings_, local, options_), std::move(note));

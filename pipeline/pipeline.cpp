@@ -97,6 +97,9 @@ class Run {
         options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
     found_ = find_rings(
         {.fixed = named, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions.of_triangle});
+    if (settle_plane(mesh_, document_, found_.fixed, options_.input)) {
+      enter_frame();
+    }
     note_irregular_vertices();
     InputSummary& input = result_.input;
     input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
@@ -140,7 +143,7 @@ class Run {
   }
 
   void enter_frame() {
-    frame_ = local_frame(mesh_.points);
+    frame_ = local_frame(mesh_.points, [this](std::size_t v) { return mesh_.in_cell[v] != 0; });
     local_.resize(mesh_.points.size());
     std::ranges::transform(mesh_.points, local_.begin(), [&](Point2<double> p) { return frame_.enter(p); });
   }
@@ -182,8 +185,8 @@ class Run {
                                       ? smallest_fixed_quotient(local_, mesh_.triangles, found_.reversed, found_.fixed)
                                       : std::numeric_limits<double>::infinity();
     const Storage storage = document_.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
-    SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, local_,
-                                                fixed_quotient, storage, options_.smoothing);
+    SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, frame_,
+                                                local_, fixed_quotient, storage, options_.smoothing);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
     }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -74,7 +76,8 @@ inline TRISMOOTH_HOST_DEVICE Axis fit_axis(double low, double high) {
 
 /// The coordinates in which a mesh is smoothed and evaluated: a translation per axis, made only where it is exact,
 /// and a scale that is a power of two. Coordinates of the local frame lie within [-2, 2], the larger extent of the
-/// mesh is within [1/2, 1]. So no square overflows, and no tolerance depends on the unit of the file.
+/// mesh is within [1/2, 1]. So no square overflows, and no tolerance depends on the unit of the file. A vertex that had
+/// no say in the frame may be anywhere: it enters within [-4, 4], so that nobody meets an infinite coordinate.
 ///
 /// Entering rounds nothing, and leaving gives the stored coordinate back, except for a coordinate that is not 0 and
 /// smaller than 2^-1021 times the larger extent: it enters the subnormal range and may lose digits there.
@@ -86,7 +89,9 @@ struct LocalFrame {
   /// From the coordinates of the file to the local frame.
   TRISMOOTH_HOST_DEVICE Point2<double> enter(Point2<double> stored) const {
     using local_frame_details::scaled;
-    return {scaled(stored.x - centre_x, -exponent), scaled(stored.y - centre_y, -exponent)};
+    constexpr double farthest = 4;
+    return {within(farthest, scaled(stored.x - centre_x, -exponent)),
+            within(farthest, scaled(stored.y - centre_y, -exponent))};
   }
 
   /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated. What is
@@ -117,13 +122,33 @@ struct LocalFrame {
 /// bits. An axis along which all points are equal is translated to 0. No points: the identity. Complexity: linear.
 LocalFrame local_frame(std::span<const Point2<double>> stored);
 
-/// The same from the corners of the points' bounding box, on the host or on the device.
+/// The same from the corners of the points' bounding box, on the host or on the device. Corners in the wrong order are
+/// those of no points.
 inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<double> high) {
+  if (!(low.x <= high.x && low.y <= high.y)) {
+    return {};
+  }
   using local_frame_details::Axis;
   const Axis x = local_frame_details::fit_axis(low.x, high.x);
   const Axis y = local_frame_details::fit_axis(low.y, high.y);
   const int exponent = x.exponent > y.exponent ? x.exponent : y.exponent;
   return {x.centre, y.centre, exponent == Axis::no_extent ? 0 : exponent};
+}
+
+/// The same of the points for whose numbers `counts(std::size_t)` is true: a mesh's frame is that of the vertices that
+/// its cells use.
+template <class Counts>
+LocalFrame local_frame(std::span<const Point2<double>> stored, const Counts& counts) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point2<double> low{infinity, infinity};
+  Point2<double> high{-infinity, -infinity};
+  for (std::size_t v = 0; v < stored.size(); ++v) {
+    if (counts(v)) {
+      low = {std::min(low.x, stored[v].x), std::min(low.y, stored[v].y)};
+      high = {std::max(high.x, stored[v].x), std::max(high.y, stored[v].y)};
+    }
+  }
+  return local_frame(low, high);
 }
 
 }  // namespace trismooth

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/point2.h"
 #include "trismooth/smoothing/mesh_rings.h"
 #include "trismooth/smoothing/options.h"
@@ -21,10 +22,12 @@ class PreparedSmoother {
   PreparedSmoother& operator=(const PreparedSmoother&) = delete;
   virtual ~PreparedSmoother() = default;
 
-  /// Smooths the vertices' stored coordinates in place: local frame, sweeps, and unless options.guard is off the
-  /// never-worse commit. Results are rounded to `storage`; vertices that do not move keep their bits. Coordinates are
-  /// finite (the caller has checked). `fixed_quotient` is smallest_fixed_quotient() of the mesh.
-  virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) = 0;
+  /// Smooths the vertices' stored coordinates in place: sweeps in the local frame, and unless options.guard is off the
+  /// never-worse commit. `frame` is local_frame() of the vertices that cells use, which the caller knows. Results are
+  /// rounded to `storage`; vertices that do not move keep their bits. Coordinates are finite (the caller has checked).
+  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh.
+  virtual SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
+                                 double fixed_quotient) = 0;
 };
 
 /// A mesh whose connectivity a backend has analysed by itself, for coordinates that change. Owns all it needs.

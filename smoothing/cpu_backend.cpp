@@ -45,7 +45,8 @@ class CpuSmoother final : public PreparedSmoother {
     prepare_ms_ = watch.lap();
   }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, double fixed_quotient) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
+                         double fixed_quotient) override {
     SmoothingResult result;
     result.backend = "cpu";
     result.device = processor_name();
@@ -54,18 +55,18 @@ class CpuSmoother final : public PreparedSmoother {
     result.colours = rings_.colours;
     result.timings.prepare = prepare_ms_;
     if (options_.precision == Precision::double_precision) {
-      smooth_in<double>(points, storage, fixed_quotient, result);
+      smooth_in<double>(points, frame, storage, fixed_quotient, result);
     } else {
-      smooth_in<float>(points, storage, fixed_quotient, result);
+      smooth_in<float>(points, frame, storage, fixed_quotient, result);
     }
     return result;
   }
 
  private:
   template <class T>
-  void smooth_in(std::span<Point2<double>> points, Storage storage, double fixed_quotient, SmoothingResult& result) {
+  void smooth_in(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage, double fixed_quotient,
+                 SmoothingResult& result) {
     Stopwatch watch;
-    const LocalFrame frame = local_frame(points);
     std::vector<Point2<double>> before(points.size());
     std::vector<Point2<T>> working(points.size());
     for_vertices(rings_.vertex_count(), [&](std::int32_t v) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "trismooth/quality/host_device.h"
+
 /// Why a vertex is held fixed: bits of one byte a vertex.
 namespace trismooth::hold {
 
@@ -12,5 +14,10 @@ inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
 inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
 inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
 inline constexpr std::uint8_t named = 64;        ///< named by the user
+
+/// Whether a vertex held for these reasons is of no cell at all. It stays where it is, and nothing depends on where.
+constexpr TRISMOOTH_HOST_DEVICE bool is_unused(std::uint8_t reasons) {
+  return (reasons & (isolated | other_cell)) == isolated;
+}
 
 }  // namespace trismooth::hold

@@ -8,6 +8,7 @@
 
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/hold.h"
 
 namespace trismooth {
 
@@ -75,7 +76,7 @@ SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
     return mesh_->smooth(xy, storage);
   }
   std::vector<Point2<double>> points = as_points(xy, topology_.vertex_count);
-  const LocalFrame frame = local_frame(points);
+  const LocalFrame frame = local_frame(points, [&](std::size_t v) { return !hold::is_unused(fixed_[v]); });
   std::vector<Point2<double>> local(points.size());
   std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
   Orientation orientation = orient(topology_, triangles_, local);
@@ -90,7 +91,7 @@ SmoothingResult SmoothingPlan::smooth(std::span<double> xy, Storage storage) {
   const double fixed_quotient = options_.target_quality || options_.record_min_shape
                                     ? smallest_fixed_quotient(local, triangles_, reversed_, fixed_)
                                     : std::numeric_limits<double>::infinity();
-  SmoothingResult result = smoother_->smooth(points, storage, fixed_quotient);
+  SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
   for (std::size_t v = 0; v < points.size(); ++v) {
     xy[2 * v] = points[v].x;
     xy[2 * v + 1] = points[v].y;

@@ -96,8 +96,9 @@ class DelaunayMesh final : public TestMesh {
     const Backend& backend = options.backend != nullptr ? *options.backend : cpu_backend();
     smoothed_ = mesh_.points;
     Outcome outcome;
-    outcome.result = backend.prepare(rings, local_, options)
-                         ->smooth(smoothed_, Storage::float64, std::numeric_limits<double>::infinity());
+    outcome.result =
+        backend.prepare(rings, local_, options)
+            ->smooth(smoothed_, local_frame(mesh_.points), Storage::float64, std::numeric_limits<double>::infinity());
     outcome.committed = hash(smoothed_);
     uncommitted_ = smoothed_;
     for (const auto& [vertex, position] : outcome.result.reverted) {

@@ -1,5 +1,6 @@
 // What comes before and after the sweeps on the device: the local frame and the never-worse commit, against the CPU's.
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/hold.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -102,6 +104,45 @@ TEST_CASE("the device finds the host's local frame of points of every size and p
   require_host_extent(context, finder, {{0.0, 1}, {-0.0, 2}});
   require_host_extent(context, finder, {{-0.0, 1}, {0.0, 2}});
   require_host_extent(context, finder, {});
+}
+
+TEST_CASE("points that nothing uses have no say in the frame that the device finds, but must be finite") {
+  cuda::Context context;
+  cuda::ExtentFinder finder(context);
+  for (const std::size_t count : {1, 40, 513, 600'000}) {
+    CAPTURE(count);
+    const Points used = random_points(count, {3, -1e5}, {1, 1}, count);
+    Points points;
+    std::vector<std::uint8_t> reasons;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      points.push_back(used[i]);
+      // A vertex of a line alone is isolated as well, but used.
+      constexpr std::array of_used{std::uint8_t{0}, hold::boundary, std::uint8_t{hold::isolated | hold::other_cell}};
+      reasons.push_back(of_used[i % 3]);
+      if (i % 5 == 0) {
+        points.push_back({i % 2 == 0 ? 1e300 : -1e20, i % 4 == 0 ? -1e308 : 7});
+        reasons.push_back(i % 2 == 0 ? hold::isolated : hold::isolated | hold::named);
+      }
+    }
+    const cuda::DeviceBuffer<Point2<double>> device(context, points);
+    const cuda::DeviceBuffer<std::uint8_t> device_reasons(context, reasons);
+    finder.find(device.data(), static_cast<std::int32_t>(points.size()), device_reasons.data());
+    const cuda::Extent found = finder.extent();
+    const LocalFrame expected = local_frame(used);
+    CHECK(found.first_not_finite == -1);
+    CHECK(same_bits(found.frame.centre_x, expected.centre_x));
+    CHECK(same_bits(found.frame.centre_y, expected.centre_y));
+    CHECK(found.frame.exponent == expected.exponent);
+  }
+  const Points alone{{1e9, 5}, {1, std::numeric_limits<double>::infinity()}};
+  const std::vector<std::uint8_t> unused(2, hold::isolated);
+  const cuda::DeviceBuffer<Point2<double>> device(context, alone);
+  const cuda::DeviceBuffer<std::uint8_t> device_reasons(context, unused);
+  finder.find(device.data(), 1, device_reasons.data());
+  CHECK(finder.extent().frame.exponent == 0);
+  CHECK(finder.extent().frame.centre_x == 0);
+  finder.find(device.data(), 2, device_reasons.data());
+  CHECK(finder.extent().first_not_finite == 1);
 }
 
 TEST_CASE("the first point that is not finite is named, whatever is wrong with it, and the next search is sound") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,14 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/uploaded_constraints.h"
 #include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/mesh_rings.h"
 
 #include "catch.h"
 #include "properties/contract.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
+#include "properties/with_unused.h"
+#include "support/used_frame.h"
 
 using namespace properties;
 using test_meshes::Random;
@@ -166,7 +168,8 @@ TEST_CASE("random meshes in device memory have the CPU's bits, in plans used aga
 
 TEST_CASE("random meshes have the host's orientation, constraints and rings") {
   for_random_meshes(2000, [](const RandomMesh& mesh) -> std::string {
-    const trismooth::LocalFrame frame = trismooth::local_frame(mesh.mesh.points);
+    const trismooth::LocalFrame frame =
+        test_meshes::used_frame(mesh.mesh.points, mesh.mesh.triangles, mesh.other_cells);
     std::vector<Point2<double>> local;
     std::ranges::transform(mesh.mesh.points, std::back_inserter(local), [&](auto p) { return frame.enter(p); });
     trismooth::Workers workers(1);
@@ -187,6 +190,34 @@ TEST_CASE("random meshes have the host's orientation, constraints and rings") {
     const bool same_rings =
         found->rings.offsets == expected.rings.offsets && found->rings.neighbours == expected.rings.neighbours;
     return same_rings ? "" : "other rings";
+  });
+}
+
+TEST_CASE("unused vertices, however far, change no bit, by every way to the device, and keep theirs") {
+  for_random_meshes(1200, [](const RandomMesh& mesh) {
+    return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
+      draw_the_rest(options, random);
+      const WithUnused more = with_unused_vertices(mesh, true, random);
+      const Run expected = run(mesh, options);
+      const auto verdict = [&](const Run& found, const std::string& way) -> std::string {
+        const std::vector<double> before = more.mesh.mesh.xy();
+        const std::string wrong = difference(more.without(found), expected);
+        const std::string moved =
+            difference(std::span(found.xy).subspan(expected.xy.size()), std::span(before).subspan(expected.xy.size()));
+        return wrong.empty() && moved.empty() ? "" : fmt::format("{}: {}{}", way, wrong, moved);
+      };
+      options.execution = any_execution(random);
+      options.layout = any_layout(random);
+      OnDevice device(more.mesh, options);
+      if (const auto wrong = verdict(device.smooth(more.mesh.mesh.xy(), Storage::float64), "a plan on the device");
+          !wrong.empty()) {
+        return fmt::format("{}: {}", text_of_device(options), wrong);
+      }
+      options.backend = &cuda::backend();
+      options.topology = static_cast<Topology>(random.below(2));
+      const std::string wrong = verdict(run(more.mesh, options), "from the host");
+      return wrong.empty() ? wrong : fmt::format("{}: {}", text_of_device(options), wrong);
+    });
   });
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
 
 namespace fuzz {
 
@@ -41,7 +40,7 @@ template <class T>
 ByContract smooth(std::span<const Point2<double>> points, std::span<const Triangle> listed,
                   const NaiveTopology& topology, const trismooth::SmoothingOptions& options,
                   trismooth::Storage storage) {
-  const trismooth::LocalFrame frame = trismooth::local_frame(points);
+  const trismooth::LocalFrame frame = frame_of_used(points, topology.used);
   std::vector<Point2<double>> before(points.size());
   std::vector<Point2<T>> working(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {

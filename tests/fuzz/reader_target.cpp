@@ -9,7 +9,6 @@
 #include "trismooth/mesh_io/halfedge_mesh.h"
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -77,8 +76,15 @@ struct Prepared {
   trismooth::PlanarMesh mesh;
   std::vector<Point2<double>> local;
   trismooth::Regions regions;
+  trismooth::LocalFrame frame;
   std::vector<std::uint8_t> fixed;
   trismooth::MeshRings found;
+
+  void enter_frame() {
+    frame = fuzz::frame_of_used(mesh.points, mesh.in_cell);
+    local.resize(mesh.points.size());
+    std::ranges::transform(mesh.points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  }
 
   trismooth::Constraints constraints() const {
     return {.fixed = fixed, .other_cells = mesh.in_other_cell, .regions = regions.of_triangle};
@@ -94,9 +100,7 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
     return std::nullopt;
   }
   const trismooth::PlanarMesh& mesh = prepared.mesh;
-  const trismooth::LocalFrame frame = trismooth::local_frame(mesh.points);
-  prepared.local.resize(mesh.points.size());
-  std::ranges::transform(mesh.points, prepared.local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  prepared.enter_frame();
   prepared.regions = trismooth::find_regions(document, mesh, std::nullopt);
   prepared.fixed = trismooth::fixed_by_array(document, "fixed", false);
   const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
@@ -120,6 +124,13 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   require(
       other.rings.offsets == prepared.found.rings.offsets && other.rings.neighbours == prepared.found.rings.neighbours,
       "halfedges give other rings than the triangle list");
+  try {
+    if (trismooth::settle_plane(prepared.mesh, document, prepared.found.fixed, input_path)) {
+      prepared.enter_frame();
+    }
+  } catch (const ReadError&) {
+    return std::nullopt;
+  }
   return prepared;
 }
 
@@ -148,12 +159,15 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   const auto storage =
       document.point_type == trismooth::ScalarType::float32 ? trismooth::Storage::float32 : trismooth::Storage::float64;
   const trismooth::SmoothingResult result =
-      trismooth::smooth_in_plane(prepared->found.rings, mesh.plane, document.points, mesh.points, prepared->local,
-                                 std::numeric_limits<double>::infinity(), storage, options);
+      trismooth::smooth_in_plane(prepared->found.rings, mesh.plane, document.points, mesh.points, prepared->frame,
+                                 prepared->local, std::numeric_limits<double>::infinity(), storage, options);
   require_guarantees(document);
   std::vector<Point2<double>> after(before.size());
   for (std::size_t v = 0; v < after.size(); ++v) {
-    after[v] = mesh.plane.project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v));
+    // Where the plane has no finite coordinates for a vertex of no cell, any do.
+    after[v] = mesh.in_cell[v] != 0
+                   ? mesh.plane.project(Eigen::Map<const Eigen::Vector3d>(document.points.data() + 3 * v))
+                   : before[v];
     const bool moved = !std::equal(
         stored_before.begin() + static_cast<std::ptrdiff_t>(3 * v),
         stored_before.begin() + static_cast<std::ptrdiff_t>(3 * v + 3),

@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/quality/local_frame.h"
-
 #include "broken.h"
 #include "support/naive_smoothing.h"
 
@@ -33,9 +31,10 @@ bool runs_along(const Triangle& triangle, Edge edge) {
   return false;
 }
 
-std::vector<Point2<double>> in_local_frame(std::span<const Point2<double>> frame_of,
+/// In the frame of those of `frame_of` that are used.
+std::vector<Point2<double>> in_local_frame(std::span<const Point2<double>> frame_of, std::span<const std::uint8_t> used,
                                            std::span<const Point2<double>> points) {
-  const trismooth::LocalFrame frame = trismooth::local_frame(frame_of);
+  const trismooth::LocalFrame frame = frame_of_used(frame_of, used);
   std::vector<Point2<double>> local(points.size());
   std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
   return local;
@@ -125,6 +124,16 @@ void orient_component(std::size_t first, std::span<const Point2<double>> local, 
 
 }  // namespace
 
+trismooth::LocalFrame frame_of_used(std::span<const Point2<double>> points, std::span<const std::uint8_t> used) {
+  std::vector<Point2<double>> counted;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (used[v] != 0) {
+      counted.push_back(points[v]);
+    }
+  }
+  return trismooth::local_frame(counted);
+}
+
 bool same_bits(Point2<double> a, Point2<double> b) {
   return std::bit_cast<std::uint64_t>(a.x) == std::bit_cast<std::uint64_t>(b.x) &&
          std::bit_cast<std::uint64_t>(a.y) == std::bit_cast<std::uint64_t>(b.y);
@@ -135,10 +144,12 @@ NaiveTopology naive_topology(std::span<const Point2<double>> points, std::span<c
   TrianglesOfEdges edges;
   NaiveTopology topology;
   topology.fixed.assign(points.size(), 1);
+  topology.used.assign(points.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       edges[edge(triangles[t], i)].push_back(t);
       topology.fixed[static_cast<std::size_t>(triangles[t][i])] = 0;
+      topology.used[static_cast<std::size_t>(triangles[t][i])] = 1;
     }
   }
   for (const auto& [ends, sides] : edges) {
@@ -161,7 +172,11 @@ NaiveTopology naive_topology(std::span<const Point2<double>> points, std::span<c
     topology.fixed[static_cast<std::size_t>(vertex)] = 1;
   }
 
-  const std::vector<Point2<double>> local = in_local_frame(points, points);
+  for (std::size_t v = 0; v < constraints.other_cells.size(); ++v) {
+    topology.used[v] |= constraints.other_cells[v] != 0 ? std::uint8_t{1} : std::uint8_t{0};
+  }
+
+  const std::vector<Point2<double>> local = in_local_frame(points, topology.used, points);
   topology.reversed.assign(triangles.size(), 0);
   std::vector<std::uint8_t> seen(triangles.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -203,8 +218,8 @@ void require_never_worse(const Smoothing& smoothing) {
     return;
   }
 
-  const std::vector<Point2<double>> local_before = in_local_frame(before, before);
-  const std::vector<Point2<double>> local_after = in_local_frame(before, after);
+  const std::vector<Point2<double>> local_before = in_local_frame(before, topology.used, before);
+  const std::vector<Point2<double>> local_after = in_local_frame(before, topology.used, after);
   const auto has_moved = [&](std::int32_t v) {
     return !same_bits(before[static_cast<std::size_t>(v)], after[static_cast<std::size_t>(v)]);
   };

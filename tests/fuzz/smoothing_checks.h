@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/point2.h"
 #include "trismooth/quality/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
@@ -19,6 +20,7 @@ using trismooth::Triangle;
 struct NaiveTopology {
   std::vector<std::uint8_t> fixed;     ///< per vertex: it may not move
   std::vector<std::uint8_t> reversed;  ///< per triangle: listed clockwise in the consistent orientation
+  std::vector<std::uint8_t> used;      ///< per vertex: a triangle or another cell uses it
   bool orientable = true;
 };
 
@@ -39,6 +41,9 @@ struct Smoothing {
 /// Everything is finite, fixed vertices have their bits, no element that was valid is not any more, none is below the
 /// worst that was touched and below what it was, the result counts what happened. Throws Broken.
 void require_never_worse(const Smoothing& smoothing);
+
+/// The local frame of the points whose flag is not 0.
+trismooth::LocalFrame frame_of_used(std::span<const Point2<double>> points, std::span<const std::uint8_t> used);
 
 bool same_bits(Point2<double> a, Point2<double> b);
 

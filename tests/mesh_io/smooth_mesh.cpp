@@ -232,6 +232,28 @@ TEST_CASE("a tilted mesh is smoothed like the flat one, to rounding") {
   }
 }
 
+TEST_CASE("vertices without faces, however far, change no bit of a halfedge mesh and keep theirs") {
+  std::mt19937_64 random(41);
+  const bool tilted = GENERATE(false, true);
+  const double far = GENERATE(1e7, 1e162, 1.7e308);
+  const Sample sample = planar_samples::grid(12, 0.4, random);
+  const Eigen::Matrix3d rotation = tilted ? random_rotation(random) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const auto place = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return rotation * p; };
+  TriangleMesh alone = mesh_of(sample, place);
+  TriangleMesh together = mesh_of(sample, place);
+  const Eigen::Vector3d first(far, far, 0.3 * far);
+  const Eigen::Vector3d second(-far, 1, far);
+  together.add_vertex(first);
+  together.add_vertex(second);
+  const SmoothingResult expected = trismooth::smooth(alone);
+  const SmoothingResult result = trismooth::smooth(together);
+  CHECK(result.moved_vertices > 0);
+  CHECK(result.sweeps == expected.sweeps);
+  Points points = points_of(alone);
+  points.insert(points.end(), {first, second});
+  CHECK(points_of(together) == points);
+}
+
 TEST_CASE("a mesh whose faces run clockwise is smoothed to the same bits") {
   const Form form = GENERATE(Form::swap, Form::in_place);
   SmoothingOptions options;

@@ -137,7 +137,8 @@ TEST_CASE("where the device fails to find the rings, the smoothing that follows 
   const auto smoothed = [&] {
     auto points = mesh.points;
     const auto found = trismooth::rings_for(options, points, mesh.triangles, {}, workers);
-    return automatic.prepare(found.rings, points, options)->smooth(points, trismooth::Storage::float64, 1);
+    return automatic.prepare(found.rings, points, options)
+        ->smooth(points, trismooth::local_frame(points), trismooth::Storage::float64, 1);
   };
   const SmoothingResult result = smoothed();
   CHECK(result.backend == "cuda");

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/stop_rule.h"
 
 #include "catch.h"
@@ -16,6 +15,7 @@
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
 #include "support/naive_smoothing.h"
+#include "support/used_frame.h"
 
 using namespace properties;
 
@@ -44,7 +44,7 @@ Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage s
     }
   }
   const naive::Rings rings = naive::one_rings(mesh.mesh.vertex_count(), connectivity.elements, fixed);
-  const trismooth::LocalFrame frame = trismooth::local_frame(points);
+  const trismooth::LocalFrame frame = test_meshes::used_frame(mesh.mesh.points, mesh.mesh.triangles, mesh.other_cells);
   std::vector<Point2<double>> before;
   std::vector<Point2<T>> working;
   for (const Point2<double> p : points) {

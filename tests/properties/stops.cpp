@@ -16,12 +16,17 @@
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
 #include "support/naive_smoothing.h"
+#include "support/used_frame.h"
 
 using namespace properties;
 using trismooth::Progress;
 using trismooth::SweepRecord;
 
 namespace {
+
+trismooth::LocalFrame frame_of(const RandomMesh& mesh) {
+  return test_meshes::used_frame(mesh.mesh.points, mesh.mesh.triangles, mesh.other_cells);
+}
 
 /// Neither frame is translated, and both are of the same scale.
 bool are_alike(const trismooth::LocalFrame& a, const trismooth::LocalFrame& b) {
@@ -88,8 +93,7 @@ TEST_CASE("smoothing again what stopped at its fixed point moves nothing") {
       const Run first = run(mesh, options);
       const RandomMesh smoothed = at_points(mesh, first.xy);
       if (first.result.stop_reason != StopReason::fixed_point || first.result.reverted_vertices > 0 ||
-          !keeps_digits(first.xy) ||
-          !are_alike(trismooth::local_frame(mesh.mesh.points), trismooth::local_frame(smoothed.mesh.points)) ||
+          !keeps_digits(first.xy) || !are_alike(frame_of(mesh), frame_of(smoothed)) ||
           connectivity_of(smoothed).elements != connectivity_of(mesh).elements) {
         return {};
       }
@@ -111,7 +115,7 @@ TEST_CASE("plain averages end at the solution of the linear system, in both form
   for_random_meshes(2000, [&](const RandomMesh& any) -> std::string {
     // In units of the frame: rounding on the way out is not what is looked at.
     RandomMesh mesh = any;
-    const trismooth::LocalFrame frame = trismooth::local_frame(any.mesh.points);
+    const trismooth::LocalFrame frame = frame_of(any);
     for (auto& p : mesh.mesh.points) {
       p = frame.enter(p);
     }

@@ -275,6 +275,7 @@ TEST_CASE("the points that a mesh is made ready with steer its order in memory a
   const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
   const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
   const auto rings = trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers);
+  const trismooth::LocalFrame frame = trismooth::local_frame(mesh.points);
   std::vector<Point> elsewhere = mesh.points;
   test_meshes::Random random(1);
   random.shuffle(elsewhere);
@@ -289,8 +290,8 @@ TEST_CASE("the points that a mesh is made ready with steer its order in memory a
       for (int i = 0; i < 2; ++i) {
         std::vector<Point> a = mesh.points;
         std::vector<Point> b = mesh.points;
-        const SmoothingResult of_a = ordered->smooth(a, Storage::float64, 0);
-        const SmoothingResult of_b = disordered->smooth(b, Storage::float64, 0);
+        const SmoothingResult of_a = ordered->smooth(a, frame, Storage::float64, 0);
+        const SmoothingResult of_b = disordered->smooth(b, frame, Storage::float64, 0);
         CHECK(a == b);
         CHECK(of_a.sweeps == of_b.sweeps);
         CHECK(of_a.vertex_updates == of_b.vertex_updates);

@@ -64,10 +64,10 @@ class FakeBackend final : public trismooth::Backend {
     Smoother(const FakeBackend& backend, std::unique_ptr<PreparedSmoother> cpu)
         : backend_(backend), cpu_(std::move(cpu)) {}
 
-    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points, trismooth::Storage storage,
-                                      double fixed_quotient) override {
+    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points, const trismooth::LocalFrame& frame,
+                                      trismooth::Storage storage, double fixed_quotient) override {
       ++backend_.smoothed;
-      trismooth::SmoothingResult result = cpu_->smooth(points, storage, fixed_quotient);
+      trismooth::SmoothingResult result = cpu_->smooth(points, frame, storage, fixed_quotient);
       backend_.fail_at(Failure::smooth);  // with the points written already
       if (backend_.failure_ == Failure::bits) {
         points.front().x = std::nextafter(points.front().x, 2.0);
