@@ -67,10 +67,12 @@ struct MeshDocument {
   std::vector<double> points;                   ///< x, y, z of every point; exact, also where the file holds float32
   ScalarType point_type = ScalarType::float64;  ///< how the file stores coordinates: float32 or float64
   CellList cells;
-  std::vector<DataArray> point_arrays;           ///< a row for every point
-  std::vector<DataArray> cell_arrays;            ///< a row for every cell
-  std::vector<DataArray> field_arrays;           ///< of any length, of the whole mesh
-  std::vector<std::string> notes;                ///< what the reader has to say about the file, one sentence each
+  std::vector<DataArray> point_arrays;  ///< a row for every point
+  std::vector<DataArray> cell_arrays;   ///< a row for every cell
+  std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
+  std::vector<std::string> notes;       ///< what the reader has to say about the file, one sentence each: among them
+                                        ///< what only a file of the same format keeps
+  std::vector<std::string> losses;      ///< what no file that is written from it gets, one sentence each
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
   std::size_t point_count() const { return points.size() / 3; }

@@ -32,7 +32,8 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
 FileFormat output_format(const std::filesystem::path& path);
 
 /// What `target` cannot hold of the document, one sentence each ("OFF holds no cell arrays: region is not written");
-/// empty where nothing is lost, as always where `target` is the format that the document was read from.
+/// empty where nothing is lost, as always where `target` is the format that the document was read from. The
+/// document's own losses, and what it notes as kept in its format only, come on top.
 std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target);
 
 }  // namespace trismooth

@@ -116,7 +116,7 @@ bool is_range(const std::string& name, const std::string& location) {
 
 }  // namespace
 
-void read_information_keys(const XmlElement& array, vtkInformation& information, std::vector<std::string>& notes) {
+void read_information_keys(const XmlElement& array, vtkInformation& information, std::vector<std::string>& losses) {
   VtkMessages messages;
   messages.watch(&information);
   for (const XmlElement& element : array.children) {
@@ -128,8 +128,8 @@ void read_information_keys(const XmlElement& array, vtkInformation& information,
     vtkInformationKey* const key = vtkInformationKeyLookup::Find(*name, *location);
     if (key == nullptr || !set_key(information, key, element) || !messages.first_error().empty()) {
       const std::string* const array_name = array.attribute("Name");
-      notes.push_back("the information " + *location + "::" + *name + " of the array " +
-                      (array_name == nullptr ? std::string("without name") : *array_name) + " is not kept");
+      losses.push_back("the information " + *location + "::" + *name + " of the array " +
+                       (array_name == nullptr ? std::string("without name") : *array_name) + " is not kept");
       messages.clear();
     }
   }

@@ -167,7 +167,7 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::read_cells(const std::string& s
     }
   }
   if (!all_int32 && !all_int64) {
-    notes_.push_back("the indices in <" + section + "> are written as Int64");
+    losses_.push_back("the indices in <" + section + "> are written as Int64");
   }
   return all_int32 && !all_int64 ? join_cells<std::int32_t>(section, counts)
                                  : join_cells<std::int64_t>(section, counts);
@@ -204,12 +204,12 @@ vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray
     for (const XmlElement* const array : vtk_xml_arrays_of(section)) {
       const std::string name = vtk_xml_array_type_of(path_, *array).name;
       if (name != "offsets" && name != "connectivity" && name != "types") {
-        notes_.push_back("the array " + trismooth::quoted(name) + " of <Cells> is not kept");
+        losses_.push_back("the array " + trismooth::quoted(name) + " of <Cells> is not kept");
       }
     }
   }
   if (!all_uint8) {
-    notes_.emplace_back("the cell types are written as UInt8");
+    losses_.emplace_back("the cell types are written as UInt8");
   }
   const std::span<const std::uint8_t> values = values_from<std::uint8_t>(types, 0);
   for (std::size_t cell = 0; cell < values.size(); ++cell) {

@@ -19,10 +19,10 @@ namespace trismooth {
 /// Reads the cells of all pieces of a file, joined.
 class VtkXmlCellsReader {
  public:
-  /// All arguments must outlive the reader. What cannot be kept as it was gives a sentence in `notes`.
+  /// All arguments must outlive the reader. What cannot be kept as it was gives a sentence in `losses`.
   VtkXmlCellsReader(const std::filesystem::path& path, std::span<const VtkXmlPiece> pieces, VtkXmlDecoder& decoder,
-                    std::vector<std::string>& notes)
-      : path_(path), pieces_(pieces), decoder_(decoder), notes_(notes) {}
+                    std::vector<std::string>& losses)
+      : path_(path), pieces_(pieces), decoder_(decoder), losses_(losses) {}
 
   /// The cells in the elements of that name ("Cells", "Polys", ...), of which piece i has counts[i]. Offsets rise,
   /// and every index is one of a point. 32-bit indices where the file has no others. Throws ReadError.
@@ -48,7 +48,7 @@ class VtkXmlCellsReader {
   const std::filesystem::path& path_;
   std::span<const VtkXmlPiece> pieces_;
   VtkXmlDecoder& decoder_;
-  std::vector<std::string>& notes_;
+  std::vector<std::string>& losses_;
 };
 
 }  // namespace trismooth

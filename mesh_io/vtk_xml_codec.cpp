@@ -150,7 +150,7 @@ MeshDocument read(const std::filesystem::path& path, std::string bytes) {
     // The bytes go before the cells come: not both in memory at once.
     std::string().swap(bytes);
     MeshDocument document;
-    document.notes = std::move(file.notes);
+    document.losses = std::move(file.losses);
     copy_points(path, *file.data, document);
     copy_cells(*file.data, document.cells);
     document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);

@@ -52,10 +52,10 @@ VtkXmlPiece read_piece(const std::filesystem::path& path, const XmlElement& elem
 }
 
 /// Whatever of a section is no array.
-void note_other_children(const XmlElement& section, std::vector<std::string>& notes) {
+void report_other_children(const XmlElement& section, std::vector<std::string>& losses) {
   for (const XmlElement& child : section.children) {
     if (!is_array(child)) {
-      notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
+      losses.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
     }
   }
 }
@@ -96,7 +96,7 @@ std::optional<std::uint64_t> whole_number_attribute(const std::filesystem::path&
 }
 
 std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, const XmlElement& data_set,
-                                             VtkXmlKind kind, std::vector<std::string>& notes) {
+                                             VtkXmlKind kind, std::vector<std::string>& losses) {
   if (data_set.attribute("TimeValues") != nullptr) {
     throw ReadError(path, data_set.line, "holds time steps; give a file of one mesh");
   }
@@ -104,17 +104,17 @@ std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, 
   refuse_second(path, data_set, "FieldData");
   for (const XmlElement& child : data_set.children) {
     if (child.name == "FieldData") {
-      note_other_children(child, notes);
+      report_other_children(child, losses);
     } else if (child.name == "Piece") {
       pieces.push_back(read_piece(path, child, kind));
     } else if (!is_known_in_piece(child.name, kind)) {
-      notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
+      losses.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
     }
   }
   if (pieces.empty()) {
     pieces.push_back(read_piece(path, data_set, kind));
   } else if (pieces.size() > 1) {
-    notes.push_back("the file has " + std::to_string(pieces.size()) + " pieces; they are joined, and written as one");
+    losses.push_back("the file has " + std::to_string(pieces.size()) + " pieces; they are joined, and written as one");
   }
   std::uint64_t points = 0;
   for (const VtkXmlPiece& piece : pieces) {
@@ -126,9 +126,9 @@ std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, 
     for (const XmlElement& child : piece.element->children) {
       if (is_known_in_piece(child.name, kind)) {
         refuse_second(path, *piece.element, child.name);
-        note_other_children(child, notes);
+        report_other_children(child, losses);
       } else if (piece.element != &data_set) {
-        notes.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
+        losses.push_back("<" + child.name + "> in line " + std::to_string(child.line) + " is not kept");
       }
     }
   }

@@ -28,9 +28,9 @@ struct VtkXmlPiece {
 void refuse_second(const std::filesystem::path& path, const XmlElement& parent, std::string_view name);
 
 /// The pieces of a data set element; the element itself where it holds none, as VTK reads it. Refuses time steps and
-/// sections that stand there twice. Elements without a meaning here give a sentence in `notes`. Throws ReadError.
+/// sections that stand there twice. Elements without a meaning here give a sentence in `losses`. Throws ReadError.
 std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, const XmlElement& data_set,
-                                             VtkXmlKind kind, std::vector<std::string>& notes);
+                                             VtkXmlKind kind, std::vector<std::string>& losses);
 
 /// What a <DataArray> or <Array> says of its values.
 struct VtkXmlArrayType {

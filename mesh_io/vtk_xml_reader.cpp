@@ -182,7 +182,7 @@ vtkSmartPointer<vtkPoints> Reader::read_points() {
     const vtkSmartPointer<vtkDataArray> array = make_vtk_array(type->type, 3, std::move(numbers));
     array->SetName(type->name.empty() ? "Points" : type->name.c_str());
     set_component_names(*first, *array);
-    read_information_keys(*first, *array->GetInformation(), file_.notes);
+    read_information_keys(*first, *array->GetInformation(), file_.losses);
     points->SetData(array);
   }
   return points;
@@ -198,7 +198,7 @@ void Reader::add(const XmlElement& element, DecodedArray decoded, vtkFieldData& 
   }
   const vtkSmartPointer<vtkAbstractArray> array = make_values(std::move(decoded));
   set_component_names(element, *array);
-  read_information_keys(element, *array->GetInformation(), file_.notes);
+  read_information_keys(element, *array->GetInformation(), file_.losses);
   add_vtk_array(target, *array, name);
 }
 
@@ -213,8 +213,8 @@ void Reader::set_active_attributes(const XmlElement& section, vtkDataSetAttribut
     }
     // VTK's writer takes every active array for one of numbers.
     if (target.GetArray(name->c_str()) == nullptr || target.SetActiveAttribute(name->c_str(), attribute) < 0) {
-      file_.notes.push_back("the attribute " + std::string(attribute_name) + " of <" + section.name + "> names " +
-                            trismooth::quoted(*name) + ", which cannot be one; it is not kept");
+      file_.losses.push_back("the attribute " + std::string(attribute_name) + " of <" + section.name + "> names " +
+                             trismooth::quoted(*name) + ", which cannot be one; it is not kept");
     }
   }
   messages.unwatch(&target);
@@ -304,7 +304,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
     counts.push_back(piece.cells);
   }
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.notes);
+  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
   const vtkSmartPointer<vtkCellArray> cells = reader.read_cells("Cells", counts);
   grid->SetCells(reader.read_types(*cells), cells);
   return grid;
@@ -312,7 +312,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
 
 vtkSmartPointer<vtkPointSet> Reader::read_poly_data() {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.notes);
+  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
   for (std::size_t i = 0; i < poly_data_groups; ++i) {
     const auto group = static_cast<PolyDataGroup>(i);
     std::vector<std::uint64_t> counts;
@@ -366,7 +366,7 @@ VtkXmlFile Reader::read() {
     throw ReadError(path_, head_.root.line, "<VTKFile> has no <" + data_set_name + ">");
   }
   refuse_second(path_, head_.root, data_set_name);
-  pieces_ = find_vtk_xml_pieces(path_, *data_set, file_.kind, file_.notes);
+  pieces_ = find_vtk_xml_pieces(path_, *data_set, file_.kind, file_.losses);
   const vtkSmartPointer<vtkPoints> points = read_points();
   file_.data = file_.kind == VtkXmlKind::unstructured_grid ? read_unstructured_grid() : read_poly_data();
   file_.data->SetPoints(points);

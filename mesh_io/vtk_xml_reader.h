@@ -17,7 +17,7 @@ struct VtkXmlFile {
   VtkXmlKind kind = VtkXmlKind::unstructured_grid;
   vtkSmartPointer<vtkPointSet> data;
   VtkXmlEncoding encoding;
-  std::vector<std::string> notes;  ///< what of the file the data set does not hold, one sentence each
+  std::vector<std::string> losses;  ///< what of the file the data set does not hold, one sentence each
 };
 
 /// Reads a file, whose bytes are `bytes`. Every array comes back with its name, type, component names and values, two

@@ -315,6 +315,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result) {
   if (!result.warnings.empty()) {
     html += html_section("Warnings", html_list(result.warnings));
   }
+  if (!result.losses.empty()) {
+    html += html_section("Not kept", html_list(result.losses));
+  }
   if (!result.notes.empty()) {
     html += html_section("Notes", html_list(result.notes));
   }

@@ -45,7 +45,11 @@ std::string timings_line(const PipelineTimings& timings) {
   return line + fmt::format(" total {}", duration_text(timings.total));
 }
 
+/// What is lost is said in full; of other notes there may be many.
 void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream& err) {
+  for (const std::string& loss : result.losses) {
+    print_note(err, loss);
+  }
   constexpr std::size_t most_notes = 5;
   const bool all = verbosity == Verbosity::verbose || result.notes.size() <= most_notes + 1;
   const std::size_t shown = all ? result.notes.size() : most_notes;

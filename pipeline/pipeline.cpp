@@ -79,7 +79,10 @@ class Run {
 
   void read() {
     document_ = read_mesh(options_.input);
-    result_.notes = document_.notes;
+    result_.losses = document_.losses;
+    // What the reader says of the file is said of what another format loses.
+    const bool converts = options_.output && output_format(*options_.output) != document_.format;
+    std::ranges::copy(document_.notes, std::back_inserter(converts ? result_.losses : result_.notes));
     result_.input.path = options_.input;
     result_.input.format = document_.format;
     result_.input.vertices = static_cast<std::int64_t>(document_.point_count());
@@ -216,7 +219,7 @@ class Run {
 
   void write() {
     const FileFormat target = output_format(*options_.output);
-    std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.notes));
+    std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.losses));
     const bool annotates = options_.annotate && has_arrays(target);
     if (options_.annotate && !annotates) {
       result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");

@@ -77,6 +77,7 @@ struct PipelineResult {
   std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
   std::uint64_t uncommitted_hash = 0;        ///< the same before the commit
   std::vector<std::string> notes;            ///< what the user should know, one sentence each
+  std::vector<std::string> losses;           ///< what the output does not hold of the input, likewise: always shown
   std::vector<std::string> warnings;         ///< what the user should have known before the smoothing, likewise
   PipelineTimings timings_ms;
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far

@@ -71,8 +71,8 @@ TEST_CASE("What a section of a VTU holds beside arrays is named in a note") {
     const Outcome outcome = read(file, replaced(file.bytes, section, section + "<dataArray/>"));
     INFO(section << outcome.message);
     REQUIRE(outcome.document);
-    CHECK(std::ranges::count_if(outcome.document->notes, [](const std::string& note) {
-            return note.find("<dataArray>") != std::string::npos;
+    CHECK(std::ranges::count_if(outcome.document->losses, [](const std::string& loss) {
+            return loss.find("<dataArray>") != std::string::npos;
           }) == 1);
   }
 }

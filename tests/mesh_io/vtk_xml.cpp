@@ -254,15 +254,15 @@ TEST_CASE("pieces are joined as VTK joins them") {
                                 piece_begin + "1 2 3" + piece_middle + "10 20" + piece_end + empty + piece_begin +
                                 "4 5 6" + piece_middle + "30 40" + piece_end + "</PolyData></VTKFile>");
   const MeshDocument document = trismooth::read_mesh(input.path());
-  REQUIRE(document.notes.size() == 1);
-  CHECK(document.notes[0].find("pieces") != std::string::npos);
+  REQUIRE(document.losses.size() == 1);
+  CHECK(document.losses[0].find("pieces") != std::string::npos);
   CHECK(document.point_count() == 6);
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{2, 5, 0, 1, 2, 3, 4, 5});
   const auto cells = document.cell_arrays.at(0).as<std::int32_t>();
   CHECK(std::vector<std::int32_t>(cells.begin(), cells.end()) == std::vector<std::int32_t>{10, 30, 20, 40});
   const TemporaryPath output(".vtp");
   trismooth::write_mesh(output.path(), document);
-  CHECK(trismooth::read_mesh(output.path()).notes.empty());
+  CHECK(trismooth::read_mesh(output.path()).losses.empty());
   CHECK(trismooth::read_mesh(output.path()).cells.connectivity == document.cells.connectivity);
 }
 
@@ -272,14 +272,14 @@ TEST_CASE("indices of other types are read, and the change is noted") {
   text.replace(text.find("UInt8"), 5, "Int64");
   const MeshDocument document = read_text(".vtu", text);
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(document.notes.size() == 2);
+  CHECK(document.losses.size() == 2);
 }
 
 TEST_CASE("attributes that VTK cannot hold are noted") {
   const MeshDocument document =
       read_text(".vtu", small_vtu("<PointData Vectors=\"a\" Normals=\"nothing\"><DataArray type=\"Int16\" Name=\"a\" "
                                   "format=\"ascii\">1 2 3</DataArray></PointData><Extra/>"));
-  CHECK(document.notes.size() == 3);
+  CHECK(document.losses.size() == 3);
 }
 
 TEST_CASE("a mesh without points or cells is read and written") {

@@ -341,6 +341,23 @@ TEST_CASE("notes go to standard error, a long list is cut unless --verbose asks 
   CHECK(notes_in(call({"smooth", "a.vtk", "b.vtk", "--verbose"}, with_notes(40))) == 40);
 }
 
+TEST_CASE("what is lost is said in full, however much it is and whatever else is to be said") {
+  const auto lossy = [](const PipelineOptions&) {
+    PipelineResult result = sample::result();
+    result.notes.assign(40, "something to know");
+    for (int i = 0; i < 30; ++i) {
+      result.losses.push_back("array " + std::to_string(i) + " is not written");
+    }
+    return result;
+  };
+  const Outcome outcome = call({"smooth", "a.vtk", "b.off"}, lossy);
+  for (int i = 0; i < 30; ++i) {
+    CHECK(outcome.says("trismooth: note: array " + std::to_string(i) + " is not written\n"));
+  }
+  CHECK(outcome.says("35 more notes; --verbose shows them"));
+  CHECK(call({"smooth", "a.vtk", "b.off", "--quiet"}, lossy).err.empty());
+}
+
 TEST_CASE("verbose records the smallest shape and prints every sweep and the times") {
   const Outcome outcome = call({"smooth", "a.vtk", "b.vtk", "--verbose"}, [](const PipelineOptions& options) {
     CHECK(options.smoothing.record_min_shape);

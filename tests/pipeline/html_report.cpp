@@ -88,6 +88,7 @@ TEST_CASE("names from the run cannot break out of the page") {
   auto result = sample::result();
   result.input.path = "\"><script>alert('x')</script>.vtk";
   result.input.region_array = "<b>region</b>";
+  result.losses = {"the array <b>T</b> is not written"};
   const Parsed page = parse(html_report(options, result));
   REQUIRE(page.error.empty());
   CHECK(page.count("script") == 0);
@@ -95,6 +96,7 @@ TEST_CASE("names from the run cannot break out of the page") {
   CHECK(page.says("\"><script>alert('x')"));
   CHECK(page.says("<i>array</i>"));
   CHECK(page.says("a note with <b>markup</b> & an ampersand"));
+  CHECK(page.says("the array <b>T</b> is not written"));
   CHECK(page.says("A <fast> processor"));
 }
 
