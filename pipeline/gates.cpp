@@ -113,13 +113,9 @@ double gate_value(std::string_view name, const QualityReport& report) {
   for (const auto& [prefix, statistic] : statistics) {
     prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
   }
-  std::string metrics;
-  for (const MetricInfo& metric : all_metrics()) {
-    metrics.append(metrics.empty() ? "" : ", ").append(metric.name);
-  }
   throw std::invalid_argument(fmt::format(
       "unknown metric '{}'; valid are triangles, inverted, min_angle, max_angle, and one of {} before one of {}", name,
-      prefixes, metrics));
+      prefixes, metric_names()));
 }
 
 Gate parse_gate(std::string_view text) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
@@ -37,8 +38,11 @@ struct PipelineOptions {
   std::optional<std::string> region_array;         ///< absent: see find_regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
-  bool annotate = false;                           ///< add shape, fixed and displacement to VTK output
-  std::function<Progress(Stage)> stage_started;    ///< may answer stop: Cancelled is thrown then
+  bool annotate = false;                           ///< add arrays to the output, see annotations.h
+  /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
+  std::optional<std::filesystem::path> annotated;
+  std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
+  std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
 };
 
