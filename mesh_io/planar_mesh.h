@@ -21,6 +21,7 @@ struct PlanarMesh {
   std::vector<std::int32_t> cells;          ///< the document's cell of each triangle
   std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
   std::int64_t other_cells = 0;             ///< cells that are not triangles
+  std::int64_t repeating_triangles = 0;     ///< those of them that are triangles but for a vertex that they repeat
   std::vector<std::string> notes;           ///< what the user should know, one sentence each
 };
 

@@ -45,7 +45,7 @@ class Run {
   PipelineResult run() {
     const auto start = Clock::now();
     options_.smoothing.validate();
-    if (const auto& target = options_.output ? options_.output : options_.annotated) {
+    if (const auto& target = options_.written()) {
       output_format(*target);  // an unknown extension is said before any work
     }
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
@@ -150,6 +150,7 @@ class Run {
 
   QualityReport check() {
     QualityReport report = quality_report(view(), {.threads = options_.smoothing.threads});
+    report.degenerate += mesh_.repeating_triangles;
     for (WorstElement& element : report.worst) {
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
       element.centroid = frame_.leave(element.centroid);
@@ -221,7 +222,25 @@ class Run {
     if (annotate && !annotates) {
       result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
     }
+    if (!annotates && has_arrays(target)) {
+      note_old_annotations();
+    }
     write_mesh(path, document_, annotates ? annotations() : AddedArrays{});
+  }
+
+  void note_old_annotations() {
+    std::string names;
+    for (const auto& arrays : {std::span(document_.cell_arrays), std::span(document_.point_arrays)}) {
+      for (const DataArray& array : arrays) {
+        if (is_annotation(array.name)) {
+          names.append(names.empty() ? "" : ", ").append(array.name);
+        }
+      }
+    }
+    if (!names.empty()) {
+      result_.notes.push_back("annotations of an earlier run are kept, and show that mesh: " + names +
+                              "; --annotate makes new ones");
+    }
   }
 
   TriangleView view() const { return {local_, mesh_.triangles, found_.reversed, frame_.exponent}; }

@@ -44,6 +44,9 @@ struct PipelineOptions {
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
   std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
+
+  /// The mesh file that the run writes, if any.
+  const std::optional<std::filesystem::path>& written() const { return output ? output : annotated; }
 };
 
 /// The run was stopped by a callback; nothing was written.
@@ -75,8 +78,8 @@ struct PipelineTimings {
 /// What a run did and found. Cells and centroids of worst elements are those of the file.
 struct PipelineResult {
   InputSummary input;
-  QualityReport before;
-  std::optional<QualityReport> after;        ///< absent where nothing was smoothed
+  QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
+  std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;  ///< likewise
   std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
   std::uint64_t uncommitted_hash = 0;        ///< the same before the commit
