@@ -53,8 +53,9 @@ class OriginalFile {
   virtual ~OriginalFile() = default;
 
   /// Writes the file that was read to `path`, with the coordinates of `document` in place of those that differ and
-  /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (formats that have_arrays() only). All
-  /// else is as it was read. Throws WriteError. The path is plain: no temporary, no renaming.
+  /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (formats that have_arrays() only). Where
+  /// any is added, annotations of an earlier run (see annotation_names.h) are left out. All else is as it was read.
+  /// Throws WriteError. The path is plain: no temporary, no renaming.
   virtual void write(const std::filesystem::path& path, const MeshDocument& document,
                      std::span<const DataArray> added_point_arrays,
                      std::span<const DataArray> added_cell_arrays) const = 0;

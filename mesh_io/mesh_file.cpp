@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/file_bytes.h"
@@ -40,6 +41,11 @@ bool is_written_back(const MeshDocument& document, FileFormat target) {
   return document.original != nullptr && document.format == target;
 }
 
+void replace_annotations(std::vector<DataArray>& arrays, std::span<const DataArray> added) {
+  std::erase_if(arrays, [](const DataArray& array) { return is_annotation(array.name); });
+  arrays.insert(arrays.end(), added.begin(), added.end());
+}
+
 void write_plain(const std::filesystem::path& path, FileFormat format, const MeshDocument& document,
                  const AddedArrays& added) {
   if (is_written_back(document, format)) {
@@ -51,8 +57,8 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
     return;
   }
   MeshDocument extended = document;
-  std::ranges::copy(added.point_arrays, std::back_inserter(extended.point_arrays));
-  std::ranges::copy(added.cell_arrays, std::back_inserter(extended.cell_arrays));
+  replace_annotations(extended.point_arrays, added.point_arrays);
+  replace_annotations(extended.cell_arrays, added.cell_arrays);
   codec_of(format).write(path, extended);
 }
 

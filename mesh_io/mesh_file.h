@@ -14,7 +14,8 @@ namespace trismooth {
 /// Complexity: linear in the file's size.
 MeshDocument read_mesh(const std::filesystem::path& path);
 
-/// Arrays to add to what a document holds, for the formats that have_arrays().
+/// Arrays to add to what a document holds, for the formats that have_arrays(). Where any is added, annotations of an
+/// earlier run (see annotation_names.h) that the document holds are left out: what they show is no more.
 struct AddedArrays {
   std::vector<DataArray> point_arrays;
   std::vector<DataArray> cell_arrays;

@@ -28,8 +28,7 @@ std::string counted(std::int64_t count, const std::string& noun) {
 }
 
 void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
-  std::int64_t degenerate = 0;
-  std::size_t first_degenerate = 0;
+  std::size_t first_repeating = 0;
   mesh.in_other_cell.assign(document.point_count(), 0);
   mesh.in_cell.assign(document.point_count(), 0);
   for (const std::int32_t v : document.cells.connectivity) {
@@ -45,20 +44,20 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
       mesh.cells.push_back(static_cast<std::int32_t>(c));
       continue;
     }
-    if (triangular && degenerate++ == 0) {
-      first_degenerate = c;
+    if (triangular && mesh.repeating_triangles++ == 0) {
+      first_repeating = c;
     }
     ++mesh.other_cells;
     for (const std::int32_t v : vertices) {
       mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
     }
   }
-  if (degenerate > 0) {
-    mesh.notes.push_back(counted(degenerate, "triangle") + " repeating a vertex (the first is cell " +
-                         std::to_string(first_degenerate) + "): kept as they are, their vertices held fixed");
+  if (mesh.repeating_triangles > 0) {
+    mesh.notes.push_back(counted(mesh.repeating_triangles, "triangle") + " repeating a vertex (the first is cell " +
+                         std::to_string(first_repeating) + "): kept as they are, their vertices held fixed");
   }
-  if (mesh.other_cells > degenerate) {
-    mesh.notes.push_back(counted(mesh.other_cells - degenerate, "cell") +
+  if (mesh.other_cells > mesh.repeating_triangles) {
+    mesh.notes.push_back(counted(mesh.other_cells - mesh.repeating_triangles, "cell") +
                          " of other types than triangle: kept as they are, their vertices held fixed");
   }
 }

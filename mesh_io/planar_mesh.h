@@ -21,9 +21,10 @@ struct PlanarMesh {
   std::vector<Triangle> triangles;          ///< in the document's order, each in the document's vertex order
   std::vector<std::int32_t> cells;          ///< the document's cell of each triangle
   std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
-  std::vector<std::uint8_t> in_cell;  ///< per vertex: 1 where any cell uses it; the others have no say in anything
-  std::int64_t other_cells = 0;       ///< cells that are not triangles
-  std::vector<std::string> notes;     ///< what the user should know, one sentence each
+  std::vector<std::uint8_t> in_cell;        ///< per vertex: 1 where any cell uses it; the others have no say at all
+  std::int64_t other_cells = 0;             ///< cells that are not triangles
+  std::int64_t repeating_triangles = 0;     ///< those of them that are triangles but for a vertex that they repeat
+  std::vector<std::string> notes;           ///< what the user should know, one sentence each
 };
 
 /// Finds the triangles and the plane of the document. A triangle that repeats a vertex counts as another cell: it is

@@ -4,6 +4,7 @@
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/coordinate_sites.h"
+#include "trismooth/mesh_io/vtk_legacy_annotations.h"
 #include "trismooth/mesh_io/vtk_legacy_layout.h"
 #include "trismooth/mesh_io/vtk_legacy_reader.h"
 #include "trismooth/mesh_io/vtk_legacy_writer.h"
@@ -23,19 +24,23 @@ class VtkLegacyFile : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays,
              std::span<const DataArray> added_cell_arrays) const override {
-    write_patched(path, bytes_, layout_.coordinates, document.points,
-                  suffix(document, added_point_arrays, added_cell_arrays));
+    if (added_point_arrays.empty() && added_cell_arrays.empty()) {
+      write_patched(path, bytes_, layout_.coordinates, document.points);
+      return;
+    }
+    const auto& edits = layout_.without_annotations;
+    const std::size_t unedited = edits.empty() ? bytes_.size() : edits.front().begin;
+    write_patched(path, std::string_view(bytes_).substr(0, unedited), layout_.coordinates, document.points,
+                  edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays));
   }
 
  private:
-  /// The added arrays, to stand behind the file's last byte. VTK's reader takes POINT_DATA after CELL_DATA and the
-  /// other way round, but neither after itself: arrays of the section that the file ends in stand first, as more of it.
+  /// The added arrays, to stand behind the file's last byte. Annotations of an earlier run are gone then. VTK's reader
+  /// takes POINT_DATA after CELL_DATA and the other way round, but neither after itself: arrays of the section that the
+  /// file ends in stand first, as more of it.
   std::string suffix(const MeshDocument& document, std::span<const DataArray> point_arrays,
                      std::span<const DataArray> cell_arrays) const {
     std::string text;
-    if (point_arrays.empty() && cell_arrays.empty()) {
-      return text;
-    }
     VtkLegacyOutput output(layout_.binary, [&](std::string_view block) { text += block; });
     // Ends an unfinished last line, and METADATA, which lasts until an empty line.
     output.text("\n\n");

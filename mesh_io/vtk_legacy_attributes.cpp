@@ -7,7 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/vtk_legacy_annotations.h"
 
 namespace trismooth {
 
@@ -26,8 +28,13 @@ class ArrayReader {
   ArrayReader(VtkLegacyInput& input, std::vector<std::string>& notes, ArrayTarget target)
       : input_(input), notes_(notes), target_(target) {}
 
+  /// Where what was read last stands; its own beginning and end are not set.
+  const VtkLegacyAnnotations::Attribute& sites() const { return sites_; }
+
   /// Reads what follows the keyword of an attribute of a section; false for another keyword.
   bool read_attribute(const std::string& keyword) {
+    sites_ = {};
+    array_begin_ = input_.offset();
     if (keyword == "scalars") {
       read_scalars();
     } else if (keyword == "color_scalars") {
@@ -69,7 +76,11 @@ class ArrayReader {
   void read_field_arrays(Check&& check) {
     input_.next_token("the name of a field");
     const std::uint64_t array_count = input_.next_count("the number of arrays");
+    sites_.declared_arrays = array_count;
+    sites_.count_begin = input_.value_offset();
+    sites_.count_end = input_.offset();
     for (std::uint64_t i = 0; i < array_count; ++i) {
+      array_begin_ = input_.offset();
       std::string encoded(input_.next_token("the name of an array"));
       if (encoded == "NULL_ARRAY") {
         continue;
@@ -168,6 +179,7 @@ class ArrayReader {
         break;
     }
     input_.skip_metadata(components);
+    sites_.arrays.back().end = input_.offset();
   }
 
   void add(DataArray array) {
@@ -175,19 +187,28 @@ class ArrayReader {
       input_.fail(std::string(target_.kind) + " array " + trismooth::quoted(array.name) + " has " +
                   std::to_string(array.components) + " components, but no rows");
     }
-    target_.names.push_back(array.name);
+    add_name(array.name);
     target_.arrays.push_back(std::move(array));
   }
 
   void note_skipped(std::string name, std::string_view content) {
     notes_.push_back(std::string(target_.kind) + " array " + trismooth::quoted(name) + " holds " +
                      std::string(content) + ": it is kept in this file only, not in other formats");
-    target_.names.push_back(std::move(name));
+    add_name(name);
+  }
+
+  void add_name(const std::string& name) {
+    sites_.arrays.push_back({name, array_begin_, input_.offset()});
+    if (!is_annotation(name)) {
+      target_.names.push_back(name);
+    }
   }
 
   VtkLegacyInput& input_;
   std::vector<std::string>& notes_;
   ArrayTarget target_;
+  VtkLegacyAnnotations::Attribute sites_;
+  std::size_t array_begin_ = 0;
 };
 
 }  // namespace
@@ -203,7 +224,8 @@ void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, V
   ArrayReader points(input, document.notes,
                      {document.point_arrays, layout.point_names, "point", document.point_count()});
   ArrayReader cells(input, document.notes, {document.cell_arrays, layout.cell_names, "cell", document.cells.size()});
-  while (!input.at_end()) {
+  VtkLegacyAnnotations annotations(input.bytes());
+  for (std::size_t begin = input.offset(); !input.at_end(); begin = input.offset()) {
     const std::string token(input.next_token("a keyword"));
     const std::string keyword = lower_case(token);
     if (keyword == "point_data" || keyword == "cell_data") {
@@ -214,13 +236,19 @@ void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, V
       if (rows != expected) {
         input.fail(token + " declares " + std::to_string(rows) + " rows; expected " + std::to_string(expected));
       }
+      annotations.start_section(layout.last_section, begin);
     } else {
       ArrayReader& section = layout.last_section == Section::point_data ? points : cells;
       if (!section.read_attribute(keyword)) {
         input.fail("unknown keyword " + trismooth::quoted(token) + " in the point and cell data");
       }
+      VtkLegacyAnnotations::Attribute attribute = section.sites();
+      attribute.begin = begin;
+      attribute.end = input.offset();
+      annotations.add(attribute);
     }
   }
+  annotations.finish(layout);
 }
 
 }  // namespace trismooth

@@ -21,6 +21,7 @@ class VtkLegacyInput {
   VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path);
 
   bool is_binary() const { return binary_; }
+  std::string_view bytes() const { return scanner_.text(); }
 
   /// True where nothing but white space is left.
   bool at_end() { return scanner_.at_end(); }
@@ -48,7 +49,9 @@ class VtkLegacyInput {
   T next_value(std::string_view what);
   /// The next value of a list of integers; of `type` in BINARY files, of up to 64 bits in ASCII ones.
   std::int64_t next_integer(ScalarType type, std::string_view what);
-  /// Byte offset of the value that was read last.
+  /// Byte offset of what is read next, before any white space.
+  std::size_t offset() const { return scanner_.offset(); }
+  /// Byte offset of the token or value that was read last.
   std::size_t value_offset() const { return binary_ ? place_ : scanner_.token_offset(); }
   /// begin_values(), then all of them.
   template <class T>

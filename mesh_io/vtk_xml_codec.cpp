@@ -21,6 +21,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/memory_block.h"
@@ -61,6 +62,15 @@ void add_arrays(std::span<const DataArray> arrays, vtkFieldData& fields) {
   }
 }
 
+void remove_annotations(vtkFieldData& fields) {
+  for (int i = fields.GetNumberOfArrays() - 1; i >= 0; --i) {
+    const char* const name = fields.GetAbstractArray(i)->GetName();
+    if (name != nullptr && is_annotation(name)) {
+      fields.RemoveArray(i);
+    }
+  }
+}
+
 class VtkXmlOriginal : public OriginalFile {
  public:
   explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {}
@@ -83,6 +93,10 @@ class VtkXmlOriginal : public OriginalFile {
     }
     points->CopyInformation(old_points->GetInformation(), 1);
     set_points(*copy, *points);
+    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
+      remove_annotations(*copy->GetPointData());
+      remove_annotations(*copy->GetCellData());
+    }
     add_arrays(added_point_arrays, *copy->GetPointData());
     add_arrays(added_cell_arrays, *copy->GetCellData());
     write_vtk_xml(path, *copy, file_.encoding);

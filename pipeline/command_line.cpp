@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -21,6 +22,7 @@
 #include "trismooth/pipeline/failure.h"
 #include "trismooth/pipeline/interrupt.h"
 #include "trismooth/pipeline/output_attempts.h"
+#include "trismooth/pipeline/shell_words.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 
@@ -110,6 +112,13 @@ ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const Comm
   return chosen->run();
 }
 
+/// With the program's name alone, so that reports hold no path of the machine that nobody gave.
+std::string typed_command(int argc, const char* const* argv) {
+  std::vector<std::string> words{"trismooth"};
+  words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
+  return shell_command(words);
+}
+
 /// A standard stream that whoever started the program has closed is opened so that using it fails all the same. Else
 /// the first files opened got these numbers, and messages would go into them.
 void reserve_standard_streams() {
@@ -144,9 +153,11 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
   app.set_help_flag("--help,-h", "Print this help and exit");
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
+  CommandEnvironment named = environment;
   ExitCode code = ExitCode::done;
   try {
-    code = run_chosen(app, argc, argv, environment);
+    named.command = typed_command(argc, argv);
+    code = run_chosen(app, argc, argv, named);
     flush_results(environment.out);
   } catch (...) {
     code = report_failure(environment.err);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <ostream>
+#include <string>
 
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/pipeline.h"
@@ -15,6 +16,7 @@ struct CommandEnvironment {
   bool err_is_terminal = false;  ///< progress is shown
   std::function<PipelineResult(const PipelineOptions&)> run = &run_pipeline;
   std::function<CudaSupport()> cuda = &cuda_support;
+  std::string command = {};  ///< what was typed, for reports; run_command_line() fills it
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -35,6 +36,9 @@ std::optional<double> find_value(std::string_view name, const QualityReport& rep
   }
   if (name == "inverted") {
     return static_cast<double>(report.inverted);
+  }
+  if (name == "degenerate") {
+    return static_cast<double>(report.degenerate);
   }
   // The extreme angles of the mesh go by the metrics' own names: nobody means min_min_angle by another.
   if (name == info(Metric::min_angle).name) {
@@ -95,7 +99,7 @@ std::string distinct_number(double value, double bound) {
 }  // namespace
 
 std::vector<std::string> gate_names() {
-  std::vector<std::string> names{"triangles", "inverted", std::string(info(Metric::min_angle).name),
+  std::vector<std::string> names{"triangles", "inverted", "degenerate", std::string(info(Metric::min_angle).name),
                                  std::string(info(Metric::max_angle).name)};
   for (const MetricInfo& metric : all_metrics()) {
     for (const auto& [prefix, statistic] : statistics) {
@@ -113,13 +117,10 @@ double gate_value(std::string_view name, const QualityReport& report) {
   for (const auto& [prefix, statistic] : statistics) {
     prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
   }
-  std::string metrics;
-  for (const MetricInfo& metric : all_metrics()) {
-    metrics.append(metrics.empty() ? "" : ", ").append(metric.name);
-  }
-  throw std::invalid_argument(fmt::format(
-      "unknown metric '{}'; valid are triangles, inverted, min_angle, max_angle, and one of {} before one of {}", name,
-      prefixes, metrics));
+  throw std::invalid_argument(
+      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, min_angle, max_angle, and one of {} "
+                  "before one of {}",
+                  name, prefixes, metric_names()));
 }
 
 Gate parse_gate(std::string_view text) {
@@ -141,15 +142,22 @@ Gate parse_gate(std::string_view text) {
   return gate;
 }
 
-std::optional<std::string> gate_failure(const Gate& gate, const QualityReport& report) {
+GateOutcome check_gate(const Gate& gate, const QualityReport& report) {
   const double value = gate_value(gate.name, report);
-  if (holds(value, gate.comparison, gate.bound)) {
-    return std::nullopt;
-  }
-  const std::string demand =
-      fmt::format("gate failed: {} {} {}", gate.name, to_string(gate.comparison), number(gate.bound));
-  return std::isnan(value) ? demand + ", is not defined for this mesh"
-                           : demand + ", is " + distinct_number(value, gate.bound);
+  return {gate, value, holds(value, gate.comparison, gate.bound)};
+}
+
+std::string gate_text(const Gate& gate) {
+  return fmt::format("{} {} {}", gate.name, to_string(gate.comparison), number(gate.bound));
+}
+
+std::string gate_value_text(const GateOutcome& outcome) {
+  return std::isnan(outcome.value) ? "not defined" : distinct_number(outcome.value, outcome.gate.bound);
+}
+
+std::string gate_failure(const GateOutcome& outcome) {
+  return fmt::format("gate failed: {}, is {}{}", gate_text(outcome.gate), gate_value_text(outcome),
+                     std::isnan(outcome.value) ? " for this mesh" : "");
 }
 
 }  // namespace trismooth

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,15 +34,31 @@ struct Gate {
 /// message lists the valid ones.
 Gate parse_gate(std::string_view text);
 
-/// Every name that a gate may have: triangles, inverted, min_angle and max_angle (the smallest and the largest angle of
-/// the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1).
+/// How a gate went.
+struct GateOutcome {
+  Gate gate;
+  double value = 0;  ///< of the mesh; NaN where it is not defined, as in a mesh without triangles
+  bool passed = false;
+};
+
+/// Every name that a gate may have: triangles, inverted, degenerate, min_angle and max_angle (the smallest and the
+/// largest angle of the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M (the acceptable
+/// fraction, 0 to 1).
 std::vector<std::string> gate_names();
 
 /// The value of that name in the report. Throws std::invalid_argument for a name that is not one of gate_names().
 double gate_value(std::string_view name, const QualityReport& report);
 
-/// Nothing where the report meets the gate; otherwise what is wrong: "gate failed: min_shape >= 0.3, is 0.2134". A
-/// value that is not a number (that of a mesh without triangles) meets no gate.
-std::optional<std::string> gate_failure(const Gate& gate, const QualityReport& report);
+/// Whether the report meets the gate. A value that is not a number meets none.
+GateOutcome check_gate(const Gate& gate, const QualityReport& report);
+
+/// "min_shape >= 0.3": the demand.
+std::string gate_text(const Gate& gate);
+
+/// "0.2134": the value, in four digits or in as many as it takes to be told from the bound; "not defined".
+std::string gate_value_text(const GateOutcome& outcome);
+
+/// "gate failed: min_shape >= 0.3, is 0.2134": for the user of a gate that did not pass.
+std::string gate_failure(const GateOutcome& outcome);
 
 }  // namespace trismooth

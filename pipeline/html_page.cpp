@@ -19,9 +19,12 @@ std::string html_section(std::string_view title, std::string_view content) {
   return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
 }
 
-std::string html_cell(std::string_view content, std::string_view classes) {
-  return classes.empty() ? fmt::format("<td>{}</td>", content)
-                         : fmt::format("<td class=\"{}\">{}</td>", classes, content);
+std::string html_cell(std::string_view content, std::string_view classes, std::string_view label) {
+  const auto attribute = [](std::string_view name, const std::string& value) {
+    return value.empty() ? std::string{} : fmt::format(" {}=\"{}\"", name, value);
+  };
+  return fmt::format("<td{}{}>{}</td>", attribute("class", std::string(classes)),
+                     attribute("data-label", escape_html(label)), content);
 }
 
 std::string html_list(const std::vector<std::string>& texts) {

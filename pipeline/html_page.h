@@ -14,8 +14,9 @@ std::string html_page(std::string_view title, std::string_view body, std::string
 /// A part of a page under a heading.
 std::string html_section(std::string_view title, std::string_view content);
 
-/// A cell of a table, of these classes.
-std::string html_cell(std::string_view content, std::string_view classes = "");
+/// A cell of a table, of these classes. In a table of the class "stack", which narrow windows show without its head,
+/// `label` (text) is what the column is called.
+std::string html_cell(std::string_view content, std::string_view classes = "", std::string_view label = "");
 
 /// A list of points, each of them text.
 std::string html_list(const std::vector<std::string>& texts);

@@ -31,7 +31,7 @@ const QualityReport& final_report(const PipelineResult& result) {
   return result.after ? *result.after : result.before;
 }
 
-std::string header(const PipelineOptions& options, const PipelineResult& result) {
+std::string header(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
   const InputSummary& input = result.input;
   std::string counts =
       fmt::format("{} vertices, {} triangles", count_text(input.vertices), count_text(input.triangles));
@@ -41,15 +41,17 @@ std::string header(const PipelineOptions& options, const PipelineResult& result)
   std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
                                  options.output ? "Mesh smoothing report" : "Mesh quality report",
                                  escape_html(input.path.filename().string()), counts);
-  if (options.output) {
-    html +=
-        fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n", escape_html(options.output->string()));
+  if (const auto& written = options.written()) {
+    html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n", escape_html(written->string()));
+  }
+  if (!record.date.empty()) {
+    html += fmt::format("<div class=\"soft\">{}</div>\n", escape_html(record.date));
   }
   return html + "</header>\n";
 }
 
 /// The outcome in one sentence or two.
-std::string lead(const PipelineResult& result) {
+std::string lead(const PipelineResult& result, const RunRecord& record) {
   const QualityReport& last = final_report(result);
   std::string text;
   if (last.triangles == 0) {
@@ -67,10 +69,19 @@ std::string lead(const PipelineResult& result) {
   } else if (last.triangles > 0) {
     text += " No triangle is inverted.";
   }
+  if (last.degenerate > 0) {
+    text += fmt::format(" {} without area.",
+                        last.degenerate == 1 ? "1 triangle is" : count_text(last.degenerate) + " triangles are");
+  }
+  const auto failed = std::ranges::count(record.gates, false, &GateOutcome::passed);
+  if (failed > 0) {
+    text += fmt::format(" {} of {} gate{} failed.", failed, record.gates.size(), record.gates.size() == 1 ? "" : "s");
+  }
   if (result.smoothing && !result.smoothing->reproducible) {
     text += fmt::format(" Not reproducible: {}.", escape_html(not_reproducible_text()));
   }
-  return fmt::format("<p class=\"lead{}\">{}</p>\n", last.inverted > 0 ? " bad" : "", text);
+  const bool bad = last.inverted > 0 || last.degenerate > 0 || failed > 0;
+  return fmt::format("<p class=\"lead{}\">{}</p>\n", bad ? " bad" : "", text);
 }
 
 std::string card(std::string_view label, const std::string& value, const std::string& detail) {
@@ -104,11 +115,14 @@ std::string cards(const PipelineResult& result) {
                       "largest angle " + number_text(last[Metric::max_angle].max, decimals(Metric::max_angle)) + "°");
   const std::string inverted =
       fmt::format("<span class=\"{}\">{}</span>", last.inverted > 0 ? "bad" : "good", count_text(last.inverted));
-  html += card("Inverted triangles",
-               result.after
-                   ? fmt::format("<span class=\"from\">{} →</span> {}", count_text(result.before.inverted), inverted)
+  html += card(
+      "Inverted triangles",
+      result.after ? fmt::format("<span class=\"from\">{} →</span> {}", count_text(result.before.inverted), inverted)
                    : inverted,
-               fmt::format("of {}", count_text(last.triangles)));
+      fmt::format("of {}; {} degenerate", count_text(last.triangles),
+                  result.after && result.before.degenerate != last.degenerate
+                      ? fmt::format("{} → {}", count_text(result.before.degenerate), count_text(last.degenerate))
+                      : count_text(last.degenerate)));
   const InputSummary& input = result.input;
   html += card("Free vertices", count_text(input.free_vertices),
                fmt::format("{} fixed{}", count_text(input.fixed_vertices),
@@ -129,17 +143,17 @@ std::string metric_name_cell(const MetricInfo& metric) {
 
 std::string metric_table(const QualityReport& report) {
   std::string html =
-      "<table>\n<thead><tr><th>metric</th><th>min</th><th>mean</th><th>max</th><th>std. deviation</th>"
+      "<table class=\"stack\">\n<thead><tr><th>metric</th><th>min</th><th>mean</th><th>max</th><th>std. deviation</th>"
       "<th>acceptable %</th></tr></thead>\n<tbody>\n";
   for (const MetricInfo& metric : all_metrics()) {
     const MetricSummary& summary = report[metric.metric];
     const int digits = decimals(metric.metric);
     html += "<tr>" + metric_name_cell(metric) +
-            html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "") +
-            html_cell(number_text(summary.mean, digits)) +
-            html_cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong") +
-            html_cell(number_text(summary.stddev, digits)) + html_cell(percent_text(summary.acceptable_fraction)) +
-            "</tr>\n";
+            html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "", "min") +
+            html_cell(number_text(summary.mean, digits), "", "mean") +
+            html_cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong", "max") +
+            html_cell(number_text(summary.stddev, digits), "", "std. deviation") +
+            html_cell(percent_text(summary.acceptable_fraction), "", "acceptable %") + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -153,7 +167,7 @@ std::string_view verdict_class(std::string_view verdict) {
 
 std::string metric_table(const QualityReport& before, const QualityReport& after) {
   std::string html =
-      "<table>\n<thead><tr><th></th><th class=\"group start\" colspan=\"2\">min</th>"
+      "<table class=\"stack\">\n<thead><tr><th></th><th class=\"group start\" colspan=\"2\">min</th>"
       "<th class=\"group start\" colspan=\"2\">mean</th><th class=\"group start\" colspan=\"2\">max</th>"
       "<th class=\"group start\" colspan=\"2\">acceptable %</th><th></th></tr>\n<tr><th>metric</th>";
   for (int group = 0; group < 4; ++group) {
@@ -165,15 +179,16 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
     const MetricSummary& to = after[metric.metric];
     const int digits = decimals(metric.metric);
     // The bad end of the range is what decides: it stands out, in enough digits to see a change.
-    const auto end_of_range = [&](double MetricSummary::*value, bool is_bad_end) {
+    const auto end_of_range = [&](std::string_view label, double MetricSummary::*value, bool is_bad_end) {
       const TextPair texts = is_bad_end ? distinct_texts(from.*value, to.*value, digits)
                                         : TextPair{number_text(from.*value, digits), number_text(to.*value, digits)};
-      return html_cell(texts.before, "start") + html_cell(texts.after, is_bad_end ? "strong" : "");
+      return html_cell(texts.before, "start", label) + html_cell(texts.after, is_bad_end ? "strong" : "");
     };
     const std::string_view judged = verdict(metric.metric, from, to);
-    html += "<tr>" + metric_name_cell(metric) + end_of_range(&MetricSummary::min, metric.larger_is_better) +
-            end_of_range(&MetricSummary::mean, false) + end_of_range(&MetricSummary::max, !metric.larger_is_better) +
-            html_cell(percent_text(from.acceptable_fraction), "start") +
+    html += "<tr>" + metric_name_cell(metric) + end_of_range("min", &MetricSummary::min, metric.larger_is_better) +
+            end_of_range("mean", &MetricSummary::mean, false) +
+            end_of_range("max", &MetricSummary::max, !metric.larger_is_better) +
+            html_cell(percent_text(from.acceptable_fraction), "start", "acceptable %") +
             html_cell(percent_text(to.acceptable_fraction)) + html_cell(std::string(judged), verdict_class(judged)) +
             "</tr>\n";
   }
@@ -198,7 +213,7 @@ std::string worst_table(std::string_view title, const QualityReport& report) {
   for (const WorstElement& element : report.worst) {
     html += "<tr>" + html_cell(std::to_string(element.triangle)) +
             html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
-            html_cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y)) + "</tr>\n";
+            html_cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y), "text") + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }
@@ -209,10 +224,19 @@ std::string worst_tables(const PipelineResult& result) {
   return "<div class=\"two\">\n" + tables + "</div>\n";
 }
 
+std::string gates_table(const std::vector<GateOutcome>& gates) {
+  std::string html = "<table>\n<thead><tr><th>demanded</th><th>is</th><th></th></tr></thead>\n<tbody>\n";
+  for (const GateOutcome& outcome : gates) {
+    html += "<tr>" + html_cell(escape_html(gate_text(outcome.gate)), "text") + html_cell(gate_value_text(outcome)) +
+            html_cell(outcome.passed ? "passed" : "failed", outcome.passed ? "word good" : "word bad") + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
 std::string row_table(const Rows& rows) {
   std::string html = "<table>\n<tbody>\n";
   for (const auto& [name, value] : rows) {
-    html += "<tr>" + html_cell(name) + html_cell(value) + "</tr>\n";
+    html += "<tr>" + html_cell(name) + html_cell(value, "text") + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -289,25 +313,31 @@ std::string timings_table(const PipelineTimings& timings) {
          fmt::format("<tr><td>total</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n", duration_text(timings.total));
 }
 
-std::string footer(const PipelineResult& result) {
+std::string footer(const PipelineResult& result, const RunRecord& record) {
   const std::string hash =
       result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
-  return fmt::format("<footer>trismooth {}; input <code>{}</code>{}; peak memory {}</footer>\n", version(),
+  const std::string command =
+      record.command.empty() ? std::string{} : fmt::format("<div><code>{}</code></div>\n", escape_html(record.command));
+  return fmt::format("<footer>\n{}trismooth {}; input <code>{}</code>{}; peak memory {}</footer>\n", command, version(),
                      escape_html(result.input.path.string()), hash, bytes_text(result.peak_memory_bytes));
 }
 
-std::string body(const PipelineOptions& options, const PipelineResult& result) {
-  std::string html = header(options, result) + lead(result);
+std::string body(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  std::string html = header(options, result, record) + lead(result, record);
   const QualityReport* const after = after_of(result);
   if (result.before.triangles > 0) {
     html += cards(result);
+  }
+  if (!record.gates.empty()) {
+    html += html_section("Gates", gates_table(record.gates));
+  }
+  if (result.before.triangles > 0) {
     html +=
         html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
     html += html_section("Distribution of shape", histogram(result));
   }
   if (result.smoothing && !result.smoothing->history.empty()) {
-    html += html_section("Convergence", "<h3>vertices moved in each sweep</h3>\n<figure>\n" +
-                                            convergence_svg(result.smoothing->history) + "</figure>\n");
+    html += html_section("Convergence", "<figure>\n" + convergence_svg(result.smoothing->history) + "</figure>\n");
   }
   if (!result.before.worst.empty()) {
     html += html_section("Worst elements", worst_tables(result));
@@ -325,13 +355,13 @@ std::string body(const PipelineOptions& options, const PipelineResult& result) {
     html += "<div class=\"two\">\n" + html_section("Options", options_table(options, *result.smoothing)) +
             html_section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
   }
-  return html + html_section("Time", timings_table(result.timings_ms)) + footer(result);
+  return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);
 }
 
 }  // namespace
 
-std::string html_report(const PipelineOptions& options, const PipelineResult& result) {
-  return html_page(result.input.path.filename().string(), body(options, result));
+std::string html_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  return html_page(result.input.path.filename().string(), body(options, result, record));
 }
 
 }  // namespace trismooth

@@ -42,6 +42,7 @@ thead tr:last-child th { border-bottom: 1px solid var(--soft); }
 th.group { text-align: center; border-bottom: 0; padding-bottom: 0; }
 td.start, th.start { border-left: 1px solid var(--line); }
 td.strong { font-weight: 650; }
+td.text { white-space: normal; overflow-wrap: anywhere; }
 tr { break-inside: avoid; }
 .two { display: grid; grid-template-columns: 1fr 1fr; gap: 0 40px; }
 figure { margin: 0; break-inside: avoid; }
@@ -50,7 +51,7 @@ figure { margin: 0; break-inside: avoid; }
             vertical-align: -1px; }
 i.before { background: var(--before); }
 i.after { background: var(--after); }
-svg.chart { display: block; width: 100%; height: auto; }
+svg.chart { display: block; width: calc(100% - 64px); margin-left: 48px; overflow: visible; }
 svg.chart text { fill: var(--soft); font-size: 12px; }
 svg.chart .grid { stroke: var(--line); stroke-width: 1; }
 svg.chart rect.before { fill: var(--before); }
@@ -63,7 +64,25 @@ svg.chart .dot { fill: #fff; stroke: var(--after); stroke-width: 2; }
 ul { margin: 0; padding-left: 20px; }
 code { font: 13px ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px; color: var(--soft); font-size: 13px; }
-@media (max-width: 760px) { .cards, .two { grid-template-columns: 1fr; } }
+@media (max-width: 760px) { .cards, .two { grid-template-columns: minmax(0, 1fr); } }
+@media (max-width: 600px) {
+  main { padding: 20px 16px 32px; }
+  h1 { font-size: 24px; }
+  .card .value, th, td { white-space: normal; overflow-wrap: anywhere; }
+  th, td { padding: 6px 4px; }
+  /* A row of many columns becomes a block: its name over lines of one value, or of two, before and after. */
+  table.stack, table.stack tbody { display: block; }
+  table.stack thead { display: none; }
+  table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; padding: 8px 0; gap: 2px 0;
+                   border-bottom: 1px solid var(--line); }
+  table.stack td { border: 0; padding: 0; white-space: nowrap; }
+  table.stack td:first-child { grid-area: 1 / 1; font-weight: 650; }
+  table.stack td.word { grid-area: 1 / 2; text-align: right; }
+  table.stack td[data-label] { display: flex; justify-content: space-between; grid-column: 1 / -1; }
+  table.stack td.start { grid-column: 1; }
+  table.stack td[data-label]::before { content: attr(data-label); color: var(--soft); }
+  table.stack td.start + td::before { content: "→ "; color: var(--soft); }
+}
 @media print { main { max-width: none; padding: 0; } body { font-size: 11pt; } h2 { break-after: avoid; }
                .cards { grid-template-columns: repeat(3, 1fr); } @page { margin: 16mm; } }
 )css";

@@ -50,7 +50,13 @@ Json input_json(const InputSummary& input) {
 
 Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
   const SmoothingOptions& smoothing = options.smoothing;
-  return {{"output", options.output ? Json(options.output->string()) : Json(nullptr)},
+  const auto& written = options.written();
+  Json annotated = Json::array();
+  for (const Metric metric : options.annotated_metrics) {
+    annotated.push_back(std::string(info(metric).name));
+  }
+  const bool annotates = options.annotate || options.annotated.has_value();
+  return {{"output", written ? Json(written->string()) : Json(nullptr)},
           {"method", name_of(smoothing.method)},
           {"form", name_of(smoothing.form)},
           {"layout", name_of(smoothing.layout)},
@@ -68,7 +74,8 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"region_array", text_or_null(options.region_array)},
           {"fixed_array", text_or_null(options.fixed_array)},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
-          {"annotate", options.annotate}};
+          {"annotate", annotates},
+          {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
 }
 
 Json quality_json(const QualityReport& report) {
@@ -89,9 +96,23 @@ Json quality_json(const QualityReport& report) {
   }
   return {{"triangles", report.triangles},
           {"inverted", report.inverted},
+          {"degenerate", report.degenerate},
           {"metrics", std::move(metrics)},
           {"histogram", {{"shape", report.shape_histogram}}},
           {"worst", std::move(worst)}};
+}
+
+Json gates_json(const std::vector<GateOutcome>& outcomes) {
+  Json gates = Json::array();
+  for (const GateOutcome& outcome : outcomes) {
+    gates.push_back({{"gate", gate_text(outcome.gate)},
+                     {"name", outcome.gate.name},
+                     {"comparison", name_of(outcome.gate.comparison)},
+                     {"bound", number_json(outcome.gate.bound)},
+                     {"value", number_json(outcome.value)},
+                     {"passed", outcome.passed}});
+  }
+  return gates;
 }
 
 Json smoothing_json(const SmoothingResult& smoothing) {
@@ -129,12 +150,15 @@ Json timings_json(const PipelineTimings& timings) {
 
 }  // namespace
 
-std::string json_report(const PipelineOptions& options, const PipelineResult& result) {
+std::string json_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
   const Json report{{"trismooth", std::string(version())},
+                    {"date", record.date},
+                    {"command", record.command},
                     {"input", input_json(result.input)},
                     {"options", options_json(options, result.smoothing)},
                     {"before", quality_json(result.before)},
                     {"after", result.after ? quality_json(*result.after) : Json(nullptr)},
+                    {"gates", gates_json(record.gates)},
                     {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
                     {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
                     {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/run_record.h"
 
 namespace trismooth {
 
@@ -11,6 +12,6 @@ namespace trismooth {
 /// it was not recorded, limits that were not set) is null, as are numbers that are not finite. Numbers read back to the
 /// same value. "options" states what took effect: the backend that ran, the threads that were used. Text that is not
 /// UTF-8 (in file names) has U+FFFD in its place.
-std::string json_report(const PipelineOptions& options, const PipelineResult& result);
+std::string json_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record = {});
 
 }  // namespace trismooth

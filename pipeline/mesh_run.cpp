@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/mesh_run.h"
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -13,6 +14,7 @@
 #include "trismooth/mesh_io/memory_block.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/output_file.h"
+#include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/output_attempts.h"
@@ -64,7 +66,7 @@ void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream
 /// A report must not overwrite what is read or written in the same run, under whatever name.
 void require_own_file(const std::filesystem::path& report, const PipelineOptions& options) {
   std::error_code error;  // what does not exist is no other's file
-  for (const auto& other : {std::optional(options.input), options.output, options.fixed_ids}) {
+  for (const auto& other : {std::optional(options.input), options.written(), options.fixed_ids}) {
     if (other && std::filesystem::equivalent(report, *other, error)) {
       throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other->string());
     }
@@ -73,12 +75,13 @@ void require_own_file(const std::filesystem::path& report, const PipelineOptions
 
 /// A place where no file can be made is told before the work, not after it.
 void try_outputs(const MeshRunSettings& settings) {
-  if (settings.pipeline.output) {
-    output_format(*settings.pipeline.output);
-    const OutputFile attempt(*settings.pipeline.output);
+  const PipelineOptions& options = settings.pipeline;
+  if (const auto& target = options.written()) {
+    output_format(*target);
+    const OutputFile attempt(*target);
   }
   for (const std::filesystem::path& report : settings.reports) {
-    require_own_file(report, settings.pipeline);
+    require_own_file(report, options);
     const OutputFile attempt(report);
   }
 }
@@ -169,8 +172,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by\n"
       ">= <= > < ==; names: min_angle, max_angle, inverted,\n"
-      "triangles, and min_, mean_, max_, stddev_ or\n"
-      "acceptable_ before a metric: min_shape. Repeatable",
+      "degenerate, triangles, and min_, mean_, max_, stddev_\n"
+      "or acceptable_ before a metric: min_shape. Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
       ->group(option_group::results);
   const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
@@ -186,19 +189,31 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_verbosity_flag("--verbose", Verbosity::verbose, "Print every sweep, note and time");
 }
 
+void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings) {
+  add_parsed_option(command, "--annotate-metrics", "M,M,...",
+                    "Metrics that --annotate shows: shape, min_angle, ...;\nall names are in README [shape]",
+                    [&settings](const std::string& text) { settings.pipeline.annotated_metrics = parse_metrics(text); })
+      ->needs("--annotate")
+      ->group(option_group::results);
+}
+
 ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environment) {
   PipelineOptions& options = settings.pipeline;
   const Verbosity verbosity = settings.verbosity;
   options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
 
+  RunRecord record{environment.command, date_text(std::chrono::system_clock::now()), {}};
   try_outputs(settings);
   const PipelineResult result = run_watched(options, verbosity, environment);
 
+  for (const Gate& gate : settings.gates) {
+    record.gates.push_back(check_gate(gate, result.after ? *result.after : result.before));
+  }
   // Files first: a reader of the standard output that goes away (head) ends the program.
   const auto lost = std::erase_if(settings.reports, [&](const std::filesystem::path& report) {
     return !could_write(report, environment.err, [&] {
       require_host_memory(report_bytes(result));
-      write_report(report, options, result);
+      write_report(report, options, result, record);
     });
   });
   std::exception_ptr not_printed;
@@ -218,9 +233,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     environment.err << timings_line(result.timings_ms) << '\n';
   }
   ExitCode code = ExitCode::done;
-  for (const Gate& gate : settings.gates) {
-    if (const auto failure = gate_failure(gate, result.after ? *result.after : result.before)) {
-      environment.err << *failure << '\n';
+  for (const GateOutcome& outcome : record.gates) {
+    if (!outcome.passed) {
+      environment.err << gate_failure(outcome) << '\n';
       code = ExitCode::gate_failed;
     }
   }

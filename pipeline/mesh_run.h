@@ -33,6 +33,7 @@ inline constexpr const char* results = "Results";
 /// The options that these commands share, in their groups. `settings` must outlive the parsing.
 void add_mesh_options(CLI::App& command, MeshRunSettings& settings);
 void add_result_options(CLI::App& command, MeshRunSettings& settings);
+void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings);
 
 /// Runs the pipeline with progress and cancellation, prints the result, writes the reports and checks the gates.
 /// Throws what run_pipeline() throws, WriteError for a report.

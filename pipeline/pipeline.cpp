@@ -11,6 +11,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
+#include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
@@ -44,8 +45,8 @@ class Run {
   PipelineResult run() {
     const auto start = Clock::now();
     options_.smoothing.validate();
-    if (options_.output) {
-      output_format(*options_.output);  // an unknown extension is said before any work
+    if (const auto& target = options_.written()) {
+      output_format(*target);  // an unknown extension is said before any work
     }
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
@@ -55,7 +56,9 @@ class Run {
       begin(Stage::smooth);
       smooth();
       timed(Stage::check_after, result_.timings_ms.check_after, [&] { result_.after = check(); });
-      timed(Stage::write, result_.timings_ms.write, [&] { write(); });
+      timed(Stage::write, result_.timings_ms.write, [&] { write(*options_.output, options_.annotate); });
+    } else if (options_.annotated) {
+      timed(Stage::write, result_.timings_ms.write, [&] { write(*options_.annotated, true); });
     }
     result_.timings_ms.total = milliseconds_since(start);
     result_.peak_memory_bytes = peak_memory_bytes();
@@ -152,8 +155,8 @@ class Run {
   }
 
   QualityReport check() {
-    QualityReport report = quality_report({local_, mesh_.triangles, found_.reversed, frame_.exponent},
-                                          {.threads = options_.smoothing.threads});
+    QualityReport report = quality_report(view(), {.threads = options_.smoothing.threads});
+    report.degenerate += mesh_.repeating_triangles;
     for (WorstElement& element : report.worst) {
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
       element.centroid = frame_.leave(element.centroid);
@@ -181,6 +184,7 @@ class Run {
   void smooth() {
     if (options_.annotate) {
       input_points_ = document_.points;
+      metrics_before_ = metrics_of_cells("_before");
     }
     const std::vector<Point2<double>> input_points = mesh_.points;
     const bool wants_shape = options_.smoothing.target_quality || options_.smoothing.record_min_shape;
@@ -217,30 +221,48 @@ class Run {
     result_.uncommitted_hash = coordinates_hash(uncommitted);
   }
 
-  void write() {
-    const FileFormat target = output_format(*options_.output);
+  void write(const std::filesystem::path& path, bool annotate) {
+    const FileFormat target = output_format(path);
     std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.losses));
-    const bool annotates = options_.annotate && has_arrays(target);
-    if (options_.annotate && !annotates) {
+    const bool annotates = annotate && has_arrays(target);
+    if (annotate && !annotates) {
       result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
     }
-    write_mesh(*options_.output, document_, annotates ? annotations() : AddedArrays{});
+    if (!annotates && has_arrays(target)) {
+      note_old_annotations();
+    }
+    write_mesh(path, document_, annotates ? annotations() : AddedArrays{});
+  }
+
+  void note_old_annotations() {
+    std::string names;
+    for (const auto& arrays : {std::span(document_.cell_arrays), std::span(document_.point_arrays)}) {
+      for (const DataArray& array : arrays) {
+        if (is_annotation(array.name)) {
+          names.append(names.empty() ? "" : ", ").append(array.name);
+        }
+      }
+    }
+    if (!names.empty()) {
+      result_.notes.push_back("annotations of an earlier run are kept, and show that mesh: " + names +
+                              "; --annotate makes new ones");
+    }
+  }
+
+  TriangleView view() const { return {local_, mesh_.triangles, found_.reversed, frame_.exponent}; }
+
+  std::vector<DataArray> metrics_of_cells(std::string_view suffix = {}) const {
+    return metric_annotations(options_.annotated_metrics, view(), mesh_.cells, document_.cells.size(), suffix);
   }
 
   AddedArrays annotations() const {
-    std::vector<double> shapes(document_.cells.size(), 0.0);  // cells that are no triangles have none
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto [a, b, c] = canonical_corners(mesh_.triangles[t], found_.reversed[t] != 0);
-      shapes[static_cast<std::size_t>(mesh_.cells[t])] = trismooth::shape(local_[a], local_[b], local_[c]);
-    }
-    std::vector<std::uint8_t> flags(found_.fixed.size());
-    std::ranges::transform(found_.fixed, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
-    std::vector<double> displacements(document_.points.size());
-    std::ranges::transform(document_.points, input_points_, displacements.begin(), std::minus<>());
     AddedArrays added;
-    added.cell_arrays.push_back(make_data_array("shape", 1, std::move(shapes)));
-    added.point_arrays.push_back(make_data_array("fixed", 1, std::move(flags)));
-    added.point_arrays.push_back(make_data_array("displacement", 3, std::move(displacements)));
+    added.cell_arrays = metrics_of_cells();
+    std::ranges::copy(metrics_before_, std::back_inserter(added.cell_arrays));
+    added.point_arrays.push_back(fixed_annotation(found_.fixed));
+    if (result_.smoothing) {
+      added.point_arrays.push_back(displacement_annotation(input_points_, document_.points));
+    }
     return added;
   }
 
@@ -252,7 +274,8 @@ class Run {
   LocalFrame frame_;
   std::vector<Point2<double>> local_;  ///< mesh_.points in the local frame
   MeshRings found_;
-  std::vector<double> input_points_;  ///< for --annotate
+  std::vector<double> input_points_;       ///< for annotations of a smoothing
+  std::vector<DataArray> metrics_before_;  ///< likewise
 };
 
 }  // namespace

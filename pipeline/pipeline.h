@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
@@ -37,9 +38,15 @@ struct PipelineOptions {
   std::optional<std::string> region_array;         ///< absent: see find_regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
-  bool annotate = false;                           ///< add shape, fixed and displacement to VTK output
-  std::function<Progress(Stage)> stage_started;    ///< may answer stop: Cancelled is thrown then
+  bool annotate = false;                           ///< add arrays to the output, see annotations.h
+  /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
+  std::optional<std::filesystem::path> annotated;
+  std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
+  std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
+
+  /// The mesh file that the run writes, if any.
+  const std::optional<std::filesystem::path>& written() const { return output ? output : annotated; }
 };
 
 /// The run was stopped by a callback; nothing was written.
@@ -71,8 +78,8 @@ struct PipelineTimings {
 /// What a run did and found. Cells and centroids of worst elements are those of the file.
 struct PipelineResult {
   InputSummary input;
-  QualityReport before;
-  std::optional<QualityReport> after;        ///< absent where nothing was smoothed
+  QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
+  std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;  ///< likewise
   std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
   std::uint64_t uncommitted_hash = 0;        ///< the same before the commit

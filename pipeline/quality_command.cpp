@@ -1,10 +1,33 @@
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
+#include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/mesh_run.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/subcommands.h"
 
 namespace trismooth {
+
+namespace {
+
+/// What is asked for is arrays: a file without them would be no answer.
+void require_arrays(const std::filesystem::path& path) {
+  const auto format = format_of(path);
+  if (!format || has_arrays(*format)) {
+    return;  // an unknown extension is told where the file is to be made
+  }
+  std::string formats;
+  for (const FileFormat other : all_formats()) {
+    if (has_arrays(other)) {
+      formats.append(formats.empty() ? "." : ", .").append(to_string(other));
+    }
+  }
+  throw std::invalid_argument("'" + path.string() + "' can hold no arrays; formats that do are " + formats);
+}
+
+}  // namespace
 
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment) {
   const auto settings = std::make_shared<MeshRunSettings>();
@@ -14,6 +37,15 @@ Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environm
       ->required();
   add_mesh_options(command, *settings);
   add_result_options(command, *settings);
+  add_parsed_option(command, "--annotate", "OUT",
+                    "Write the mesh with arrays that show what was found:\n"
+                    "trismooth:shape (cells) and trismooth:fixed (points)",
+                    [settings](const std::string& text) {
+                      require_arrays(text);
+                      settings->pipeline.annotated = text;
+                    })
+      ->group(option_group::results);
+  add_annotated_metrics_option(command, *settings);
   return {&command, [settings, &environment] { return run_on_mesh(*settings, environment); }};
 }
 

@@ -11,7 +11,7 @@ namespace trismooth {
 
 namespace {
 
-using ReportWriter = std::string (*)(const PipelineOptions&, const PipelineResult&);
+using ReportWriter = std::string (*)(const PipelineOptions&, const PipelineResult&, const RunRecord&);
 
 ReportWriter writer_of(const std::filesystem::path& path) {
   static constexpr std::array<ReportFormat<ReportWriter>, 2> formats{
@@ -25,8 +25,9 @@ void require_report_extension(const std::filesystem::path& path) {
   writer_of(path);
 }
 
-void write_report(const std::filesystem::path& path, const PipelineOptions& options, const PipelineResult& result) {
-  write_report_text(path, writer_of(path)(options, result));
+void write_report(const std::filesystem::path& path, const PipelineOptions& options, const PipelineResult& result,
+                  const RunRecord& record) {
+  write_report_text(path, writer_of(path)(options, result, record));
 }
 
 }  // namespace trismooth

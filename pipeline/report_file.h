@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/run_record.h"
 
 namespace trismooth {
 
@@ -11,6 +12,7 @@ void require_report_extension(const std::filesystem::path& path);
 
 /// Writes the report of a run in the format that the path's extension names. An old file of that name survives any
 /// failure. Throws WriteError, std::invalid_argument for another extension.
-void write_report(const std::filesystem::path& path, const PipelineOptions& options, const PipelineResult& result);
+void write_report(const std::filesystem::path& path, const PipelineOptions& options, const PipelineResult& result,
+                  const RunRecord& record);
 
 }  // namespace trismooth

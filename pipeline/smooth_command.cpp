@@ -120,8 +120,11 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   add_result_options(command, settings->run);
   command
       .add_flag("--annotate", options.annotate,
-                "Add arrays to VTK output: shape (cells), fixed and\ndisplacement (points)")
+                "Add arrays to VTK output, in place of earlier ones:\n"
+                "trismooth:shape, trismooth:shape_before (cells),\n"
+                "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);
+  add_annotated_metrics_option(command, settings->run);
   return {&command, [settings, &environment] { return run_smooth(*settings, environment); }};
 }
 

@@ -187,8 +187,8 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     }
   }
   text += inverted_line(result);
-  if (options.output) {
-    text += line("written:", options.output->string());
+  if (const auto& written = options.written()) {
+    text += line("written:", written->string());
   }
   return text;
 }

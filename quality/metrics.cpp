@@ -32,7 +32,7 @@ constexpr std::array<MetricInfo, metric_count> metric_table{{
     {Metric::condition, "condition", "", false, 1, 1.3, -infinity, infinity,
      "condition number of the map from the equilateral triangle, negative where inverted"},
     {Metric::scaled_jacobian, "scaled_jacobian", "", true, 0.5, two_over_sqrt3, -1, 1,
-     "sine of the smallest angle, 1 for equilateral, negative where inverted"},
+     "sine of the smallest angle over that of 60 degrees: 1 equilateral, negative inverted"},
     {Metric::equiangle_skew, "equiangle_skew", "", false, 0, 0.5, 0, 1,
      "largest deviation of an angle from 60 degrees: 0 equilateral, 1 degenerate"},
 }};
@@ -141,6 +141,14 @@ std::optional<Metric> metric_named(std::string_view name) {
   const auto* const found = std::find_if(metric_table.begin(), metric_table.end(),
                                          [name](const MetricInfo& candidate) { return candidate.name == name; });
   return found == metric_table.end() ? std::nullopt : std::optional(found->metric);
+}
+
+std::string metric_names() {
+  std::string names;
+  for (const MetricInfo& metric : metric_table) {
+    names.append(names.empty() ? "" : ", ").append(metric.name);
+  }
+  return names;
 }
 
 bool is_acceptable(Metric metric, double value) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "trismooth/quality/point2.h"
@@ -52,6 +53,9 @@ const MetricInfo& info(Metric metric);
 
 /// The metric of that name, or nothing.
 std::optional<Metric> metric_named(std::string_view name);
+
+/// "shape, area, ...": the name of every metric, for messages.
+std::string metric_names();
 
 /// True where the value lies in the metric's acceptable range. The ideal end of a range is open: an equilateral
 /// triangle is acceptable also where its shape is rounded above 1. Inverted triangles are not acceptable by the signed

@@ -87,6 +87,7 @@ constexpr MetricValues filled(double value) {
 struct Partial {
   double count = 0;
   std::int64_t inverted = 0;
+  std::int64_t degenerate = 0;
   MetricValues sum = filled(0);
   MetricValues squared_deviations = filled(0);  ///< from the mean of these triangles, summed
   MetricValues min = filled(std::numeric_limits<double>::infinity());
@@ -101,7 +102,9 @@ void count_shape(Partial& partial, double shape) {
     ++partial.inverted;
     return;
   }
-  const auto bin = static_cast<std::size_t>(shape * static_cast<double>(shape_bins));
+  const bool valid = shape > 0;
+  partial.degenerate += valid ? 0 : 1;
+  const auto bin = valid ? static_cast<std::size_t>(shape * static_cast<double>(shape_bins)) : 0;
   ++partial.shape_histogram[std::min(bin, shape_bins - 1)];
 }
 
@@ -166,6 +169,7 @@ void append(Partial& total, const Partial& next) {
   }
   total.count += next.count;
   total.inverted += next.inverted;
+  total.degenerate += next.degenerate;
 }
 
 MetricSummary summary(const Partial& total, std::size_t m) {
@@ -197,6 +201,7 @@ QualityReport quality_report(const TriangleView& view, const QualityOptions& opt
   QualityReport report;
   report.triangles = static_cast<std::int64_t>(view.triangles.size());
   report.inverted = total.inverted;
+  report.degenerate = total.degenerate;
   report.shape_histogram = total.shape_histogram;
   report.worst = worst.take_sorted();
   for (std::size_t m = 0; m < metric_count; ++m) {

@@ -34,9 +34,10 @@ inline constexpr std::size_t shape_bins = 20;
 struct QualityReport {
   std::int64_t triangles = 0;
   std::int64_t inverted = 0;                          ///< triangles of shape < 0
+  std::int64_t degenerate = 0;                        ///< triangles whose shape is neither above nor below 0: no area
   std::array<MetricSummary, metric_count> metrics{};  ///< indexed by Metric; area in units of the file
   /// Bin i counts the triangles with i <= 20 shape < i + 1; the last one has 1 and what is rounded above it, too.
-  /// Inverted triangles are in no bin: the bins and `inverted` add up to `triangles`.
+  /// Inverted triangles are in no bin, degenerate ones in the first: the bins and `inverted` add up to `triangles`.
   std::array<std::int64_t, shape_bins> shape_histogram{};
   std::vector<WorstElement> worst;  ///< by ascending shape, equal ones by index
 

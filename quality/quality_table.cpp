@@ -144,6 +144,7 @@ std::string counts_text(const std::vector<const QualityReport*>& reports) {
   };
   add_row("triangles", &QualityReport::triangles);
   add_row("inverted", &QualityReport::inverted);
+  add_row("degenerate", &QualityReport::degenerate);
   return columns.text();
 }
 
