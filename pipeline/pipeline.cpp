@@ -214,9 +214,13 @@ class Run {
   void write() {
     const FileFormat target = output_format(*options_.output);
     std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.notes));
-    const bool annotates = options_.annotate && has_arrays(target);
+    const bool annotates = options_.annotate && takes_added_arrays(document_, target);
     if (options_.annotate && !annotates) {
-      result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
+      result_.notes.push_back("--annotate has no effect: " +
+                              (target == FileFormat::ply
+                                   ? std::string("a PLY file that was read is written back with nothing added")
+                                   : "." + std::string(to_string(target)) + " holds no arrays") +
+                              "; write .vtu to get them");
     }
     write_mesh(*options_.output, document_, annotates ? annotations() : AddedArrays{});
   }
@@ -225,7 +229,10 @@ class Run {
     std::vector<double> shapes(document_.cells.size(), 0.0);  // cells that are no triangles have none
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto [a, b, c] = canonical_corners(mesh_.triangles[t], found_.reversed[t] != 0);
-      shapes[static_cast<std::size_t>(mesh_.cells[t])] = trismooth::shape(local_[a], local_[b], local_[c]);
+      const double shape = trismooth::shape(local_[a], local_[b], local_[c]);
+      // A strip is as bad as the worst of its triangles, which come one after the other.
+      double& of_cell = shapes[static_cast<std::size_t>(mesh_.cells[t])];
+      of_cell = t > 0 && mesh_.cells[t] == mesh_.cells[t - 1] ? std::min(of_cell, shape) : shape;
     }
     std::vector<std::uint8_t> flags(found_.fixed.size());
     std::ranges::transform(found_.fixed, flags.begin(), [](std::uint8_t reasons) { return reasons != 0 ? 1 : 0; });
