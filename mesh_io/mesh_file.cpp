@@ -8,6 +8,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/file_bytes.h"
 #include "trismooth/mesh_io/output_file.h"
+#include "trismooth/mesh_io/strip_triangles.h"
 
 namespace trismooth {
 
@@ -46,20 +47,38 @@ void replace_annotations(std::vector<DataArray>& arrays, std::span<const DataArr
   arrays.insert(arrays.end(), added.begin(), added.end());
 }
 
+bool holds_strips(FileFormat format) {
+  return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
+}
+
+/// What has_strips() as a format holds it that has no strips.
+std::string describe_strips(const MeshDocument& document, const MeshDocument& expanded, FileFormat target) {
+  std::string name(to_string(target));
+  std::ranges::transform(name, name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+  const auto strips = std::ranges::count(document.cells.types, cell_type::triangle_strip);
+  const std::size_t triangles = expanded.cells.size() + static_cast<std::size_t>(strips) - document.cells.size();
+  return name + " holds no triangle strips: " + std::to_string(strips) + (strips == 1 ? " is" : " are") +
+         " written as " + std::to_string(triangles) + (triangles == 1 ? " triangle" : " triangles");
+}
+
 void write_plain(const std::filesystem::path& path, FileFormat format, const MeshDocument& document,
                  const AddedArrays& added) {
   if (is_written_back(document, format)) {
     document.original->write(path, document, added.point_arrays, added.cell_arrays);
     return;
   }
-  if (!has_arrays(format) || (added.point_arrays.empty() && added.cell_arrays.empty())) {
+  const bool adds = takes_added_arrays(document, format) && !(added.point_arrays.empty() && added.cell_arrays.empty());
+  const bool expands = !holds_strips(format) && has_strips(document);
+  if (!adds && !expands) {
     codec_of(format).write(path, document);
     return;
   }
-  MeshDocument extended = document;
-  replace_annotations(extended.point_arrays, added.point_arrays);
-  replace_annotations(extended.cell_arrays, added.cell_arrays);
-  codec_of(format).write(path, extended);
+  MeshDocument changed = document;
+  if (adds) {
+    replace_annotations(changed.point_arrays, added.point_arrays);
+    replace_annotations(changed.cell_arrays, added.cell_arrays);
+  }
+  codec_of(format).write(path, expands ? with_strips_as_triangles(changed) : changed);
 }
 
 }  // namespace
@@ -95,7 +114,20 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
 }
 
 std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target) {
-  return is_written_back(document, target) ? std::vector<std::string>{} : codec_of(target).what_is_lost(document);
+  if (is_written_back(document, target)) {
+    return {};
+  }
+  if (holds_strips(target) || !has_strips(document)) {
+    return codec_of(target).what_is_lost(document);
+  }
+  const MeshDocument expanded = with_strips_as_triangles(document);
+  std::vector<std::string> lost{describe_strips(document, expanded, target)};
+  std::ranges::move(codec_of(target).what_is_lost(expanded), std::back_inserter(lost));
+  return lost;
+}
+
+bool takes_added_arrays(const MeshDocument& document, FileFormat target) {
+  return has_arrays(target) || (target == FileFormat::ply && !is_written_back(document, target));
 }
 
 }  // namespace trismooth

@@ -14,7 +14,7 @@ namespace trismooth {
 /// Complexity: linear in the file's size.
 MeshDocument read_mesh(const std::filesystem::path& path);
 
-/// Arrays to add to what a document holds, for the formats that have_arrays(). Where any is added, annotations of an
+/// Arrays to add to what a document holds, where the target takes_added_arrays(). Where any is added, annotations of an
 /// earlier run (see annotation_names.h) that the document holds are left out: what they show is no more.
 struct AddedArrays {
   std::vector<DataArray> point_arrays;
@@ -27,6 +27,10 @@ struct AddedArrays {
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
 /// Throws WriteError, also for an unknown extension.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
+
+/// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as
+/// properties, unless the document was read from PLY (its bytes are written back then).
+bool takes_added_arrays(const MeshDocument& document, FileFormat target);
 
 /// The format that write_mesh() would write to `path`. Throws WriteError for an unknown extension: to find that out
 /// before the work is done.

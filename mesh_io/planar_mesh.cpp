@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/strip_triangles.h"
 
 namespace trismooth {
 
@@ -27,6 +28,14 @@ std::string counted(std::int64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Adds the triangles of a strip; false where it has none.
+bool add_strip(std::span<const std::int32_t> strip, std::size_t cell, PlanarMesh& mesh) {
+  for_each_strip_triangle(strip, [&](const Triangle& triangle) { mesh.triangles.push_back(triangle); });
+  const bool has_triangles = mesh.cells.size() < mesh.triangles.size();
+  mesh.cells.resize(mesh.triangles.size(), static_cast<std::int32_t>(cell));
+  return has_triangles;
+}
+
 void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
   std::size_t first_repeating = 0;
   mesh.in_other_cell.assign(document.point_count(), 0);
@@ -38,6 +47,9 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
   mesh.cells.reserve(document.cells.size());
   for (std::size_t c = 0; c < document.cells.size(); ++c) {
     const auto vertices = document.cells[c];
+    if (document.cells.types[c] == cell_type::triangle_strip && add_strip(vertices, c, mesh)) {
+      continue;
+    }
     const bool triangular = is_triangle(document.cells.types[c], vertices);
     if (triangular && !repeats_a_vertex(vertices)) {
       mesh.triangles.push_back({vertices[0], vertices[1], vertices[2]});
@@ -93,6 +105,15 @@ void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regi
   std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](T value) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(values, value, precedes) - values.begin());
   });
+}
+
+/// The cells that hold the triangles: fewer than these where there are strips.
+std::int64_t count_triangular_cells(const PlanarMesh& mesh) {
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
+    count += t == 0 || mesh.cells[t] != mesh.cells[t - 1] ? 1 : 0;
+  }
+  return count;
 }
 
 Regions number_regions(const DataArray& array, const PlanarMesh& mesh) {
@@ -167,7 +188,7 @@ Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const
     if (array != nullptr && array->components == 1) {
       Regions regions = number_regions(*array, mesh);
       // A different value in every cell numbers the cells; it does not group them.
-      if (mesh.triangles.size() <= 1 || static_cast<std::size_t>(regions.count) < mesh.triangles.size()) {
+      if (mesh.triangles.size() <= 1 || regions.count < count_triangular_cells(mesh)) {
         return regions;
       }
     }

@@ -19,7 +19,7 @@ struct PlanarMesh {
   Plane plane;
   std::vector<Point2<double>> points;       ///< every vertex of the document in coordinates of the plane, file units
   std::vector<Triangle> triangles;          ///< in the document's order, each in the document's vertex order
-  std::vector<std::int32_t> cells;          ///< the document's cell of each triangle
+  std::vector<std::int32_t> cells;          ///< the document's cell of each triangle, ascending; a strip has several
   std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
   std::vector<std::uint8_t> in_cell;        ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;             ///< cells that are not triangles
@@ -27,9 +27,10 @@ struct PlanarMesh {
   std::vector<std::string> notes;           ///< what the user should know, one sentence each
 };
 
-/// Finds the triangles and the plane of the document. A triangle that repeats a vertex counts as another cell: it is
-/// kept, its vertices are held, and a note says so. Throws ReadError naming `path` where the vertices of cells do not
-/// lie in one plane (see fit_plane()) or have no finite coordinates in it (near the largest double), or the document
+/// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
+/// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a
+/// note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or
+/// have no finite coordinates in it (near the largest double), or the document
 /// holds cells but no triangle. A document without any cell is fine: nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
 

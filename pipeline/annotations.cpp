@@ -21,7 +21,12 @@ std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const
       if (metrics[m] == Metric::area) {
         value = std::ldexp(value, 2 * view.exponent);
       }
-      columns[m][cell] = std::clamp(value, -largest_annotation, largest_annotation);
+      value = std::clamp(value, -largest_annotation, largest_annotation);
+      // A strip is as bad as the worst of its triangles, which come one after the other.
+      double& of_cell = columns[m][cell];
+      const bool is_next_of_strip = t > 0 && cells[t] == cells[t - 1];
+      const bool is_worse = info(metrics[m]).larger_is_better ? value < of_cell : value > of_cell;
+      of_cell = is_next_of_strip && !is_worse ? of_cell : value;
     }
   }
   std::vector<DataArray> arrays;

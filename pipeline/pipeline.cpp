@@ -224,9 +224,13 @@ class Run {
   void write(const std::filesystem::path& path, bool annotate) {
     const FileFormat target = output_format(path);
     std::ranges::copy(what_is_lost(document_, target), std::back_inserter(result_.losses));
-    const bool annotates = annotate && has_arrays(target);
+    const bool annotates = annotate && takes_added_arrays(document_, target);
     if (annotate && !annotates) {
-      result_.notes.push_back("--annotate has no effect: ." + std::string(to_string(target)) + " holds no arrays");
+      result_.notes.push_back("--annotate has no effect: " +
+                              (target == FileFormat::ply
+                                   ? std::string("a PLY file that was read is written back with nothing added")
+                                   : "." + std::string(to_string(target)) + " holds no arrays") +
+                              "; write .vtu to get them");
     }
     if (!annotates && has_arrays(target)) {
       note_old_annotations();

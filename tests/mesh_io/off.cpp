@@ -336,16 +336,17 @@ TEST_CASE("OFF: a mesh from elsewhere is written with its exact coordinates and 
   document.field_arrays.push_back(make_data_array("TIME", 1, std::vector<double>{1}));
 
   const std::string text = written(document);
-  CHECK(text.find("OFF\n4 3 0\n0.1 0.3333333333333333 -0\n1e+300 5e-324 40000000.25\n") == 0);
-  CHECK(text.substr(text.find("3 4 5\n") + 6) == "3 0 1 2\n4 3 2 1 0\n5 0 1 2 3 1\n");
+  CHECK(text.find("OFF\n4 5 0\n0.1 0.3333333333333333 -0\n1e+300 5e-324 40000000.25\n") == 0);
+  CHECK(text.substr(text.find("3 4 5\n") + 6) == "3 0 1 2\n4 3 2 1 0\n3 0 1 2\n3 2 1 3\n5 0 1 2 3 1\n");
   const MeshDocument back = read(text);
   CHECK(back.points == document.points);
-  CHECK(back.cells.size() == 3);
+  CHECK(back.cells.size() == 5);
 
   CHECK(trismooth::what_is_lost(document, FileFormat::off) ==
         std::vector<std::string>{
-            "OFF holds faces only: 1 cell of type vertex, 2 cells of type line, 1 cell of type triangle_strip, 1 cell "
-            "of type 42 (by VTK's numbers) are not written",
+            "OFF holds no triangle strips: 1 is written as 2 triangles",
+            "OFF holds faces only: 1 cell of type vertex, 2 cells of type line, 1 cell of type 42 (by VTK's numbers) "
+            "are not written",
             "OFF holds no point arrays: colours is not written",
             "OFF holds no cell arrays: region, (no name) are not written",
             "OFF holds no field arrays: TIME is not written"});

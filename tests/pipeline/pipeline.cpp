@@ -1,12 +1,16 @@
 #include "trismooth/pipeline/pipeline.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
@@ -100,6 +104,63 @@ TEST_CASE("a backend that leaves the topology to the host gets the halfedge mesh
   const PipelineResult expected = trismooth::run_pipeline(options);
   options.smoothing.topology = trismooth::Topology::device;  // the CPU's finds none
   CHECK(trismooth::run_pipeline(options).coordinates_hash == expected.coordinates_hash);
+}
+
+TEST_CASE("a mesh of triangle strips is smoothed to the bits of its triangles, and its strips stay") {
+  // A grid whose rows are strips, as a program for graphics writes them: points of two rows in turn.
+  constexpr std::int32_t n = 12;
+  const test_meshes::Mesh grid = test_meshes::jittered_grid(n + 1, n + 1, 0.4, 7);
+  const auto at = [](std::int32_t row, std::int32_t column) { return row * (n + 1) + column; };
+  std::string points;
+  for (const auto& [x, y] : grid.points) {
+    points += fmt::format("{} {} 0\n", x, y);
+  }
+  std::string strips;
+  std::string triangles;
+  for (std::int32_t row = 0; row < n; ++row) {
+    strips += std::to_string(2 * (n + 1));
+    for (std::int32_t column = 0; column <= n; ++column) {
+      strips += fmt::format(" {} {}", at(row + 1, column), at(row, column));
+      if (column < n) {
+        triangles += fmt::format("3 {} {} {}\n", at(row + 1, column), at(row, column), at(row + 1, column + 1));
+        triangles += fmt::format("3 {} {} {}\n", at(row + 1, column + 1), at(row, column), at(row, column + 1));
+      }
+    }
+    strips += '\n';
+  }
+  const std::string head = fmt::format("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {} double\n{}",
+                                       grid.points.size(), points);
+  const std::string strips_head = fmt::format("TRIANGLE_STRIPS {} {}\n", n, n * (2 * n + 3));
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.annotate = true;
+  options.input =
+      folder.write("triangles.vtk", head + fmt::format("POLYGONS {} {}\n{}", 2 * n * n, 8 * n * n, triangles));
+  options.output = folder / "triangles_out.vtk";
+  const PipelineResult expected = trismooth::run_pipeline(options);
+  options.input = folder.write("strips.vtk", head + strips_head + strips);
+  options.output = folder / "strips_out.vtk";
+  const PipelineResult result = trismooth::run_pipeline(options);
+  CHECK(result.input.triangles == 2 * n * n);
+  CHECK(result.input.other_cells == 0);
+  CHECK(result.smoothing->moved_vertices > 0);
+  CHECK(result.coordinates_hash == expected.coordinates_hash);
+  CHECK(bytes_of(*options.output).find(strips_head + strips) != std::string::npos);
+  // A strip is as good as the worst of its triangles: two of them for each of n columns.
+  const auto shapes = [](const std::filesystem::path& path) {
+    const trismooth::MeshDocument document = trismooth::read_mesh(path);
+    const trismooth::DataArray* const array = find_array(document.cell_arrays, "shape");
+    REQUIRE(array != nullptr);
+    const auto values = array->as<double>();
+    return std::vector<double>(values.begin(), values.end());
+  };
+  const std::vector<double> of_triangles = shapes(folder / "triangles_out.vtk");
+  const std::vector<double> of_strips = shapes(folder / "strips_out.vtk");
+  REQUIRE(of_strips.size() == n);
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto first = of_triangles.begin() + 2 * n * row;
+    CHECK(of_strips[static_cast<std::size_t>(row)] == *std::min_element(first, first + 2 * n));
+  }
 }
 
 TEST_CASE("triangles that are no mesh are told with the file, whoever finds out") {
