@@ -7,7 +7,9 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/fixed_array.h"
 #include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/region_arrays.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
@@ -97,8 +99,8 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   const trismooth::LocalFrame frame = trismooth::local_frame(mesh.points);
   prepared.local.resize(mesh.points.size());
   std::ranges::transform(mesh.points, prepared.local.begin(), [&](Point2<double> p) { return frame.enter(p); });
-  prepared.regions = trismooth::find_regions(document, mesh, std::nullopt);
-  prepared.fixed = trismooth::fixed_by_array(document, "fixed", false);
+  prepared.regions = trismooth::find_regions(document, mesh);
+  prepared.fixed = trismooth::find_fixed_array(document, std::nullopt).flags;
   const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
   trismooth::Workers workers(1);
   const auto by_halfedges = [&](const trismooth::TriangleTopology& topology, const trismooth::MeshRings& known) {
