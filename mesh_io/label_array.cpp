@@ -5,7 +5,7 @@
 
 namespace trismooth {
 
-LabelArray make_label_array(std::string name, std::span<const std::string> texts) {
+LabelArray make_label_array(std::string name, std::span<const std::string_view> texts) {
   LabelArray array{std::move(name), std::vector<std::int32_t>(texts.size()), {}};
   std::vector<std::string_view> different(texts.begin(), texts.end());
   std::ranges::sort(different);

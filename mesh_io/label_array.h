@@ -16,6 +16,6 @@ struct LabelArray {
 };
 
 /// The array whose rows are `texts`. Complexity: n log n.
-LabelArray make_label_array(std::string name, std::span<const std::string> texts);
+LabelArray make_label_array(std::string name, std::span<const std::string_view> texts);
 
 }  // namespace trismooth
