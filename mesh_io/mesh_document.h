@@ -9,6 +9,7 @@
 
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/label_array.h"
 
 namespace trismooth {
 
@@ -70,6 +71,7 @@ struct MeshDocument {
   CellList cells;
   std::vector<DataArray> point_arrays;  ///< a row for every point
   std::vector<DataArray> cell_arrays;   ///< a row for every cell
+  std::vector<LabelArray> cell_labels;  ///< arrays of a text for every cell; the original alone keeps them
   std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
   std::vector<std::string> notes;       ///< what the reader has to say about the file, one sentence each: among them
                                         ///< what only a file of the same format keeps

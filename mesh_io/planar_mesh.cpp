@@ -1,13 +1,8 @@
 #include "trismooth/mesh_io/planar_mesh.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <span>
-#include <stdexcept>
-#include <string_view>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/strip_triangles.h"
@@ -74,55 +69,6 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
   }
 }
 
-std::string array_names(std::span<const DataArray> arrays) {
-  std::string names;
-  for (const DataArray& array : arrays) {
-    names.append(names.empty() ? "" : ", ").append(array.name);
-  }
-  return names.empty() ? "none" : names;
-}
-
-constexpr std::array<std::string_view, 7> region_array_names{
-    "region", "mat_id", "material", "MaterialIds", "CellEntityIds", "gmsh:physical", "medit:ref"};
-
-/// The values of the array at the mesh's triangles, numbered from 0 in ascending order, all not-a-numbers last as one.
-/// In the array's own type: whole numbers beyond 2^53 are not equal for being equal as doubles.
-template <class T>
-void number_values(const DataArray& array, const PlanarMesh& mesh, Regions& regions) {
-  const auto is_nan = [](T a) { return std::isnan(static_cast<double>(a)); };
-  const auto precedes = [&](T a, T b) { return a < b || (!is_nan(a) && is_nan(b)); };
-  std::vector<T> of_triangle(mesh.cells.size());
-  std::ranges::transform(mesh.cells, of_triangle.begin(), [&](std::int32_t cell) {
-    T value{};
-    std::memcpy(&value, array.bytes.data() + static_cast<std::size_t>(cell) * sizeof(T), sizeof(T));
-    return value;
-  });
-  std::vector<T> values = of_triangle;
-  std::ranges::sort(values, precedes);
-  values.erase(std::unique(values.begin(), values.end(), [&](T a, T b) { return !precedes(a, b); }), values.end());
-  regions.count = static_cast<std::int32_t>(values.size());
-  regions.of_triangle.resize(of_triangle.size());
-  std::ranges::transform(of_triangle, regions.of_triangle.begin(), [&](T value) {
-    return static_cast<std::int32_t>(std::ranges::lower_bound(values, value, precedes) - values.begin());
-  });
-}
-
-/// The cells that hold the triangles: fewer than these where there are strips.
-std::int64_t count_triangular_cells(const PlanarMesh& mesh) {
-  std::int64_t count = 0;
-  for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
-    count += t == 0 || mesh.cells[t] != mesh.cells[t - 1] ? 1 : 0;
-  }
-  return count;
-}
-
-Regions number_regions(const DataArray& array, const PlanarMesh& mesh) {
-  Regions regions;
-  regions.array = array.name;
-  visit_scalar_type(array.type, [&](auto zero) { number_values<decltype(zero)>(array, mesh, regions); });
-  return regions;
-}
-
 Storage storage_of(const MeshDocument& document) {
   return document.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
 }
@@ -168,50 +114,6 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
     lay_into_plane(mesh, *fit, document, path);
   }
   return fit.has_value();
-}
-
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const std::optional<std::string>& name) {
-  if (name) {
-    const DataArray* const array = find_array(document.cell_arrays, *name);
-    if (array == nullptr) {
-      throw std::invalid_argument("the file has no cell array '" + *name +
-                                  "' to take regions from; it has: " + array_names(document.cell_arrays));
-    }
-    if (array->components != 1) {
-      throw std::invalid_argument("the cell array '" + *name + "' has " + std::to_string(array->components) +
-                                  " components; regions need one");
-    }
-    return number_regions(*array, mesh);
-  }
-  for (const std::string_view candidate : region_array_names) {
-    const DataArray* const array = find_array(document.cell_arrays, candidate);
-    if (array != nullptr && array->components == 1) {
-      Regions regions = number_regions(*array, mesh);
-      // A different value in every cell numbers the cells; it does not group them.
-      if (mesh.triangles.size() <= 1 || regions.count < count_triangular_cells(mesh)) {
-        return regions;
-      }
-    }
-  }
-  return {};
-}
-
-std::vector<std::uint8_t> fixed_by_array(const MeshDocument& document, const std::string& name, bool required) {
-  const DataArray* const array = find_array(document.point_arrays, name);
-  if (array == nullptr) {
-    if (required) {
-      throw std::invalid_argument("the file has no point array '" + name +
-                                  "' to take fixed vertices from; it has: " + array_names(document.point_arrays));
-    }
-    return {};
-  }
-  std::vector<std::uint8_t> fixed(document.point_count(), 0);
-  for (std::size_t v = 0; v < fixed.size(); ++v) {
-    for (std::size_t i = 0; i < array->components; ++i) {
-      fixed[v] |= array->value(v, i) != 0 ? std::uint8_t{1} : std::uint8_t{0};
-    }
-  }
-  return fixed;
 }
 
 }  // namespace trismooth

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,10 +27,10 @@ struct PlanarMesh {
 };
 
 /// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
-/// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a
-/// note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or
-/// have no finite coordinates in it (near the largest double), or the document
-/// holds cells but no triangle. A document without any cell is fine: nothing to smooth. Complexity: linear.
+/// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and
+/// a note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane())
+/// or have no finite coordinates in it (near the largest double), or the document holds cells but no triangle. A
+/// document without any cell is fine: nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
 
 /// Brings the document's mesh into the plane in which it is to be smoothed, now that it is known which vertices are
@@ -39,23 +38,6 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
 /// others now.
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
                   const std::filesystem::path& path);
-
-/// The material regions of a mesh.
-struct Regions {
-  std::string array;                      ///< the cell array that gives them; empty where there is none
-  std::vector<std::int32_t> of_triangle;  ///< a number from 0 for each triangle; empty where there is no array
-  std::int32_t count = 0;
-};
-
-/// The regions by the cell array `name`, or by the first of region, mat_id, material, MaterialIds, CellEntityIds,
-/// gmsh:physical, medit:ref that the document holds, is of one component and does not number every cell differently.
-/// Throws std::invalid_argument where `name` is given and the document has no such array (the message lists those it
-/// has).
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, const std::optional<std::string>& name);
-
-/// One flag a vertex: 1 where the point array `name` is not zero. Empty where the document has no such array, unless
-/// `required`: then std::invalid_argument, naming the arrays there are.
-std::vector<std::uint8_t> fixed_by_array(const MeshDocument& document, const std::string& name, bool required);
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
 /// number that is not below `vertex_count`.

@@ -19,8 +19,9 @@ namespace {
 struct ArrayTarget {
   std::vector<DataArray>& arrays;
   std::vector<std::string>& names;
-  std::string_view kind;  ///< "point", "cell" or "field"
-  std::uint64_t rows;     ///< of every array; of no meaning for fields of the whole mesh
+  std::string_view kind;                      ///< "point", "cell" or "field"
+  std::uint64_t rows;                         ///< of every array; of no meaning for fields of the whole mesh
+  std::vector<LabelArray>* labels = nullptr;  ///< where arrays of strings go; null: nowhere
 };
 
 class ArrayReader {
@@ -170,7 +171,7 @@ class ArrayReader {
         add(make_data_array(std::move(name), components, input_.read_bits(count, what)));
         break;
       case VtkLegacyType::Kind::strings:
-        input_.skip_strings(count, what);
+        read_strings(name, components, count, what);
         note_skipped(std::move(name), "strings");
         break;
       case VtkLegacyType::Kind::variants:
@@ -180,6 +181,20 @@ class ArrayReader {
     }
     input_.skip_metadata(components);
     sites_.arrays.back().end = input_.offset();
+  }
+
+  /// Those of a cell each are kept, since they may name regions.
+  void read_strings(const std::string& name, std::uint64_t components, std::uint64_t count, const std::string& what) {
+    const std::vector<std::string_view> strings = input_.read_strings(count, what);
+    if (target_.labels == nullptr || components != 1) {
+      return;
+    }
+    target_.labels->push_back(make_label_array(name, strings));
+    if (!input_.is_binary()) {
+      for (std::string& label : target_.labels->back().labels) {
+        label = decode_vtk_name(label);
+      }
+    }
   }
 
   void add(DataArray array) {
@@ -223,7 +238,8 @@ void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, V
   using Section = VtkLegacyLayout::Section;
   ArrayReader points(input, document.notes,
                      {document.point_arrays, layout.point_names, "point", document.point_count()});
-  ArrayReader cells(input, document.notes, {document.cell_arrays, layout.cell_names, "cell", document.cells.size()});
+  ArrayReader cells(input, document.notes,
+                    {document.cell_arrays, layout.cell_names, "cell", document.cells.size(), &document.cell_labels});
   VtkLegacyAnnotations annotations(input.bytes());
   for (std::size_t begin = input.offset(); !input.at_end(); begin = input.offset()) {
     const std::string token(input.next_token("a keyword"));

@@ -233,24 +233,29 @@ std::uint64_t VtkLegacyInput::next_string_length(std::string_view what) {
   }
 }
 
-void VtkLegacyInput::skip_strings(std::uint64_t count, std::string_view what) {
+std::vector<std::string_view> VtkLegacyInput::read_strings(std::uint64_t count, std::string_view what) {
+  std::vector<std::string_view> strings;
   if (!binary_) {
     require_values(count, bytes_left(), what);
+    strings.reserve(count);
     scanner_.next_line();  // the rest of the header line
     for (std::uint64_t i = 0; i < count; ++i) {
       if (bytes_left() == 0) {
         next_token(what);  // fails
       }
-      scanner_.next_line();
+      strings.push_back(scanner_.next_line());
     }
-    return;
+    return strings;
   }
   begin_values(count, 1, what);
+  strings.reserve(count);
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t length = next_string_length(what);
     require_values(length, bytes_left(), "bytes of a string");
+    strings.push_back(scanner_.text().substr(scanner_.offset(), length));
     scanner_.seek(scanner_.offset() + length);
   }
+  return strings;
 }
 
 void VtkLegacyInput::skip_variants(std::uint64_t count, std::string_view what) {

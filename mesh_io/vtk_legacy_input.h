@@ -59,8 +59,9 @@ class VtkLegacyInput {
   /// The same for single bits, as 0 and 1: eight a byte in BINARY files, the first one in the highest bit.
   std::vector<std::uint8_t> read_bits(std::uint64_t count, std::string_view what);
 
-  /// Passes `count` strings: one a line in ASCII files, behind their length in BINARY ones.
-  void skip_strings(std::uint64_t count, std::string_view what);
+  /// Reads `count` strings: one a line in ASCII files, behind their length in BINARY ones. Views of the bytes as they
+  /// are, in ASCII files encoded.
+  std::vector<std::string_view> read_strings(std::uint64_t count, std::string_view what);
   /// Passes `count` variants: the number of a type and a text each, as text in both encodings.
   void skip_variants(std::uint64_t count, std::string_view what);
   /// Passes the METADATA block of an array of `components`, if there is one: it ends at an empty line or with the

@@ -18,6 +18,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -155,6 +156,21 @@ std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, Vt
   return views;
 }
 
+/// The arrays of strings of one component.
+std::vector<LabelArray> labels_of(vtkFieldData& fields) {
+  std::vector<LabelArray> labels;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    auto* const array = vtkStringArray::SafeDownCast(fields.GetAbstractArray(i));
+    if (array != nullptr && array->GetNumberOfComponents() == 1) {
+      const auto count = static_cast<std::size_t>(array->GetNumberOfValues());
+      const auto* const strings = count == 0 ? nullptr : array->GetPointer(0);
+      const std::vector<std::string_view> texts(strings, strings + count);
+      labels.push_back(make_label_array(array->GetName(), texts));
+    }
+  }
+  return labels;
+}
+
 template <VtkXmlKind kind>
 MeshDocument read(const std::filesystem::path& path, std::string bytes) {
   try {
@@ -169,6 +185,7 @@ MeshDocument read(const std::filesystem::path& path, std::string bytes) {
     copy_cells(*file.data, document.cells);
     document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);
     document.cell_arrays = views_of(*file.data->GetCellData(), "cell", file.encoding.mode, document.notes);
+    document.cell_labels = labels_of(*file.data->GetCellData());
     document.field_arrays = views_of(*file.data->GetFieldData(), "field", file.encoding.mode, document.notes);
     document.original = std::make_shared<VtkXmlOriginal>(std::move(file));
     return document;

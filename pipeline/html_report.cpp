@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/held_html.h"
 #include "trismooth/pipeline/html_page.h"
 #include "trismooth/pipeline/html_text.h"
+#include "trismooth/pipeline/region_table.h"
 #include "trismooth/pipeline/svg_charts.h"
 #include "trismooth/pipeline/text_report.h"
 #include "trismooth/pipeline/timings.h"
@@ -336,6 +338,10 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
         html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
     html += html_section("Distribution of shape", histogram(result));
   }
+  if (!result.regions_before.empty()) {
+    html += html_section("Quality by region", region_table_html(result));
+  }
+  html += html_section("What is held fixed", held_html(result.input));
   if (result.smoothing && !result.smoothing->history.empty()) {
     html += html_section("Convergence", "<figure>\n" + convergence_svg(result.smoothing->history) + "</figure>\n");
   }

@@ -35,6 +35,14 @@ Json name_of(Enum value) {
 }
 
 Json input_json(const InputSummary& input) {
+  const HeldVertices& held = input.held;
+  Json region_arrays = Json::array();
+  for (const RegionArray& array : input.region_arrays) {
+    region_arrays.push_back({{"name", array.name},
+                             {"reason", name_of(array.reason)},
+                             {"values", array.values},
+                             {"held_vertices", array.held_vertices}});
+  }
   return {{"path", input.path.string()},
           {"format", name_of(input.format)},
           {"vertices", input.vertices},
@@ -45,7 +53,20 @@ Json input_json(const InputSummary& input) {
           {"components", input.components},
           {"fixed_vertices", input.fixed_vertices},
           {"free_vertices", input.free_vertices},
-          {"reoriented_triangles", input.reoriented_triangles}};
+          {"reoriented_triangles", input.reoriented_triangles},
+          {"region_arrays", std::move(region_arrays)},
+          {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
+          {"fixed_array_vertices", input.fixed_array_vertices},
+          {"fixed_ids_vertices", input.fixed_ids_vertices},
+          {"held",
+           {{"boundary", held.boundary},
+            {"interface", held.interface},
+            {"non_manifold", held.non_manifold},
+            {"bow_tie", held.bow_tie},
+            {"other_cells", held.other_cells},
+            {"unused", held.unused},
+            {"named", held.named},
+            {"several", held.several}}}};
 }
 
 Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
@@ -71,7 +92,8 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"tolerance", number_json(smoothing.tolerance)},
           {"time_limit", number_json(smoothing.time_limit_seconds)},
           {"target_quality", number_json(smoothing.target_quality)},
-          {"region_array", text_or_null(options.region_array)},
+          {"region_array", options.region_arrays.empty() ? Json(nullptr) : Json(options.region_arrays.front())},
+          {"region_arrays", options.region_arrays},
           {"fixed_array", text_or_null(options.fixed_array)},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
           {"annotate", annotates},
@@ -115,6 +137,23 @@ Json gates_json(const std::vector<GateOutcome>& outcomes) {
   return gates;
 }
 
+/// The report with the quality of each region.
+Json quality_json(const QualityReport& report, const std::vector<std::string>& names,
+                  const std::vector<RegionQuality>& qualities) {
+  Json regions = Json::array();
+  for (std::size_t r = 0; r < qualities.size(); ++r) {
+    const RegionQuality& quality = qualities[r];
+    regions.push_back({{"region", names[r]},
+                       {"triangles", quality.triangles},
+                       {"inverted", quality.inverted},
+                       {"shape", {{"min", number_json(quality.min_shape)}, {"mean", number_json(quality.mean_shape)}}},
+                       {"min_angle", {{"min", number_json(quality.min_angle)}}}});
+  }
+  Json json = quality_json(report);
+  json["regions"] = std::move(regions);
+  return json;
+}
+
 Json smoothing_json(const SmoothingResult& smoothing) {
   Json history = Json::array();
   for (const SweepRecord& record : smoothing.history) {
@@ -151,20 +190,21 @@ Json timings_json(const PipelineTimings& timings) {
 }  // namespace
 
 std::string json_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
-  const Json report{{"trismooth", std::string(version())},
-                    {"date", record.date},
-                    {"command", record.command},
-                    {"input", input_json(result.input)},
-                    {"options", options_json(options, result.smoothing)},
-                    {"before", quality_json(result.before)},
-                    {"after", result.after ? quality_json(*result.after) : Json(nullptr)},
-                    {"gates", gates_json(record.gates)},
-                    {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
-                    {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
-                    {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},
-                    {"warnings", result.warnings},
-                    {"timings_ms", timings_json(result.timings_ms)},
-                    {"peak_memory_bytes", result.peak_memory_bytes}};
+  const Json report{
+      {"trismooth", std::string(version())},
+      {"date", record.date},
+      {"command", record.command},
+      {"input", input_json(result.input)},
+      {"options", options_json(options, result.smoothing)},
+      {"before", quality_json(result.before, result.region_names, result.regions_before)},
+      {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
+      {"gates", gates_json(record.gates)},
+      {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
+      {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
+      {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},
+      {"warnings", result.warnings},
+      {"timings_ms", timings_json(result.timings_ms)},
+      {"peak_memory_bytes", result.peak_memory_bytes}};
   constexpr int indent = 2;
   return report.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -19,6 +19,7 @@
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/output_attempts.h"
 #include "trismooth/pipeline/progress_bar.h"
+#include "trismooth/pipeline/region_table.h"
 #include "trismooth/pipeline/report_file.h"
 #include "trismooth/pipeline/text_report.h"
 #include "trismooth/pipeline/timings.h"
@@ -138,11 +139,14 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
 
 void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
   PipelineOptions& options = settings.pipeline;
-  add_parsed_option(command, "--region-array", "NAME",
-                    "Cell array that gives the regions; vertices between two\n"
-                    "regions are fixed [the first of region, mat_id,\n"
-                    "material, ... that the file has]",
-                    [&options](const std::string& text) { options.region_array = text; })
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--region-array", "NAME",
+      "Cell array that gives regions; vertices between two\n"
+      "regions are fixed. Repeatable; none: there are no\n"
+      "regions [arrays known by their name, as region or\n"
+      "gmsh:physical, and those that look like regions]",
+      [&options](const std::string& text) { options.region_arrays.push_back(text); }, repeatable)
       ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-array", "NAME",
                     "Point array; where it is not 0, the vertex is fixed\n[fixed, if the file has it]",
@@ -219,6 +223,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   std::exception_ptr not_printed;
   if (verbosity != Verbosity::quiet) {
     std::string text = text_report(options, result);
+    if (verbosity == Verbosity::verbose && (result.smoothing || result.region_names.size() > few_regions)) {
+      text += region_table(result);
+    }
     for (const std::filesystem::path& report : settings.reports) {
       text += "report:     " + report.string() + '\n';
     }

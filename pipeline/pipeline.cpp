@@ -7,10 +7,12 @@
 #include <sys/resource.h>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/fixed_array.h"
 #include "trismooth/mesh_io/halfedge_mesh.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
+#include "trismooth/mesh_io/region_arrays.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/quality/float32_rounding.h"
@@ -37,6 +39,11 @@ std::int64_t peak_memory_bytes() {
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
+std::int64_t count_different(std::vector<std::int32_t> numbers) {
+  std::ranges::sort(numbers);
+  return std::ranges::unique(numbers).begin() - numbers.begin();
+}
+
 /// One run over one file. The stages are called in their order; each fills its part of the result.
 class Run {
  public:
@@ -50,12 +57,18 @@ class Run {
     }
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
-    timed(Stage::check_before, result_.timings_ms.check_before, [&] { result_.before = check(); });
+    timed(Stage::check_before, result_.timings_ms.check_before, [&] {
+      result_.before = check();
+      result_.regions_before = check_regions();
+    });
     if (options_.output) {
       warn_of_precision();
       begin(Stage::smooth);
       smooth();
-      timed(Stage::check_after, result_.timings_ms.check_after, [&] { result_.after = check(); });
+      timed(Stage::check_after, result_.timings_ms.check_after, [&] {
+        result_.after = check();
+        result_.regions_after = check_regions();
+      });
       timed(Stage::write, result_.timings_ms.write, [&] { write(*options_.output, options_.annotate); });
     } else if (options_.annotated) {
       timed(Stage::write, result_.timings_ms.write, [&] { write(*options_.annotated, true); });
@@ -96,13 +109,13 @@ class Run {
     mesh_ = planar_mesh(document_, options_.input);
     std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
     enter_frame();
-    const Regions regions = find_regions(document_, mesh_, options_.region_array);
-    const std::vector<std::uint8_t> named =
-        fixed_by_array(document_, options_.fixed_array.value_or("fixed"), options_.fixed_array.has_value());
+    regions_ = find_regions(document_, mesh_, options_.region_arrays);
+    result_.notes.insert(result_.notes.begin(), regions_.notes.begin(), regions_.notes.end());
+    const FixedArray named = find_fixed_array(document_, options_.fixed_array);
     const std::vector<std::int32_t> ids =
         options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
     found_ = find_rings(
-        {.fixed = named, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions.of_triangle});
+        {.fixed = named.flags, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions_.of_triangle});
     if (settle_plane(mesh_, document_, found_.fixed, options_.input)) {
       enter_frame();
     }
@@ -110,12 +123,21 @@ class Run {
     InputSummary& input = result_.input;
     input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
     input.other_cells = mesh_.other_cells;
-    input.regions = regions.count;
-    input.region_array = regions.array;
+    input.regions = regions_.count();
+    input.region_arrays = regions_.arrays;
+    result_.region_names = regions_.names;
+    for (const RegionArray& array : regions_.arrays) {
+      input.region_array.append(input.region_array.empty() ? "" : ", ").append(array.name);
+    }
     input.components = found_.components;
     input.free_vertices = std::ranges::count(found_.fixed, 0);
     input.fixed_vertices = input.vertices - input.free_vertices;
     input.reoriented_triangles = found_.reoriented_triangles;
+    input.fixed_array = named.array;
+    input.fixed_array_vertices = named.vertices;
+    input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
+    input.fixed_ids_vertices = count_different(ids);
+    input.held = count_held(found_.fixed);
   }
 
   MeshRings find_rings(const Constraints& constraints) {
@@ -162,6 +184,13 @@ class Run {
       element.centroid = frame_.leave(element.centroid);
     }
     return report;
+  }
+
+  std::vector<RegionQuality> check_regions() const {
+    const std::int32_t count = regions_.count();
+    return count < 2 ? std::vector<RegionQuality>{}
+                     : region_quality({local_, mesh_.triangles, found_.reversed, frame_.exponent}, regions_.of_triangle,
+                                      count, options_.smoothing.threads);
   }
 
   void warn_of_precision() {
@@ -277,6 +306,7 @@ class Run {
   PlanarMesh mesh_;
   LocalFrame frame_;
   std::vector<Point2<double>> local_;  ///< mesh_.points in the local frame
+  Regions regions_;
   MeshRings found_;
   std::vector<double> input_points_;       ///< for annotations of a smoothing
   std::vector<DataArray> metrics_before_;  ///< likewise

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/region_array.h"
+#include "trismooth/pipeline/held_vertices.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
+#include "trismooth/quality/region_quality.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -35,7 +38,7 @@ struct PipelineOptions {
   std::filesystem::path input;
   std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed
   SmoothingOptions smoothing;
-  std::optional<std::string> region_array;         ///< absent: see find_regions
+  std::vector<std::string> region_arrays;          ///< see find_regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   bool annotate = false;                           ///< add arrays to the output, see annotations.h
@@ -62,11 +65,17 @@ struct InputSummary {
   std::int64_t triangles = 0;
   std::int64_t other_cells = 0;
   std::int32_t regions = 0;     ///< 0: no region array
-  std::string region_array;     ///< the array that gave them, or empty
+  std::string region_array;     ///< the array that gave them, or empty; the names of several, separated by ", "
   std::int32_t components = 0;  ///< connected through edges with exactly two triangles
   std::int64_t fixed_vertices = 0;
   std::int64_t free_vertices = 0;
-  std::int64_t reoriented_triangles = 0;  ///< listed against their component's majority
+  std::int64_t reoriented_triangles = 0;   ///< listed against their component's majority
+  std::vector<RegionArray> region_arrays;  ///< the cell arrays that were obeyed, in the file's order
+  std::string fixed_array;                 ///< the point array that was obeyed, or empty
+  std::int64_t fixed_array_vertices = 0;   ///< where it is not zero
+  std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
+  std::int64_t fixed_ids_vertices = 0;     ///< that it names
+  HeldVertices held;                       ///< the fixed vertices by what holds them
 };
 
 /// Milliseconds of each stage.
@@ -80,12 +89,15 @@ struct PipelineResult {
   InputSummary input;
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
-  std::optional<SmoothingResult> smoothing;  ///< likewise
-  std::uint64_t coordinates_hash = 0;        ///< XXH64 of the output coordinates (see coordinates_hash.h)
-  std::uint64_t uncommitted_hash = 0;        ///< the same before the commit
-  std::vector<std::string> notes;            ///< what the user should know, one sentence each
-  std::vector<std::string> losses;           ///< what the output does not hold of the input, likewise: always shown
-  std::vector<std::string> warnings;         ///< what the user should have known before the smoothing, likewise
+  std::optional<SmoothingResult> smoothing;   ///< likewise
+  std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
+  std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed
+  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates (see coordinates_hash.h)
+  std::uint64_t uncommitted_hash = 0;         ///< the same before the commit
+  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+  std::vector<std::string> losses;            ///< what the output does not hold of the input, likewise: always shown
+  std::vector<std::string> warnings;          ///< what the user should have known before the smoothing, likewise
   PipelineTimings timings_ms;
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far
 };

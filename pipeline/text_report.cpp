@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/pipeline/held_text.h"
+#include "trismooth/pipeline/region_table.h"
 #include "trismooth/quality/quality_table.h"
 #include "trismooth/smoothing/backend.h"
 
@@ -19,7 +21,7 @@ std::string line(std::string_view label, std::string_view text) {
   return fmt::format("{:<12}{}\n", label, text);
 }
 
-std::string input_lines(const PipelineOptions& options, const InputSummary& input) {
+std::string input_lines(const InputSummary& input) {
   std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),
                                  counted(input.triangles, "triangle", "triangles"));
   if (input.other_cells > 0) {
@@ -34,20 +36,15 @@ std::string input_lines(const PipelineOptions& options, const InputSummary& inpu
                                  counted(input.reoriented_triangles, "triangle is", "triangles are")));
   }
   if (!input.region_array.empty()) {
-    std::string regions = fmt::format("{} by the cell array '{}'", input.regions, input.region_array);
+    std::string regions = fmt::format("{} by the cell array{} '{}'", input.regions,
+                                      input.region_arrays.size() > 1 ? "s" : "", input.region_array);
     if (input.regions > 1) {
       regions += "; vertices between two regions are fixed";
     }
     text += line("regions:", regions);
   }
-  std::string vertices = fmt::format("{} fixed, {} free", input.fixed_vertices, input.free_vertices);
-  if (options.fixed_array) {
-    vertices += fmt::format("; fixed by the point array '{}'", *options.fixed_array);
-  }
-  if (options.fixed_ids) {
-    vertices += fmt::format("{} the file {}", options.fixed_array ? " and" : "; fixed by", options.fixed_ids->string());
-  }
-  return text + line("vertices:", vertices);
+  return text + line("vertices:", fmt::format("{} fixed, {} free", input.fixed_vertices, input.free_vertices)) +
+         line("fixed:", held_text(input));
 }
 
 /// What a run that moved nothing should say, or nothing.
@@ -176,7 +173,7 @@ std::string_view not_reproducible_text() {
 }
 
 std::string text_report(const PipelineOptions& options, const PipelineResult& result) {
-  std::string text = input_lines(options, result.input);
+  std::string text = input_lines(result.input);
   if (result.smoothing) {
     text += smoothing_lines(options.smoothing, result);
   }
@@ -187,6 +184,9 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     }
   }
   text += inverted_line(result);
+  if (!result.smoothing && result.region_names.size() <= few_regions) {
+    text += region_table(result);
+  }
   if (const auto& written = options.written()) {
     text += line("written:", written->string());
   }

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/fixed_array.h"
 #include "trismooth/mesh_io/halfedge_mesh.h"
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/plane_smoothing.h"
+#include "trismooth/mesh_io/region_arrays.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -101,8 +103,8 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   }
   const trismooth::PlanarMesh& mesh = prepared.mesh;
   prepared.enter_frame();
-  prepared.regions = trismooth::find_regions(document, mesh, std::nullopt);
-  prepared.fixed = trismooth::fixed_by_array(document, "fixed", false);
+  prepared.regions = trismooth::find_regions(document, mesh);
+  prepared.fixed = trismooth::find_fixed_array(document, std::nullopt).flags;
   const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
   trismooth::Workers workers(1);
   const auto by_halfedges = [&](const trismooth::TriangleTopology& topology, const trismooth::MeshRings& known) {

@@ -101,7 +101,7 @@ TEST_CASE("without options, smooth uses the documented defaults") {
   CHECK_FALSE(options.smoothing.target_quality);
   CHECK_FALSE(options.smoothing.record_min_shape);
   CHECK_FALSE(options.annotate);
-  CHECK_FALSE(options.region_array);
+  CHECK(options.region_arrays.empty());
 }
 
 TEST_CASE("every option of smooth reaches the pipeline") {
@@ -130,7 +130,7 @@ TEST_CASE("every option of smooth reaches the pipeline") {
   CHECK(options.smoothing.target_quality == 0.25);
   CHECK(options.smoothing.record_min_shape);
   CHECK(options.smoothing.threads == 3);
-  CHECK(options.region_array == "material");
+  CHECK(options.region_arrays == std::vector<std::string>{"material"});
   CHECK(options.fixed_array == "anchors");
   CHECK(options.fixed_ids == std::filesystem::path("ids.txt"));
   CHECK(options.annotate);
@@ -150,7 +150,7 @@ TEST_CASE("quality runs the pipeline without an output") {
   REQUIRE(outcome.code == 0);
   CHECK(outcome.options->input == "plate.vtk");
   CHECK_FALSE(outcome.options->output.has_value());
-  CHECK(outcome.options->region_array == "material");
+  CHECK(outcome.options->region_arrays == std::vector<std::string>{"material"});
   CHECK(outcome.shows("120 vertices"));
   CHECK(outcome.shows("equiangle_skew"));
 }

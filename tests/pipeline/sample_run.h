@@ -31,6 +31,8 @@ inline trismooth::PipelineOptions options() {
 inline trismooth::PipelineResult result() {
   trismooth::PipelineResult result;
   result.input = {"plate.vtk", trismooth::FileFormat::vtk, 120, 210, 5, 3, "mat_id", 2, 40, 80, 7};
+  result.input.region_arrays = {{"mat_id", trismooth::RegionReason::known_name, 3, 11}};
+  result.input.held = {.boundary = 27, .interface = 11, .other_cells = 9, .several = 7};
   result.before = quality(0);
   result.after = quality(0.25);
   trismooth::SmoothingResult smoothing;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace trismooth {
+
+/// Whether programs write regions under that name of a cell array ("attribute", "gmsh:physical", "SubdomainID", ...).
+/// Compared by plain_name(): without case, blanks and punctuation. The list is in region_names.cpp and in README.md.
+bool is_region_name(std::string_view name);
+
+/// Whether a cell array of that name divides or numbers cells for another purpose: parts of a parallel run, ghost
+/// cells, cells of an older mesh. Compared by plain_name().
+bool is_bookkeeping_name(std::string_view name);
+
+}  // namespace trismooth

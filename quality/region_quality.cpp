@@ -1,0 +1,95 @@
+#include "trismooth/quality/region_quality.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "trismooth/quality/metrics.h"
+#include "trismooth/quality/workers.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Some triangles of one region: members[begin .. end). Of this size whatever the number of threads, and combined in
+/// order: no rounding depends on scheduling.
+struct Chunk {
+  std::size_t region;
+  std::size_t begin;
+  std::size_t end;
+};
+
+constexpr std::size_t chunk_size = 1024;
+
+/// What a chunk, or several in order, contribute; `mean_shape` is the sum as yet.
+void append(RegionQuality& total, const RegionQuality& next) {
+  total.triangles += next.triangles;
+  total.inverted += next.inverted;
+  total.min_shape = std::min(total.min_shape, next.min_shape);
+  total.mean_shape += next.mean_shape;
+  total.min_angle = std::min(total.min_angle, next.min_angle);
+}
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr RegionQuality nothing{0, 0, unbounded, 0, unbounded};
+
+RegionQuality quality_of(const TriangleView& view, std::span<const std::int32_t> members) {
+  RegionQuality quality = nothing;
+  for (const std::int32_t triangle : members) {
+    const auto [a, b, c] = canonical_corners(view, static_cast<std::size_t>(triangle));
+    const auto value = [&, a = a, b = b, c = c](Metric metric) {
+      return evaluate(metric, view.points[static_cast<std::size_t>(a)], view.points[static_cast<std::size_t>(b)],
+                      view.points[static_cast<std::size_t>(c)]);
+    };
+    const double shape = value(Metric::shape);
+    append(quality, {1, shape < 0 ? 1 : 0, shape, shape, value(Metric::min_angle)});
+  }
+  return quality;
+}
+
+}  // namespace
+
+std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<const std::int32_t> region_of,
+                                          std::int32_t region_count, int threads) {
+  // The triangles by region, in their order within each.
+  std::vector<std::size_t> offsets(static_cast<std::size_t>(region_count) + 1, 0);
+  for (const std::int32_t region : region_of) {
+    ++offsets[static_cast<std::size_t>(region) + 1];
+  }
+  for (std::size_t r = 1; r < offsets.size(); ++r) {
+    offsets[r] += offsets[r - 1];
+  }
+  std::vector<std::int32_t> members(region_of.size());
+  std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
+  for (std::size_t t = 0; t < region_of.size(); ++t) {
+    members[next[static_cast<std::size_t>(region_of[t])]++] = static_cast<std::int32_t>(t);
+  }
+
+  std::vector<Chunk> chunks;
+  for (std::size_t r = 0; r + 1 < offsets.size(); ++r) {
+    for (std::size_t begin = offsets[r]; begin < offsets[r + 1]; begin += chunk_size) {
+      chunks.push_back({r, begin, std::min(begin + chunk_size, offsets[r + 1])});
+    }
+  }
+  std::vector<RegionQuality> partials(chunks.size());
+  Workers(threads).for_blocks(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      partials[i] = quality_of(view, std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin));
+    }
+  });
+
+  std::vector<RegionQuality> regions(static_cast<std::size_t>(region_count), nothing);
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    append(regions[chunks[i].region], partials[i]);
+  }
+  for (RegionQuality& region : regions) {
+    if (region.triangles == 0) {
+      region.min_shape = region.mean_shape = region.min_angle = std::numeric_limits<double>::quiet_NaN();
+    } else {
+      region.mean_shape /= static_cast<double>(region.triangles);
+    }
+  }
+  return regions;
+}
+
+}  // namespace trismooth
