@@ -117,10 +117,10 @@ double extent_of(const std::vector<test_meshes::Point>& points, const Counts& co
   return std::max(range(x), range(y));
 }
 
-/// What stays has an extent of which rounding elsewhere is not a millionth.
-bool is_held_wide(const RandomMesh& mesh) {
+/// Whether there are triangles, and what stays has an extent of which rounding elsewhere is not a millionth.
+bool suits(const RandomMesh& mesh) {
   const std::vector<bool> fixed = connectivity_of(mesh).fixed;
-  return extent_of(mesh.mesh.points, [&](std::size_t v) { return fixed[v]; }) > 1e-6;
+  return !mesh.mesh.triangles.empty() && extent_of(mesh.mesh.points, [&](std::size_t v) { return fixed[v]; }) > 1e-6;
 }
 
 std::vector<Vector3d> placed(const RandomMesh& mesh, const Place& place) {
@@ -133,9 +133,9 @@ std::vector<Vector3d> placed(const RandomMesh& mesh, const Place& place) {
 
 TEST_CASE("what moves of a mesh in a plane lies in the plane, to rounding, however little that is inclined") {
   std::int64_t moved = 0;
-  for_random_meshes(2000, [&](const RandomMesh& any) -> std::string {
+  for_random_meshes(1000, [&](const RandomMesh& any) -> std::string {
     const RandomMesh mesh = in_frame(any);
-    if (!is_held_wide(mesh)) {
+    if (!suits(mesh)) {
       return {};
     }
     return for_some_options(mesh, 2, [&](const SmoothingOptions& options, test_meshes::Random& random) -> std::string {
@@ -153,13 +153,13 @@ TEST_CASE("what moves of a mesh in a plane lies in the plane, to rounding, howev
       return {};
     });
   });
-  CHECK(moved >= meshes_of(2000));
+  CHECK(moved >= meshes_of(1000));
 }
 
 TEST_CASE("in a plane of space, unused vertices at the end change no bit, wherever they are") {
-  for_random_meshes(1000, [](const RandomMesh& any) -> std::string {
+  for_random_meshes(500, [](const RandomMesh& any) -> std::string {
     const RandomMesh mesh = in_frame(any);
-    if (!is_held_wide(mesh)) {
+    if (!suits(mesh)) {
       return {};
     }
     return for_some_options(mesh, 2, [&](const SmoothingOptions& options, test_meshes::Random& random) -> std::string {

@@ -294,3 +294,23 @@ TEST_CASE("the length scale is the power of two of the frame") {
   CHECK(local_frame(Points{{0, 0}, {0.75, 0.1}}).length_scale() == 1);
   CHECK(local_frame(Points{{0, 0}, {0.25, 0.1}}).length_scale() == 0.5);
 }
+
+TEST_CASE("points that do not count have no say in the frame, and enter it at its edge") {
+  const double most = std::numeric_limits<double>::max();
+  const Points used = random_points({1e-3, 4e7}, {1e-6, 1});
+  Points all{{most, -most}, {0, 0}};
+  all.insert(all.end(), used.begin(), used.end());
+  all.push_back({-1e200, 3e162});
+  const auto is_used = [&](std::size_t i) { return i >= 2 && i < used.size() + 2; };
+  const LocalFrame frame = local_frame(all, is_used);
+  const LocalFrame expected = local_frame(used);
+  CHECK(same_bits(frame.centre_x, expected.centre_x));
+  CHECK(same_bits(frame.centre_y, expected.centre_y));
+  CHECK(frame.exponent == expected.exponent);
+  CHECK(frame.enter(all.front()) == Point{4, -4});
+  CHECK(frame.enter(all.back()) == Point{-4, 4});
+
+  const LocalFrame of_nothing = local_frame(all, [](std::size_t) { return false; });
+  CHECK(of_nothing.exponent == 0);
+  CHECK(of_nothing.centre_x == 0);
+}
