@@ -1,8 +1,7 @@
 #include "trismooth/cuda/backend.h"
 
 #include <chrono>
-#include <stdexcept>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/cuda/device_mesh.h"
@@ -19,10 +18,11 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// Smooths coordinates of the host: there and back, with the time that it takes.
+/// Smooths coordinates of the host: there and back, with the time that it takes. Where the way back breaks off, they
+/// are what they were, or some have been written, as `on_failure` says.
 template <class Smooth>
 SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, DeviceBuffer<Point2<double>>& stored,
-                                   std::span<Point2<double>> points, const Smooth& smooth) {
+                                   std::span<Point2<double>> points, OnFailure on_failure, const Smooth& smooth) {
   Timeline timeline(context);
   timeline.mark();
   copier.upload(stored, std::span<const Point2<double>>(points));
@@ -31,7 +31,7 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
   Timeline way_back(context);
   way_back.mark();
   if (result.moved_vertices > 0) {
-    copier.download(points, stored);
+    copier.download(points, stored, on_failure);
   }
   way_back.mark();
   result.timings.transfer_in = timeline.milliseconds(0);
@@ -61,10 +61,10 @@ class RingSmoother final : public PreparedSmoother {
   SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                          double fixed_quotient) override {
     frame_.upload({&frame, 1});
-    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, [&] {
-      return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
-    });
-    result.timings.prepare = prepare_ms_;
+    SmoothingResult result =
+        smooth_host_points(context_, copier_, stored_, points, OnFailure::leave_partly_written,
+                           [&] { return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient); });
+    result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
 
@@ -80,7 +80,7 @@ class RingSmoother final : public PreparedSmoother {
   DeviceBuffer<Point2<double>> stored_;
   DeviceBuffer<LocalFrame> frame_;
   std::unique_ptr<DeviceSmoother> smoother_;
-  double prepare_ms_ = 0;
+  double prepare_ms_ = 0;  ///< until a call has reported it
 };
 
 /// A mesh of the host with its topology found and kept on the device.
@@ -99,18 +99,15 @@ class TriangleSmoother final : public PreparedMesh {
     constraints_ = {};
   }
 
-  SmoothingResult smooth(std::span<double> xy, Storage storage) override {
-    if (xy.size() != 2 * stored_.size()) {
-      throw std::invalid_argument("xy has " + std::to_string(xy.size()) + " entries, expected two for each of " +
-                                  std::to_string(stored_.size()) + " vertices");
-    }
-    const std::span points(reinterpret_cast<Point2<double>*>(xy.data()), stored_.size());
-    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points,
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) override {
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, OnFailure::restore,
                                                 [&] { return plan_.smooth(&stored_.data()->x, storage); });
     // The plan counts what it has taken itself.
     result.device_memory_bytes += static_cast<std::int64_t>(context_.bytes_in_use());
     return result;
   }
+
+  std::vector<std::uint8_t> fixed() const override { return plan_.fixed(); }
 
  private:
   static const Constraints& checked(const Constraints& constraints, std::int32_t vertex_count,

@@ -76,6 +76,18 @@ class Slots {
   std::array<cudaEvent_t, slot_count> events_{};
 };
 
+/// Waits in the end for all that is queued, also where that has failed.
+class Arrival {
+ public:
+  explicit Arrival(cudaStream_t stream) : stream_(stream) {}
+  Arrival(const Arrival&) = delete;
+  Arrival& operator=(const Arrival&) = delete;
+  ~Arrival() { cudaStreamSynchronize(stream_); }
+
+ private:
+  cudaStream_t stream_;
+};
+
 bool is_pageable(const void* memory) {
   cudaPointerAttributes attributes{};
   TRISMOOTH_CUDA_CHECK(cudaPointerGetAttributes(&attributes, memory));
@@ -120,36 +132,51 @@ void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, context_.stream()));
 }
 
-void HostCopier::download(void* to, const void* from, std::size_t bytes) {
+bool HostCopier::download_through_slots(const std::byte* from, std::size_t bytes, Overwriting& target) {
+  Slots slots;
+  if (!slots.usable()) {
+    return false;
+  }
+  const auto empty = [&](std::size_t piece) {
+    slots.wait(piece);
+    target.write(slots.at(piece), std::min(piece_bytes, bytes - piece * piece_bytes));
+  };
+  std::size_t emptied = 0;
+  std::size_t filled = 0;
+  for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
+    if (piece - emptied == slot_count) {
+      empty(emptied++);
+    }
+    TRISMOOTH_CUDA_CHECK(
+        cudaMemcpyAsync(slots.at(piece), from + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
+    slots.queued(piece, context_.stream());
+    ++filled;
+  });
+  while (emptied < filled) {
+    empty(emptied++);
+  }
+  return true;
+}
+
+void HostCopier::download(void* to, const void* from, std::size_t bytes, OnFailure on_failure) {
   if (bytes == 0) {
     return;
   }
-  if (bytes >= least_bytes && is_pageable(to)) {
-    if (Slots slots; slots.usable()) {
-      const auto empty = [&](std::size_t piece) {
-        const std::size_t offset = piece * piece_bytes;
-        slots.wait(piece);
-        copy_by_all(static_cast<std::byte*>(to) + offset, slots.at(piece), std::min(piece_bytes, bytes - offset));
-      };
-      std::size_t emptied = 0;
-      std::size_t filled = 0;
-      for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
-        if (piece - emptied == slot_count) {
-          empty(emptied++);
-        }
-        TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(slots.at(piece), static_cast<const std::byte*>(from) + offset, size,
-                                             cudaMemcpyDeviceToHost, context_.stream()));
-        slots.queued(piece, context_.stream());
-        ++filled;
-      });
-      while (emptied < filled) {
-        empty(emptied++);
-      }
-      return;
-    }
+  auto* const target = static_cast<std::byte*>(to);
+  const auto* const source = static_cast<const std::byte*>(from);
+  Overwriting overwriting({target, bytes}, on_failure == OnFailure::restore ? &kept_ : nullptr, workers_);
+  const bool goes_through_slots = bytes >= least_bytes && is_pageable(to);
+  if (!goes_through_slots || !download_through_slots(source, bytes, overwriting)) {
+    // Pieces travel while what the next one will overwrite is kept.
+    const Arrival arrival(context_.stream());
+    for_pieces(bytes, [&](std::size_t /*piece*/, std::size_t offset, std::size_t size) {
+      overwriting.give_away(size);
+      TRISMOOTH_CUDA_CHECK(
+          cudaMemcpyAsync(target + offset, source + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
+    });
+    context_.synchronize();
   }
-  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, context_.stream()));
-  context_.synchronize();
+  overwriting.done();
 }
 
 }  // namespace trismooth::cuda

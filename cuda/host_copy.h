@@ -1,13 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "trismooth/cuda/context.h"
 #include "trismooth/cuda/device_buffer.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/overwriting.h"
 
 namespace trismooth::cuda {
+
+/// What a download that breaks off leaves behind.
+enum class OnFailure : std::uint8_t {
+  leave_partly_written,
+  restore,  ///< what was there before; takes as much memory again, for as long as the copier lives
+};
 
 /// Copies large arrays of the caller to the device and back on a context's stream.
 ///
@@ -34,17 +42,19 @@ class HostCopier {
   }
   /// Copies the first values of a buffer to the host and waits for them.
   template <class T>
-  void download(std::span<T> to, const DeviceBuffer<T>& from) {
-    download(to.data(), from.data(), to.size_bytes());
+  void download(std::span<T> to, const DeviceBuffer<T>& from, OnFailure on_failure = OnFailure::leave_partly_written) {
+    download(to.data(), from.data(), to.size_bytes(), on_failure);
   }
 
  private:
   void upload(void* to, const void* from, std::size_t bytes);
-  void download(void* to, const void* from, std::size_t bytes);
-  void copy_by_all(void* to, const void* from, std::size_t bytes);
+  void download(void* to, const void* from, std::size_t bytes, OnFailure on_failure);
+  /// Piece by piece through page-locked memory. False where there is none to be had.
+  bool download_through_slots(const std::byte* from, std::size_t bytes, Overwriting& target);
 
   Context& context_;
   Workers workers_;
+  ScratchBytes kept_;
 };
 
 }  // namespace trismooth::cuda

@@ -480,7 +480,7 @@ TEST_CASE("too little device memory is an error that says how much is needed, an
       const Hoard hoard(std::size_t{40} << 20U);
       std::string message;
       try {
-        smooth(xy, large.indices(), {}, options);
+        smooth(xy_points(xy), large.indices(), {}, options);
       } catch (const DeviceError& error) {
         message = error.what();
       }

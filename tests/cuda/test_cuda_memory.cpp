@@ -42,7 +42,7 @@ SmoothingResult smooth_on_device(const Mesh& mesh) {
   options.backend = &cuda::backend();
   options.topology = Topology::device;
   std::vector<double> xy = mesh.xy();
-  return smooth(xy, mesh.indices(), {}, options);
+  return smooth(xy_points(xy), mesh.indices(), {}, options);
 }
 
 std::vector<std::int32_t> numbers(std::size_t count) {
@@ -153,7 +153,7 @@ std::vector<Way> ways_to_the_device() {
       options.backend = &cuda::backend();
       after = mesh.xy();
       all_but_little();
-      smooth(after, mesh.indices(), {}, options);
+      smooth(xy_points(after), mesh.indices(), {}, options);
     };
   };
   const auto from_device = [](auto zero, bool planned) {

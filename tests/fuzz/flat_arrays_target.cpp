@@ -421,7 +421,7 @@ void run_flat_arrays(std::span<const std::uint8_t> bytes) {
   std::vector<double> xy = chosen.arrays.xy;
   bool refused = false;
   try {
-    trismooth::smooth(xy, chosen.arrays.triangles, chosen.holds.view(), chosen.with_callback());
+    trismooth::smooth(trismooth::xy_points(xy), chosen.arrays.triangles, chosen.holds.view(), chosen.with_callback());
   } catch (const trismooth::MeshError&) {
     refused = true;
   } catch (const std::invalid_argument&) {

@@ -38,7 +38,7 @@ Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topo
   options.backend = backend;
   options.topology = topology;
   Smoothed smoothed{{}, mesh.xy()};
-  smoothed.result = trismooth::smooth(smoothed.xy, mesh.indices(), {}, options);
+  smoothed.result = trismooth::smooth(trismooth::xy_points(smoothed.xy), mesh.indices(), {}, options);
   return smoothed;
 }
 

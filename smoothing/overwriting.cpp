@@ -1,0 +1,48 @@
+#include "trismooth/smoothing/overwriting.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace trismooth {
+
+std::byte* ScratchBytes::get(std::size_t size) {
+  if (size > size_) {
+    size_ = 0;
+    bytes_.reset();
+    // Cleared memory would be touched by one thread before all threads do.
+    bytes_ = std::make_unique_for_overwrite<std::byte[]>(size);
+    size_ = size;
+  }
+  return bytes_.get();
+}
+
+Overwriting::Overwriting(std::span<std::byte> memory, ScratchBytes* kept, Workers& workers)
+    : memory_(memory), kept_(kept == nullptr ? nullptr : kept->get(memory.size())), workers_(workers) {}
+
+Overwriting::~Overwriting() {
+  if (!is_done_ && kept_ != nullptr && passed_ > 0) {
+    std::memcpy(memory_.data(), kept_, passed_);
+  }
+}
+
+void Overwriting::give_away(std::size_t size) {
+  if (kept_ != nullptr) {
+    copy(kept_ + passed_, memory_.data() + passed_, size);
+  }
+  passed_ += size;
+}
+
+void Overwriting::write(const std::byte* from, std::size_t size) {
+  std::byte* const target = memory_.data() + passed_;
+  give_away(size);
+  copy(target, from, size);
+}
+
+void Overwriting::copy(std::byte* to, const std::byte* from, std::size_t size) {
+  constexpr std::int64_t grain = 1 << 17;
+  workers_.for_blocks(static_cast<std::int64_t>(size), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::memcpy(to + begin, from + begin, static_cast<std::size_t>(end - begin));
+  });
+}
+
+}  // namespace trismooth
