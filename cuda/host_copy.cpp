@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <mutex>
 
 #include <cuda_runtime_api.h>
@@ -105,14 +104,6 @@ void for_pieces(std::size_t bytes, const Copy& copy) {
 
 }  // namespace
 
-void HostCopier::copy_by_all(void* to, const void* from, std::size_t bytes) {
-  constexpr std::int64_t grain = 1 << 17;
-  workers_.for_blocks(static_cast<std::int64_t>(bytes), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::memcpy(static_cast<std::byte*>(to) + begin, static_cast<const std::byte*>(from) + begin,
-                static_cast<std::size_t>(end - begin));
-  });
-}
-
 void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) {
     return;
@@ -121,7 +112,7 @@ void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
     if (Slots slots; slots.usable()) {
       for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
         slots.wait(piece);
-        copy_by_all(slots.at(piece), static_cast<const std::byte*>(from) + offset, size);
+        copy_by_all(slots.at(piece), static_cast<const std::byte*>(from) + offset, size, workers_);
         TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(static_cast<std::byte*>(to) + offset, slots.at(piece), size,
                                              cudaMemcpyHostToDevice, context_.stream()));
         slots.queued(piece, context_.stream());

@@ -16,6 +16,13 @@ std::byte* ScratchBytes::get(std::size_t size) {
   return bytes_.get();
 }
 
+void copy_by_all(std::byte* to, const std::byte* from, std::size_t size, Workers& workers) {
+  constexpr std::int64_t grain = 1 << 17;
+  workers.for_blocks(static_cast<std::int64_t>(size), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::memcpy(to + begin, from + begin, static_cast<std::size_t>(end - begin));
+  });
+}
+
 Overwriting::Overwriting(std::span<std::byte> memory, ScratchBytes* kept, Workers& workers)
     : memory_(memory), kept_(kept == nullptr ? nullptr : kept->get(memory.size())), workers_(workers) {}
 
@@ -27,7 +34,7 @@ Overwriting::~Overwriting() {
 
 void Overwriting::give_away(std::size_t size) {
   if (kept_ != nullptr) {
-    copy(kept_ + passed_, memory_.data() + passed_, size);
+    copy_by_all(kept_ + passed_, memory_.data() + passed_, size, workers_);
   }
   passed_ += size;
 }
@@ -35,14 +42,7 @@ void Overwriting::give_away(std::size_t size) {
 void Overwriting::write(const std::byte* from, std::size_t size) {
   std::byte* const target = memory_.data() + passed_;
   give_away(size);
-  copy(target, from, size);
-}
-
-void Overwriting::copy(std::byte* to, const std::byte* from, std::size_t size) {
-  constexpr std::int64_t grain = 1 << 17;
-  workers_.for_blocks(static_cast<std::int64_t>(size), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::memcpy(to + begin, from + begin, static_cast<std::size_t>(end - begin));
-  });
+  copy_by_all(target, from, size, workers_);
 }
 
 }  // namespace trismooth

@@ -19,6 +19,9 @@ class ScratchBytes {
   std::size_t size_ = 0;
 };
 
+/// Copies bytes on all workers.
+void copy_by_all(std::byte* to, const std::byte* from, std::size_t size, Workers& workers);
+
 /// Somebody's memory while it is overwritten from front to back, in pieces. Gets back what it had unless all of it is
 /// overwritten in the end: whatever is thrown on the way, its owner finds the old or the new, never a mixture.
 class Overwriting {
@@ -38,8 +41,6 @@ class Overwriting {
   void done() { is_done_ = true; }
 
  private:
-  void copy(std::byte* to, const std::byte* from, std::size_t size);
-
   std::span<std::byte> memory_;
   std::byte* kept_;
   Workers& workers_;

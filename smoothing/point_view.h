@@ -100,7 +100,7 @@ namespace array_layout {
 /// Throws std::invalid_argument unless numbers come out even.
 void require_whole_points(std::size_t numbers, std::size_t components);
 
-template <CoordinateNumbers R>
+template <Numbers R>
 PointView flat_points(R& numbers, std::size_t components) {
   require_whole_points(number_count(numbers), components);
   return PointView(flat_rows(numbers, components));

@@ -442,3 +442,42 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
   plan.smooth(xy);
   CHECK(xy == expected);
 }
+
+TEST_CASE("more threads than a machine can have are refused before any is started, by every call that takes a number") {
+  const Mesh mesh = test_meshes::star(5);
+  std::vector<double> xy = mesh.xy();
+  SmoothingOptions options;
+  for (const int threads : {100000, std::numeric_limits<int>::max(), -1}) {
+    options.threads = threads;
+    CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), std::invalid_argument);
+    CHECK_THROWS_AS(plan(mesh.vertex_count(), mesh.indices(), {}, options), std::invalid_argument);
+  }
+  CHECK(xy == mesh.xy());
+}
+
+TEST_CASE("the time of preparing is that of the call which prepared") {
+  const Mesh mesh = test_meshes::jittered_grid(30, 30, 0.3, 1);
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
+  std::vector<double> xy = mesh.xy();
+  CHECK(repeated.smooth(xy).timings.prepare > 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    xy[i] = -xy[i];
+  }
+  CHECK(repeated.smooth(xy).timings.prepare > 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+}
+
+TEST_CASE("a plan that has been moved from says so, and can be made anew") {
+  const Mesh mesh = test_meshes::star(5);
+  SmoothingPlan first = plan(mesh.vertex_count(), mesh.indices());
+  SmoothingPlan second = std::move(first);
+  std::vector<double> xy = mesh.xy();
+  // NOLINTNEXTLINE(bugprone-use-after-move): that is the question
+  CHECK_THROWS_AS(first.smooth(xy), std::logic_error);
+  CHECK(xy == mesh.xy());
+  first = plan(mesh.vertex_count(), mesh.indices());
+  first.smooth(xy);
+  CHECK(xy == smoothed(mesh));
+}
