@@ -12,6 +12,7 @@
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/timeline.h"
 #include "trismooth/cuda/uploaded_constraints.h"
+#include "trismooth/smoothing/overwriting.h"
 #include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth::cuda {
@@ -19,19 +20,25 @@ namespace trismooth::cuda {
 namespace {
 
 /// Smooths coordinates of the host: there and back, with the time that it takes. Where the way back breaks off, they
-/// are what they were, or some have been written, as `on_failure` says.
+/// are what they were, which is kept in `kept`; null: some have been written.
 template <class Smooth>
 SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, DeviceBuffer<Point2<double>>& stored,
-                                   std::span<Point2<double>> points, OnFailure on_failure, const Smooth& smooth) {
+                                   std::span<Point2<double>> points, ScratchBytes* kept, const Smooth& smooth) {
+  // From here on keeping pays for a thread.
+  constexpr std::size_t many_bytes = std::size_t{1} << 20U;
+  Overwriting target(std::as_writable_bytes(points), kept, copier.workers());
   Timeline timeline(context);
   timeline.mark();
   copier.upload(stored, std::span<const Point2<double>>(points));
   timeline.mark();
+  if (points.size_bytes() >= many_bytes) {
+    target.keep_meanwhile();
+  }
   SmoothingResult result = smooth();
   Timeline way_back(context);
   way_back.mark();
   if (result.moved_vertices > 0) {
-    copier.download(points, stored, on_failure);
+    copier.download(target, stored);
   }
   way_back.mark();
   result.timings.transfer_in = timeline.milliseconds(0);
@@ -61,9 +68,9 @@ class RingSmoother final : public PreparedSmoother {
   SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                          double fixed_quotient) override {
     frame_.upload({&frame, 1});
-    SmoothingResult result =
-        smooth_host_points(context_, copier_, stored_, points, OnFailure::leave_partly_written,
-                           [&] { return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient); });
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, nullptr, [&] {
+      return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
+    });
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
@@ -100,7 +107,7 @@ class TriangleSmoother final : public PreparedMesh {
   }
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) override {
-    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, OnFailure::restore,
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, &kept_,
                                                 [&] { return plan_.smooth(&stored_.data()->x, storage); });
     // The plan counts what it has taken itself.
     result.device_memory_bytes += static_cast<std::int64_t>(context_.bytes_in_use());
@@ -122,6 +129,7 @@ class TriangleSmoother final : public PreparedMesh {
   UploadedConstraints constraints_;
   DeviceBuffer<Triangle> triangles_;
   DeviceBuffer<Point2<double>> stored_;
+  ScratchBytes kept_;
   Plan plan_;
 };
 

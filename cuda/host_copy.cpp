@@ -123,11 +123,12 @@ void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, context_.stream()));
 }
 
-bool HostCopier::download_through_slots(const std::byte* from, std::size_t bytes, Overwriting& target) {
+bool HostCopier::download_through_slots(Overwriting& target, const std::byte* from) {
   Slots slots;
   if (!slots.usable()) {
     return false;
   }
+  const std::size_t bytes = target.memory().size();
   const auto empty = [&](std::size_t piece) {
     slots.wait(piece);
     target.write(slots.at(piece), std::min(piece_bytes, bytes - piece * piece_bytes));
@@ -149,25 +150,24 @@ bool HostCopier::download_through_slots(const std::byte* from, std::size_t bytes
   return true;
 }
 
-void HostCopier::download(void* to, const void* from, std::size_t bytes, OnFailure on_failure) {
-  if (bytes == 0) {
+void HostCopier::download(Overwriting& target, const void* from) {
+  const std::span<std::byte> memory = target.memory();
+  const auto* const source = static_cast<const std::byte*>(from);
+  if (memory.empty()) {
     return;
   }
-  auto* const target = static_cast<std::byte*>(to);
-  const auto* const source = static_cast<const std::byte*>(from);
-  Overwriting overwriting({target, bytes}, on_failure == OnFailure::restore ? &kept_ : nullptr, workers_);
-  const bool goes_through_slots = bytes >= least_bytes && is_pageable(to);
-  if (!goes_through_slots || !download_through_slots(source, bytes, overwriting)) {
+  const bool goes_through_slots = memory.size() >= least_bytes && is_pageable(memory.data());
+  if (!goes_through_slots || !download_through_slots(target, source)) {
     // Pieces travel while what the next one will overwrite is kept.
     const Arrival arrival(context_.stream());
-    for_pieces(bytes, [&](std::size_t /*piece*/, std::size_t offset, std::size_t size) {
-      overwriting.give_away(size);
+    for_pieces(memory.size(), [&](std::size_t /*piece*/, std::size_t offset, std::size_t size) {
+      target.give_away(size);
       TRISMOOTH_CUDA_CHECK(
-          cudaMemcpyAsync(target + offset, source + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
+          cudaMemcpyAsync(memory.data() + offset, source + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
     });
     context_.synchronize();
   }
-  overwriting.done();
+  target.done();
 }
 
 }  // namespace trismooth::cuda

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "trismooth/cuda/context.h"
@@ -10,12 +9,6 @@
 #include "trismooth/smoothing/overwriting.h"
 
 namespace trismooth::cuda {
-
-/// What a download that breaks off leaves behind.
-enum class OnFailure : std::uint8_t {
-  leave_partly_written,
-  restore,  ///< what was there before; takes as much memory again, for as long as the copier lives
-};
 
 /// Copies large arrays of the caller to the device and back on a context's stream.
 ///
@@ -42,19 +35,26 @@ class HostCopier {
   }
   /// Copies the first values of a buffer to the host and waits for them.
   template <class T>
-  void download(std::span<T> to, const DeviceBuffer<T>& from, OnFailure on_failure = OnFailure::leave_partly_written) {
-    download(to.data(), from.data(), to.size_bytes(), on_failure);
+  void download(std::span<T> to, const DeviceBuffer<T>& from) {
+    Overwriting target(std::as_writable_bytes(to), nullptr, workers_);
+    download(target, from);
   }
+  /// The same to where somebody says, who has chosen what is to be left where the download breaks off.
+  template <class T>
+  void download(Overwriting& target, const DeviceBuffer<T>& from) {
+    download(target, from.data());
+  }
+
+  Workers& workers() { return workers_; }
 
  private:
   void upload(void* to, const void* from, std::size_t bytes);
-  void download(void* to, const void* from, std::size_t bytes, OnFailure on_failure);
+  void download(Overwriting& target, const void* from);
   /// Piece by piece through page-locked memory. False where there is none to be had.
-  bool download_through_slots(const std::byte* from, std::size_t bytes, Overwriting& target);
+  bool download_through_slots(Overwriting& target, const std::byte* from);
 
   Context& context_;
   Workers workers_;
-  ScratchBytes kept_;
 };
 
 }  // namespace trismooth::cuda

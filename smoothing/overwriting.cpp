@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <system_error>
 
 namespace trismooth {
 
@@ -32,8 +33,23 @@ Overwriting::~Overwriting() {
   }
 }
 
+void Overwriting::keep_meanwhile() {
+  if (kept_ == nullptr) {
+    return;
+  }
+  try {
+    keeping_ = std::async(std::launch::async, [this] { copy_by_all(kept_, memory_.data(), memory_.size(), workers_); });
+  } catch (const std::system_error&) {
+    // No thread to be had: piece by piece, then.
+  }
+}
+
 void Overwriting::give_away(std::size_t size) {
-  if (kept_ != nullptr) {
+  if (keeping_.valid()) {
+    keeping_.get();
+    is_all_kept_ = true;
+  }
+  if (kept_ != nullptr && !is_all_kept_) {
     copy_by_all(kept_ + passed_, memory_.data() + passed_, size, workers_);
   }
   passed_ += size;

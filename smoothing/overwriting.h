@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <future>
 #include <memory>
 #include <span>
 
@@ -33,6 +34,10 @@ class Overwriting {
   Overwriting& operator=(const Overwriting&) = delete;
   ~Overwriting();
 
+  std::span<std::byte> memory() const { return memory_; }
+  /// Begins to keep all of it, on a thread of its own: for an owner who has time until the first piece comes. Until
+  /// then nobody else uses the workers.
+  void keep_meanwhile();
   /// The next `size` bytes are about to be overwritten by somebody else, who is at rest before this is destroyed.
   void give_away(std::size_t size);
   /// Overwrites the next `size` bytes, on all workers.
@@ -45,7 +50,9 @@ class Overwriting {
   std::byte* kept_;
   Workers& workers_;
   std::size_t passed_ = 0;
+  bool is_all_kept_ = false;
   bool is_done_ = false;
+  std::future<void> keeping_;
 };
 
 }  // namespace trismooth

@@ -536,13 +536,14 @@ TEST_CASE("pointers that no kernel could use are refused by name before one runs
   aligned.download(all);
   found.xy.assign(all.begin() + 2, all.end());
   require_same(found, run(mesh, {}));
-  // Page-locked memory and managed memory can be read there.
-  double* locked = nullptr;
-  REQUIRE(cudaMallocHost(&locked, of_host.size() * sizeof(double)) == cudaSuccess);
+  // Page-locked memory can be read there.
+  void* memory = nullptr;
+  REQUIRE(cudaMallocHost(&memory, of_host.size() * sizeof(double)) == cudaSuccess);
+  auto* const locked = static_cast<double*>(memory);
   std::copy(of_host.begin(), of_host.end(), locked);
   plan.smooth(locked);
   CHECK(std::equal(found.xy.begin(), found.xy.end(), locked));
-  REQUIRE(cudaFreeHost(locked) == cudaSuccess);
+  REQUIRE(cudaFreeHost(memory) == cudaSuccess);
 }
 
 TEST_CASE("a plan that has been moved from says so, and one for device memory tells why vertices are fixed") {
