@@ -99,7 +99,7 @@ double bench_smoothing(const RandomMesh& mesh, const Settings& settings, int thr
   for (int run = 0; run < settings.runs; ++run) {
     const auto points = flat_points(mesh);
     std::vector<double> xy(points.begin(), points.end());
-    result = smooth(xy, flat_triangles(mesh), {}, options);
+    result = smooth(xy_points(xy), flat_triangles(mesh), {}, options);
     hashes.push_back(coordinates_hash(xy));
     prepare.add(result.timings.prepare);
     sweeps.add(result.timings.smooth);

@@ -52,7 +52,7 @@ void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const
   double first = 0;
   for (int run = -1; run < session.settings().runs; ++run) {
     std::ranges::copy(flat_points(mesh), xy.begin());
-    const double call = milliseconds_of([&] { result = smooth(xy, triangles, {}, options); });
+    const double call = milliseconds_of([&] { result = smooth(xy_points(xy), triangles, {}, options); });
     bits.compare(xy);
     if (run < 0) {  // it warms up
       first = call;

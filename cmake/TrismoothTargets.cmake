@@ -34,6 +34,16 @@ function(trismooth_guide_fuzzer target)
   endif()
 endfunction()
 
+# Whoever links the target computes what its headers hold inline to the bits of the library, with whatever flags of their
+# own: no multiply and add are fused. nvcc's -use_fast_math, of which no header can tell, is taken back option by option.
+function(trismooth_carry_exact_arithmetic target)
+  target_compile_options(
+    ${target}
+    INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang,IntelLLVM>:-ffp-contract=off>
+              $<$<COMPILE_LANG_AND_ID:CUDA,Clang>:-ffp-contract=off>
+              $<$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>:-fmad=false;-ftz=false;-prec-div=true;-prec-sqrt=true;-Xcompiler=-ffp-contract=off>)
+endfunction()
+
 # trismooth_library(<name> <source>...) makes target trismooth_<name>, used as trismooth::<name>.
 function(trismooth_library name)
   add_library(trismooth_${name} ${ARGN})

@@ -1,8 +1,7 @@
 #include "trismooth/cuda/backend.h"
 
 #include <chrono>
-#include <stdexcept>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/cuda/device_mesh.h"
@@ -13,25 +12,33 @@
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/timeline.h"
 #include "trismooth/cuda/uploaded_constraints.h"
+#include "trismooth/smoothing/overwriting.h"
 #include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth::cuda {
 
 namespace {
 
-/// Smooths coordinates of the host: there and back, with the time that it takes.
+/// Smooths coordinates of the host: there and back, with the time that it takes. Where the way back breaks off, they
+/// are what they were, which is kept in `kept`; null: some have been written.
 template <class Smooth>
 SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, DeviceBuffer<Point2<double>>& stored,
-                                   std::span<Point2<double>> points, const Smooth& smooth) {
+                                   std::span<Point2<double>> points, ScratchBytes* kept, const Smooth& smooth) {
+  // From here on keeping pays for a thread.
+  constexpr std::size_t many_bytes = std::size_t{1} << 20U;
+  Overwriting target(std::as_writable_bytes(points), kept, copier.workers());
   Timeline timeline(context);
   timeline.mark();
   copier.upload(stored, std::span<const Point2<double>>(points));
   timeline.mark();
+  if (points.size_bytes() >= many_bytes) {
+    target.keep_meanwhile();
+  }
   SmoothingResult result = smooth();
   Timeline way_back(context);
   way_back.mark();
   if (result.moved_vertices > 0) {
-    copier.download(points, stored);
+    copier.download(target, stored);
   }
   way_back.mark();
   result.timings.transfer_in = timeline.milliseconds(0);
@@ -61,10 +68,10 @@ class RingSmoother final : public PreparedSmoother {
   SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                          double fixed_quotient) override {
     frame_.upload({&frame, 1});
-    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, [&] {
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, nullptr, [&] {
       return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
     });
-    result.timings.prepare = prepare_ms_;
+    result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
 
@@ -80,7 +87,7 @@ class RingSmoother final : public PreparedSmoother {
   DeviceBuffer<Point2<double>> stored_;
   DeviceBuffer<LocalFrame> frame_;
   std::unique_ptr<DeviceSmoother> smoother_;
-  double prepare_ms_ = 0;
+  double prepare_ms_ = 0;  ///< until a call has reported it
 };
 
 /// A mesh of the host with its topology found and kept on the device.
@@ -99,18 +106,15 @@ class TriangleSmoother final : public PreparedMesh {
     constraints_ = {};
   }
 
-  SmoothingResult smooth(std::span<double> xy, Storage storage) override {
-    if (xy.size() != 2 * stored_.size()) {
-      throw std::invalid_argument("xy has " + std::to_string(xy.size()) + " entries, expected two for each of " +
-                                  std::to_string(stored_.size()) + " vertices");
-    }
-    const std::span points(reinterpret_cast<Point2<double>*>(xy.data()), stored_.size());
-    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points,
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) override {
+    SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, &kept_,
                                                 [&] { return plan_.smooth(&stored_.data()->x, storage); });
     // The plan counts what it has taken itself.
     result.device_memory_bytes += static_cast<std::int64_t>(context_.bytes_in_use());
     return result;
   }
+
+  std::vector<std::uint8_t> fixed() const override { return plan_.fixed(); }
 
  private:
   static const Constraints& checked(const Constraints& constraints, std::int32_t vertex_count,
@@ -125,6 +129,7 @@ class TriangleSmoother final : public PreparedMesh {
   UploadedConstraints constraints_;
   DeviceBuffer<Triangle> triangles_;
   DeviceBuffer<Point2<double>> stored_;
+  ScratchBytes kept_;
   Plan plan_;
 };
 

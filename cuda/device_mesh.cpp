@@ -1,13 +1,17 @@
 #include "trismooth/cuda/device_mesh.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/cuda/bounding_box.h"
 #include "trismooth/cuda/coordinates.h"
+#include "trismooth/cuda/device_algorithms.h"
+#include "trismooth/cuda/device_pointer.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_need.h"
@@ -15,6 +19,30 @@
 #include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth::cuda {
+
+namespace {
+
+/// Calls check(pointer, count, alignment, name) for each array of the mesh that is there, and for those that must be.
+template <class Check>
+void for_arrays(const DeviceMesh& mesh, const Check& check) {
+  const auto vertices = static_cast<std::size_t>(mesh.vertex_count);
+  const auto triangles = static_cast<std::size_t>(mesh.triangle_count);
+  const DeviceConstraints& held = mesh.constraints;
+  check(mesh.triangles, 3 * triangles, alignof(std::int32_t), "DeviceMesh::triangles");
+  check(held.fixed_ids, static_cast<std::size_t>(held.fixed_id_count), alignof(std::int32_t),
+        "DeviceConstraints::fixed_ids");
+  check(held.fixed, held.fixed == nullptr ? 0 : vertices, 1, "DeviceConstraints::fixed");
+  check(held.other_cells, held.other_cells == nullptr ? 0 : vertices, 1, "DeviceConstraints::other_cells");
+  check(held.regions, held.regions == nullptr ? 0 : triangles, alignof(std::int32_t), "DeviceConstraints::regions");
+}
+
+/// Kernels read and write a point at once.
+template <class T>
+void require_points(const T* xy, std::int32_t vertex_count) {
+  require_aligned(xy, static_cast<std::size_t>(std::max(vertex_count, 0)), sizeof(Point2<T>), "xy");
+}
+
+}  // namespace
 
 class Plan::Implementation {
  public:
@@ -26,7 +54,29 @@ class Plan::Implementation {
                   neighbour_finding(options.execution)),
         extent_(context_) {}
 
-  SmoothingResult smooth(Point2<double>* stored, Storage storage) {
+  SmoothingResult smooth(double* xy, Storage storage) {
+    require_points(xy, vertex_count_);
+    require_on_device(xy, static_cast<std::size_t>(vertex_count_), "xy");
+    return smooth_stored(reinterpret_cast<Point2<double>*>(xy), storage);
+  }
+
+  SmoothingResult smooth(float* xy) {
+    require_points(xy, vertex_count_);
+    require_on_device(xy, static_cast<std::size_t>(vertex_count_), "xy");
+    DeviceBuffer<Point2<double>> stored(context_, static_cast<std::size_t>(vertex_count_));
+    widen(context_, xy, vertex_count_, stored.data());
+    SmoothingResult result = smooth_stored(stored.data(), Storage::float32);
+    narrow(context_, stored.data(), vertex_count_, xy);
+    context_.synchronize();
+    return result;
+  }
+
+  std::vector<std::uint8_t> fixed() const {
+    return download(context_, topology_.fixed(), static_cast<std::size_t>(vertex_count_));
+  }
+
+ private:
+  SmoothingResult smooth_stored(Point2<double>* stored, Storage storage) {
     const auto start = std::chrono::steady_clock::now();
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
@@ -37,16 +87,6 @@ class Plan::Implementation {
     return result;
   }
 
-  SmoothingResult smooth(float* xy) {
-    DeviceBuffer<Point2<double>> stored(context_, static_cast<std::size_t>(vertex_count_));
-    widen(context_, xy, vertex_count_, stored.data());
-    SmoothingResult result = smooth(stored.data(), Storage::float32);
-    narrow(context_, stored.data(), vertex_count_, xy);
-    context_.synchronize();
-    return result;
-  }
-
- private:
   /// Finds the local frame, orients the mesh by its coordinates, and packs it where that is new.
   void prepare(const Point2<double>* stored, double& fixed_quotient) {
     extent_.find(stored, vertex_count_, topology_.fixed());
@@ -79,8 +119,15 @@ class Plan::Implementation {
 
 Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream) {
   options.validate();
-  require_device();
   check_mesh_size(mesh.vertex_count, mesh.triangle_count);
+  if (mesh.constraints.fixed_id_count < 0) {
+    throw std::invalid_argument("DeviceConstraints::fixed_id_count is negative");
+  }
+  for_arrays(mesh, &require_aligned);
+  require_device();
+  for_arrays(mesh, [](const void* array, std::size_t count, std::size_t /*alignment*/, std::string_view name) {
+    require_on_device(array, count, name);
+  });
   const MeshSize size{mesh.vertex_count, mesh.vertex_count, 3 * std::int64_t{mesh.triangle_count}};
   require_memory(memory_need(size, options) + topology_memory_need(mesh.vertex_count, mesh.triangle_count));
   implementation_ = std::make_unique<Implementation>(mesh, options, stream);
@@ -90,19 +137,32 @@ Plan::Plan(Plan&&) noexcept = default;
 Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
+Plan::Implementation& Plan::implementation() const {
+  if (implementation_ == nullptr) {
+    throw std::logic_error("this plan has been moved from");
+  }
+  return *implementation_;
+}
+
 SmoothingResult Plan::smooth(double* xy, Storage storage) {
-  return implementation_->smooth(reinterpret_cast<Point2<double>*>(xy), storage);
+  return implementation().smooth(xy, storage);
 }
 
 SmoothingResult Plan::smooth(float* xy) {
-  return implementation_->smooth(xy);
+  return implementation().smooth(xy);
+}
+
+std::vector<std::uint8_t> Plan::fixed() const {
+  return implementation().fixed();
 }
 
 SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options, cudaStream_t stream) {
+  require_points(xy, mesh.vertex_count);  // before all the work of the analysis
   return Plan(mesh, options, stream).smooth(xy);
 }
 
 SmoothingResult smooth(const DeviceMesh& mesh, float* xy, const SmoothingOptions& options, cudaStream_t stream) {
+  require_points(xy, mesh.vertex_count);
   return Plan(mesh, options, stream).smooth(xy);
 }
 

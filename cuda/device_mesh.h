@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <cuda_runtime_api.h>
 
@@ -29,22 +30,30 @@ class Plan {
   /// stays the caller's and outlives the plan. `options.backend` and `options.topology` mean nothing here.
   /// Throws MeshError for triangles that are no mesh, std::invalid_argument for options or constraints that do not fit,
   /// DeviceError where there is no device, its memory does not suffice, or a call fails.
+  /// Before anything runs: std::invalid_argument, which names the array, for a null pointer, one that is not aligned to
+  /// the numbers behind it, and memory of the host that the device cannot read.
   Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream = nullptr);
+  /// What was moved from can be assigned to and destroyed; all else throws std::logic_error.
   Plan(Plan&&) noexcept;
   Plan& operator=(Plan&&) noexcept;
   ~Plan();
 
-  /// Smooths `xy` (x and y of every vertex, in device memory, aligned to 16 bytes as device allocations are) in place.
-  /// Where vertices are that no triangle and no other cell uses changes nothing.
-  /// Vertices that do not move keep their bits, the others are rounded to `storage`, or to float. The first call also
-  /// finds orientation and rings and orders the mesh in memory; a later one repeats that only if the majority
+  /// Smooths `xy` (x and y of every vertex, in device memory) in place: aligned to 16 bytes, `float` to 8, as device
+  /// allocations are. Throws std::invalid_argument where it is not, or null, or memory of the host, before anything
+  /// runs. Where vertices are that no triangle and no other cell uses changes nothing. Vertices that do not move keep
+  /// their bits, the others are rounded to `storage`, or to float. The first call also finds orientation and rings and
+  /// orders the mesh in memory; a later one repeats that only if the majority
   /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite, DeviceError; `xy` is
   /// untouched then, unless the device failed in the very last step, which writes it.
   SmoothingResult smooth(double* xy, Storage storage = Storage::float64);
   SmoothingResult smooth(float* xy);
 
+  /// Why each vertex is fixed: the bits of namespace hold, as MeshRings::fixed. Waits for the stream.
+  std::vector<std::uint8_t> fixed() const;
+
  private:
   class Implementation;
+  Implementation& implementation() const;
   std::unique_ptr<Implementation> implementation_;
 };
 

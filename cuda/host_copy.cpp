@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <mutex>
 
 #include <cuda_runtime_api.h>
@@ -76,6 +75,18 @@ class Slots {
   std::array<cudaEvent_t, slot_count> events_{};
 };
 
+/// Waits in the end for all that is queued, also where that has failed.
+class Arrival {
+ public:
+  explicit Arrival(cudaStream_t stream) : stream_(stream) {}
+  Arrival(const Arrival&) = delete;
+  Arrival& operator=(const Arrival&) = delete;
+  ~Arrival() { cudaStreamSynchronize(stream_); }
+
+ private:
+  cudaStream_t stream_;
+};
+
 bool is_pageable(const void* memory) {
   cudaPointerAttributes attributes{};
   TRISMOOTH_CUDA_CHECK(cudaPointerGetAttributes(&attributes, memory));
@@ -93,14 +104,6 @@ void for_pieces(std::size_t bytes, const Copy& copy) {
 
 }  // namespace
 
-void HostCopier::copy_by_all(void* to, const void* from, std::size_t bytes) {
-  constexpr std::int64_t grain = 1 << 17;
-  workers_.for_blocks(static_cast<std::int64_t>(bytes), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::memcpy(static_cast<std::byte*>(to) + begin, static_cast<const std::byte*>(from) + begin,
-                static_cast<std::size_t>(end - begin));
-  });
-}
-
 void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) {
     return;
@@ -109,7 +112,7 @@ void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
     if (Slots slots; slots.usable()) {
       for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
         slots.wait(piece);
-        copy_by_all(slots.at(piece), static_cast<const std::byte*>(from) + offset, size);
+        copy_by_all(slots.at(piece), static_cast<const std::byte*>(from) + offset, size, workers_);
         TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(static_cast<std::byte*>(to) + offset, slots.at(piece), size,
                                              cudaMemcpyHostToDevice, context_.stream()));
         slots.queued(piece, context_.stream());
@@ -120,36 +123,51 @@ void HostCopier::upload(void* to, const void* from, std::size_t bytes) {
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, context_.stream()));
 }
 
-void HostCopier::download(void* to, const void* from, std::size_t bytes) {
-  if (bytes == 0) {
+bool HostCopier::download_through_slots(Overwriting& target, const std::byte* from) {
+  Slots slots;
+  if (!slots.usable()) {
+    return false;
+  }
+  const std::size_t bytes = target.memory().size();
+  const auto empty = [&](std::size_t piece) {
+    slots.wait(piece);
+    target.write(slots.at(piece), std::min(piece_bytes, bytes - piece * piece_bytes));
+  };
+  std::size_t emptied = 0;
+  std::size_t filled = 0;
+  for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
+    if (piece - emptied == slot_count) {
+      empty(emptied++);
+    }
+    TRISMOOTH_CUDA_CHECK(
+        cudaMemcpyAsync(slots.at(piece), from + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
+    slots.queued(piece, context_.stream());
+    ++filled;
+  });
+  while (emptied < filled) {
+    empty(emptied++);
+  }
+  return true;
+}
+
+void HostCopier::download(Overwriting& target, const void* from) {
+  const std::span<std::byte> memory = target.memory();
+  const auto* const source = static_cast<const std::byte*>(from);
+  if (memory.empty()) {
     return;
   }
-  if (bytes >= least_bytes && is_pageable(to)) {
-    if (Slots slots; slots.usable()) {
-      const auto empty = [&](std::size_t piece) {
-        const std::size_t offset = piece * piece_bytes;
-        slots.wait(piece);
-        copy_by_all(static_cast<std::byte*>(to) + offset, slots.at(piece), std::min(piece_bytes, bytes - offset));
-      };
-      std::size_t emptied = 0;
-      std::size_t filled = 0;
-      for_pieces(bytes, [&](std::size_t piece, std::size_t offset, std::size_t size) {
-        if (piece - emptied == slot_count) {
-          empty(emptied++);
-        }
-        TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(slots.at(piece), static_cast<const std::byte*>(from) + offset, size,
-                                             cudaMemcpyDeviceToHost, context_.stream()));
-        slots.queued(piece, context_.stream());
-        ++filled;
-      });
-      while (emptied < filled) {
-        empty(emptied++);
-      }
-      return;
-    }
+  const bool goes_through_slots = memory.size() >= least_bytes && is_pageable(memory.data());
+  if (!goes_through_slots || !download_through_slots(target, source)) {
+    // Pieces travel while what the next one will overwrite is kept.
+    const Arrival arrival(context_.stream());
+    for_pieces(memory.size(), [&](std::size_t /*piece*/, std::size_t offset, std::size_t size) {
+      target.give_away(size);
+      TRISMOOTH_CUDA_CHECK(
+          cudaMemcpyAsync(memory.data() + offset, source + offset, size, cudaMemcpyDeviceToHost, context_.stream()));
+    });
+    context_.synchronize();
   }
-  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, context_.stream()));
-  context_.synchronize();
+  target.done();
 }
 
 }  // namespace trismooth::cuda

@@ -6,6 +6,7 @@
 #include "trismooth/cuda/context.h"
 #include "trismooth/cuda/device_buffer.h"
 #include "trismooth/quality/workers.h"
+#include "trismooth/smoothing/overwriting.h"
 
 namespace trismooth::cuda {
 
@@ -35,13 +36,22 @@ class HostCopier {
   /// Copies the first values of a buffer to the host and waits for them.
   template <class T>
   void download(std::span<T> to, const DeviceBuffer<T>& from) {
-    download(to.data(), from.data(), to.size_bytes());
+    Overwriting target(std::as_writable_bytes(to), nullptr, workers_);
+    download(target, from);
   }
+  /// The same to where somebody says, who has chosen what is to be left where the download breaks off.
+  template <class T>
+  void download(Overwriting& target, const DeviceBuffer<T>& from) {
+    download(target, from.data());
+  }
+
+  Workers& workers() { return workers_; }
 
  private:
   void upload(void* to, const void* from, std::size_t bytes);
-  void download(void* to, const void* from, std::size_t bytes);
-  void copy_by_all(void* to, const void* from, std::size_t bytes);
+  void download(Overwriting& target, const void* from);
+  /// Piece by piece through page-locked memory. False where there is none to be had.
+  bool download_through_slots(Overwriting& target, const std::byte* from);
 
   Context& context_;
   Workers workers_;

@@ -97,6 +97,7 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   const double fixed_quotient = smallest_fixed_quotient(placed.local, triangles, found.reversed, found.fixed);
   SmoothingResult result = smooth_in_plane(found.rings, placed.plane, xyz, placed.points, placed.frame, placed.local,
                                            fixed_quotient, Storage::float64, options);
+  result.backend_note = joined_notes(found.note, result.backend_note);
   for (std::size_t v = 0; v < placed.points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
   }

@@ -19,11 +19,6 @@ std::string failure_note(const DeviceError& error) {
   return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
 }
 
-/// Both notes; each may be empty.
-std::string joined(const std::string& first, const std::string& second) {
-  return first + (first.empty() || second.empty() ? "" : "; ") + second;
-}
-
 /// A smoother, and what the user is to know of how it came about.
 class NotedSmoother final : public PreparedSmoother {
  public:
@@ -33,7 +28,7 @@ class NotedSmoother final : public PreparedSmoother {
   SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                          double fixed_quotient) override {
     SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
-    result.backend_note = joined(note_, result.backend_note);
+    result.backend_note = joined_notes(note_, result.backend_note);
     return result;
   }
 
@@ -60,7 +55,7 @@ class FallingBackSmoother final : public PreparedSmoother {
       const std::vector<Point2<double>> before(points.begin(), points.end());
       try {
         SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
-        result.timings.prepare += device_start_ms_;
+        result.timings.prepare += std::exchange(device_start_ms_, 0);
         return result;
       } catch (const DeviceError& error) {
         std::ranges::copy(before, points.begin());
@@ -102,7 +97,6 @@ AutoBackend::AutoBackend(CudaSupport cuda, const Backend& cpu, std::int64_t free
 
 std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, std::span<const Point2<double>> points,
                                                        const SmoothingOptions& options) const {
-  const std::string rings_note = take_rings_note();
   if (!is_large(count_free(rings))) {
     return cpu_.prepare(rings, points, options);
   }
@@ -112,19 +106,15 @@ std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, st
   const double start_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (note.empty()) {
     try {
-      auto smoother = std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms,
-                                                            cpu_, rings, options);
-      if (rings_note.empty()) {
-        return smoother;
-      }
-      return std::make_unique<NotedSmoother>(std::move(smoother), rings_note);
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms, cpu_,
+                                                   rings, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }
   } else {
     note.insert(0, "no CUDA device: ");
   }
-  return std::make_unique<NotedSmoother>(cpu_.prepare(rings, points, options), joined(rings_note, note));
+  return std::make_unique<NotedSmoother>(cpu_.prepare(rings, points, options), note);
 }
 
 std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>> points,
@@ -136,15 +126,12 @@ std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>>
   try {
     return cuda_.backend->find_rings(points, triangles, constraints, options);
   } catch (const DeviceError& error) {
-    const std::lock_guard lock(rings_note_mutex_);
-    rings_note_ = "the CPU found the rings: " + failure_note(error);
+    // Found here, whoever else could have: so the note is with the rings that it is about.
+    Workers workers(options.threads);
+    MeshRings found = find_mesh_rings(points, triangles, constraints, workers);
+    found.note = "the CPU found the rings: " + failure_note(error);
+    return found;
   }
-  return cpu_.find_rings(points, triangles, constraints, options);
-}
-
-std::string AutoBackend::take_rings_note() const {
-  const std::lock_guard lock(rings_note_mutex_);
-  return std::exchange(rings_note_, {});
 }
 
 }  // namespace trismooth

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 
 #include "trismooth/pipeline/cuda_support.h"
@@ -15,8 +14,9 @@ inline constexpr std::int64_t free_vertices_for_cuda = 1'000'000;
 
 /// Takes CUDA where a device can be used and the mesh is large enough, else the CPU. Where CUDA fails, also in the
 /// middle of a smoothing, the CPU does the whole work from the beginning: the bits are the same. Where a mesh is large
-/// enough for CUDA and the CPU smooths it or finds its rings, SmoothingResult::backend_note says why. prepare_mesh() is
-/// left to the host: a mesh that is on a device alone cannot go on without it.
+/// enough for CUDA and the CPU smooths it or finds its rings, SmoothingResult::backend_note or MeshRings::note says
+/// why. prepare_mesh() is left to the host: a mesh that is on a device alone cannot go on without it. Several threads
+/// may use one at the same time.
 class AutoBackend final : public Backend {
  public:
   /// `cuda.backend` and `cpu` must outlive this.
@@ -29,20 +29,17 @@ class AutoBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
                                             const SmoothingOptions& options) const override;
 
-  /// Before the rings are found, the vertices count as free. Where CUDA fails, the next smoother that is prepared has
-  /// the note of it.
+  /// Before the rings are found, the vertices count as free. Where CUDA fails, the rings found by the host have the
+  /// note of it.
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override;
 
  private:
-  std::string take_rings_note() const;
   bool is_large(std::int64_t vertices) const { return cuda_.backend != nullptr && vertices >= free_vertices_; }
 
   CudaSupport cuda_;
   const Backend& cpu_;
   std::int64_t free_vertices_;
-  mutable std::mutex rings_note_mutex_;
-  mutable std::string rings_note_;  ///< of a call of find_rings() that failed, until prepare() takes it
 };
 
 }  // namespace trismooth

@@ -29,6 +29,7 @@
 #include "trismooth/pipeline/report_format.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/terminal_line.h"
+#include "trismooth/quality/worker_threads.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
@@ -222,7 +223,7 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
     options.seed = parse_integer(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   });
   add_parsed_option(command, "--threads", "N", "Of the optimised CPU version [one a core]",
-                    [&options](const std::string& text) { options.threads = parse_integer(text, 0, most_threads); });
+                    [&options](const std::string& text) { options.threads = parse_integer(text, 0, most_threads()); });
   add_enum_option(command, "--backend", settings->backend,
                   "auto: the versions for a GPU where there is one; cpu:\nwithout them; cuda: not without them");
   constexpr bool repeatable = true;

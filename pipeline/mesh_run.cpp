@@ -23,6 +23,7 @@
 #include "trismooth/pipeline/report_file.h"
 #include "trismooth/pipeline/text_report.h"
 #include "trismooth/pipeline/timings.h"
+#include "trismooth/quality/worker_threads.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
@@ -160,7 +161,7 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
 void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
                     [&settings](const std::string& text) {
-                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads);
+                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
                     })
       ->group(option_group::running);
   constexpr bool repeatable = true;

@@ -18,9 +18,6 @@ CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, const std
                                const std::string& help, const std::function<void(const std::string&)>& parse,
                                bool repeatable = false);
 
-/// The most threads that an option may ask for.
-inline constexpr int most_threads = 4096;
-
 /// The whole number that `text` states, from `lowest` to `highest`. Throws std::invalid_argument.
 template <class Integer>
 Integer parse_integer(std::string_view text, Integer lowest, Integer highest);

@@ -223,6 +223,7 @@ class Run {
     const Storage storage = document_.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
     SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, frame_,
                                                 local_, fixed_quotient, storage, options_.smoothing);
+    smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
     }

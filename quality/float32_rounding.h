@@ -1,5 +1,7 @@
 #pragma once
 
+#include "trismooth/quality/exact_arithmetic.h"
+
 namespace trismooth {
 
 /// The float32 nearest to `value`. Where a file stores float32, coordinates must be rounded by this.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "trismooth/quality/exact_arithmetic.h"
 #include "trismooth/quality/point2.h"
 
 namespace trismooth {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trismooth/quality/exact_arithmetic.h"
 #include "trismooth/quality/host_device.h"
 
 namespace trismooth {

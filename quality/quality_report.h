@@ -46,12 +46,13 @@ struct QualityReport {
 };
 
 struct QualityOptions {
-  int threads = 0;       ///< 0: all; 1: this thread alone
+  int threads = 0;       ///< 0: all; 1: this thread alone; most_threads() at most
   int worst_count = 10;  ///< how many of the worst triangles to list, at most
 };
 
 /// Every metric of every triangle, in its canonical corner order. The report is the same to the bit for every number
-/// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle.
+/// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle. Throws std::invalid_argument for a
+/// number of threads out of range.
 QualityReport quality_report(const TriangleView& view, const QualityOptions& options = {});
 
 /// The smallest shape alone, several times as fast: the report's [Metric::shape].min to the bit. NaN where there is no

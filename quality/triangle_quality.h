@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trismooth/quality/exact_arithmetic.h"
 #include "trismooth/quality/point2.h"
 
 namespace trismooth {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -81,7 +83,7 @@ class Starter {
 };
 
 /// What TBB can start.
-int most_threads() {
+int startable_threads() {
   constexpr std::size_t always = 256;
   const auto cores = static_cast<std::size_t>(std::thread::hardware_concurrency());
   return static_cast<int>(std::min(std::max(always, 2 * cores),
@@ -92,6 +94,19 @@ std::atomic<int> most_allowed{std::numeric_limits<int>::max()};
 
 }  // namespace
 
+int most_threads() {
+  constexpr unsigned always = 1024;
+  return static_cast<int>(std::max(always, std::thread::hardware_concurrency()));
+}
+
+int checked_threads(int threads) {
+  if (threads < 0 || threads > most_threads()) {
+    throw std::invalid_argument("the number of threads must be from 0 (one for each core) to " +
+                                std::to_string(most_threads()) + ", not " + std::to_string(threads));
+  }
+  return threads;
+}
+
 int start_worker_threads(int count) {
   static std::atomic<int> known{1};
   if (count > known) {
@@ -99,7 +114,7 @@ int start_worker_threads(int count) {
     static std::unique_ptr<tbb::global_control> limit;
     const std::lock_guard lock(mutex);
     if (count > known && limit == nullptr) {
-      const Starter starter(std::min(count, most_threads()));
+      const Starter starter(std::min(count, startable_threads()));
       if (starter.was_refused()) {
         // Half of those that could be started: TBB takes another thread at times where one is about to fall asleep.
         most_allowed = 1 + (starter.started() - 1) / 2;

@@ -2,6 +2,12 @@
 
 namespace trismooth {
 
+/// The most threads that anybody may ask for: 1024, or as many as the machine has cores.
+int most_threads();
+
+/// `threads` itself. Throws std::invalid_argument unless it is from 0 (one for each core) to most_threads().
+int checked_threads(int threads);
+
 /// Sees to it that `count` threads, the calling one included, can be at work at a time, before a loop asks TBB for
 /// them. TBB lets its threads start each other when they are needed, and ends the program where the system refuses one
 /// (a limit of processes, of address space). Here they are started one by one; where one is refused, TBB has to do with

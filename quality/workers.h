@@ -18,9 +18,11 @@ namespace trismooth {
 class Workers {
  public:
   /// `threads` = 0: one for each core that the process may use. More threads than cores are really started,
-  /// unless the system refuses them; then the loops have to do with fewer.
+  /// unless the system refuses them; then the loops have to do with fewer. Throws std::invalid_argument for a negative
+  /// number and for more than most_threads().
   explicit Workers(int threads)
-      : count_(allowed_threads(threads > 0 ? threads : tbb::this_task_arena::max_concurrency())), arena_(count_) {
+      : count_(allowed_threads(checked_threads(threads) > 0 ? threads : tbb::this_task_arena::max_concurrency())),
+        arena_(count_) {
     if (count_ > tbb::this_task_arena::max_concurrency()) {
       limit_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count_);
     }

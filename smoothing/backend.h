@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/quality/point2.h"
@@ -25,7 +26,8 @@ class PreparedSmoother {
   /// Smooths the vertices' stored coordinates in place: sweeps in the local frame, and unless options.guard is off the
   /// never-worse commit. `frame` is local_frame() of the vertices that cells use, which the caller knows. Results are
   /// rounded to `storage`; vertices that do not move keep their bits. Coordinates are finite (the caller has checked).
-  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh.
+  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh. Where it throws DeviceError, some of the points may have
+  /// been written.
   virtual SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                                  double fixed_quotient) = 0;
 };
@@ -38,8 +40,12 @@ class PreparedMesh {
   PreparedMesh& operator=(const PreparedMesh&) = delete;
   virtual ~PreparedMesh() = default;
 
-  /// As SmoothingPlan::smooth(): x and y of every vertex, smoothed in place.
-  virtual SmoothingResult smooth(std::span<double> xy, Storage storage) = 0;
+  /// As SmoothingPlan::smooth(): the points, one for every vertex, smoothed in place, and untouched where it throws:
+  /// see Overwriting for results that come in pieces.
+  virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) = 0;
+
+  /// Why each vertex is fixed, as MeshRings::fixed.
+  virtual std::vector<std::uint8_t> fixed() const = 0;
 };
 
 /// Whoever runs the sweeps: the CPU, a GPU. Given the same rings, points and options, every backend gives the same

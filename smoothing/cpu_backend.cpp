@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/local_frame.h"
@@ -53,12 +54,12 @@ class CpuSmoother final : public PreparedSmoother {
     result.threads = workers_.count();
     result.free_vertices = rings_.free_count();
     result.colours = rings_.colours;
-    result.timings.prepare = prepare_ms_;
     if (options_.precision == Precision::double_precision) {
       smooth_in<double>(points, frame, storage, fixed_quotient, result);
     } else {
       smooth_in<float>(points, frame, storage, fixed_quotient, result);
     }
+    result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
 
@@ -128,7 +129,7 @@ class CpuSmoother final : public PreparedSmoother {
   SmoothingOptions options_;
   Workers workers_;
   PackedRings rings_;
-  double prepare_ms_ = 0;
+  double prepare_ms_ = 0;  ///< until a call has reported it
 };
 
 class CpuBackend final : public Backend {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trismooth/quality/point2.h"
@@ -20,6 +21,7 @@ struct MeshRings {
   std::int32_t components = 0;         ///< connected through edges with exactly two triangles
   std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
   OneRings rings;                         ///< of the free vertices
+  std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 
 /// Answers the rings of a mesh of which the rest is known: its topology, and all of MeshRings but the rings.

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "trismooth/quality/worker_threads.h"
+
 namespace trismooth {
 
 namespace {
@@ -21,7 +23,7 @@ void SmoothingOptions::validate() const {
   require(time_limit_seconds >= 0, "the time limit must not be negative");
   require(!target_quality || (*target_quality >= -1 && *target_quality <= 1),
           "the quality target must be from -1 to 1");
-  require(threads >= 0, "the number of threads must not be negative (0: one for each core)");
+  checked_threads(threads);
   require(order == Order::colour || (form == Form::in_place && execution != Execution::resident),
           "order 'unordered' goes with form b and execution single-block or cdp only");
 }

@@ -115,8 +115,8 @@ struct SmoothingOptions {
   /// Looked at after every sweep; a device may be up to a hundredth of a second late.
   double time_limit_seconds = std::numeric_limits<double>::infinity();
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
-  int threads = 0;                         ///< 0: one for each core. The result does not depend on it
-  bool record_min_shape = false;           ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
+  int threads = 0;                ///< 0: one for each core; most_threads() at most. The result does not depend on it
+  bool record_min_shape = false;  ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
   /// Called for every sweep in order, from the thread that called; `stop` ends the smoothing with a valid mesh, as that
   /// sweep left it. A device hands the records over in batches, some hundred times a second, so that a callback costs
   /// nothing; where it says stop the device has gone on meanwhile and makes the sweeps up to there again.
@@ -124,8 +124,8 @@ struct SmoothingOptions {
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
   const Backend* backend = nullptr;
 
-  /// Throws std::invalid_argument for values out of range (a negative count, a NaN) and for combinations that no
-  /// backend has: Order::unordered with Form::swap or Execution::resident.
+  /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
+  /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident.
   void validate() const;
 };
 

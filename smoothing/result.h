@@ -41,15 +41,20 @@ struct SweepRecord {
   double min_shape = std::numeric_limits<double>::quiet_NaN();  ///< after the sweep; NaN where it was not asked for
 };
 
+/// Both notes, of which each may be empty.
+inline std::string joined_notes(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
 /// A vertex that the commit took back, and where it had been moved to (in the caller's coordinates).
 struct RevertedVertex {
   std::int32_t vertex = 0;
   Point2<double> position{};
 };
 
-/// Milliseconds of the parts of a smoothing.
+/// Milliseconds of the parts of one call.
 struct SmoothingTimings {
-  double prepare = 0;       ///< renumbering, colouring, packing: once for a topology
+  double prepare = 0;       ///< renumbering, colouring, packing; next to nothing where an earlier call has done it
   double transfer_in = 0;   ///< to the device
   double smooth = 0;        ///< the sweeps
   double transfer_out = 0;  ///< from the device

@@ -3,50 +3,64 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/index_view.h"
 #include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/point_view.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {
 
 /// A mesh whose connectivity is analysed once and whose coordinates are smoothed as often as they change (moving
-/// meshes). Owns copies of all it needs; the caller's arrays may go. One thread at a time may use a plan; several plans
-/// may be used at the same time. With a backend that runs on a device: from threads that have the same device current.
+/// meshes). Owns copies of all it needs; the caller's arrays may go. Can be moved; what was moved from can be assigned
+/// to and destroyed, its smooth() throws std::logic_error. One thread at a time may use a plan; several plans may be
+/// used at the same time. With a backend that runs on a device: from threads that have the same device current.
 class SmoothingPlan {
  public:
-  /// `triangles`: 3 m vertex indices from 0, listed in either direction; orientation is made consistent per component.
+  /// `triangles`: three vertex numbers each, listed in either direction; orientation is made consistent per component.
   /// Throws MeshError for triangles that are no mesh (see connect_triangles), std::invalid_argument for options or
   /// constraints that do not fit. Complexity: linear, but for sorting the edges of each vertex.
-  SmoothingPlan(std::int32_t vertex_count, std::span<const std::int32_t> triangles, const Constraints& constraints,
+  SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                 const SmoothingOptions& options);
+  SmoothingPlan(SmoothingPlan&&) noexcept;
+  SmoothingPlan& operator=(SmoothingPlan&&) noexcept;
+  ~SmoothingPlan();
 
-  /// Smooths `xy` (x and y of every vertex: 2 n numbers) in place. Vertices that do not move keep their bits, the
-  /// others are rounded to `storage`. The first call also orders the mesh in memory; a later one repeats that only if
-  /// the majority orientation of a component has changed. Throws std::invalid_argument for a wrong length, MeshError
-  /// for a coordinate that is not finite, DeviceError; `xy` is untouched then.
-  SmoothingResult smooth(std::span<double> xy, Storage storage = Storage::float64);
+  /// Smooths the points, one for every vertex, in place. Vertices that do not move keep their bits, the others are
+  /// rounded to `storage`, or to float where the points are. The mesh lies in the plane of x and y: a third number of a
+  /// point is its height, which stays as it is and must be the same for all vertices that triangles use, to within 1e-6
+  /// of their extent. The first call also orders the mesh in memory; a later one repeats that only if the majority
+  /// orientation of a component has changed. Throws std::invalid_argument for a wrong number of points, MeshError for a
+  /// coordinate that is not finite and for heights that differ, DeviceError; the points are untouched then.
+  SmoothingResult smooth(const PointView& points, Storage storage = Storage::float64);
+
+  /// The same for a plain array of float or double: x and y of every vertex, 2 n numbers.
+  template <array_layout::CoordinateNumbers R>
+  SmoothingResult smooth(R&& xy, Storage storage = Storage::float64) {
+    return smooth(xy_points(xy), storage);
+  }
 
  private:
-  SmoothingOptions options_;
-  std::unique_ptr<PreparedMesh> mesh_;  ///< of a backend that analyses meshes itself; the rest is empty then
-  std::vector<Triangle> triangles_;
-  TriangleTopology topology_;
-  std::vector<std::uint8_t> fixed_;
-  std::vector<std::uint8_t> reversed_;
-  std::unique_ptr<PreparedSmoother> smoother_;
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
-/// The same, as a function: `auto p = plan(n, triangles, constraints, options); p.smooth(xy);`
-SmoothingPlan plan(std::int32_t vertex_count, std::span<const std::int32_t> triangles,
-                   const Constraints& constraints = {}, const SmoothingOptions& options = {});
+/// The same, as a function: `auto p = plan(n, triangles, constraints, options); p.smooth(points);`
+SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints = {},
+                   const SmoothingOptions& options = {});
 
-/// Smooths the caller's flat arrays in place, once: xy holds x and y of every vertex, triangles three vertex indices
-/// each. For arguments, errors and guarantees see SmoothingPlan.
-SmoothingResult smooth(std::span<double> xy, std::span<const std::int32_t> triangles,
-                       const Constraints& constraints = {}, const SmoothingOptions& options = {});
+/// Smooths the caller's points in place, once. For arguments, errors and guarantees see SmoothingPlan.
+SmoothingResult smooth(const PointView& points, const IndexView& triangles, const Constraints& constraints = {},
+                       const SmoothingOptions& options = {});
+
+/// A plain array does not say whether it holds x and y or x, y and z of a vertex: say xy_points(array) or
+/// xyz_points(array).
+template <array_layout::Numbers R>
+SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Constraints& constraints = {},
+                       const SmoothingOptions& options = {}) = delete;
 
 /// The backend that the options name, or the CPU's.
 const Backend& backend_of(const SmoothingOptions& options);

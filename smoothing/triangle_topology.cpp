@@ -19,8 +19,7 @@ void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triang
     const auto [a, b, c] = triangles[t];
     for (const std::int32_t v : {a, b, c}) {
       if (v < 0 || v >= vertex_count) {
-        throw MeshError("triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + " of " +
-                        std::to_string(vertex_count));
+        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
       }
     }
     if (a == b || b == c || c == a) {
@@ -232,9 +231,17 @@ void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topolo
 
 }  // namespace
 
+void throw_no_such_vertex(std::int64_t triangle, const std::string& vertex, std::int64_t vertex_count) {
+  throw MeshError("triangle " + std::to_string(triangle) + " names vertex " + vertex + " of " +
+                  std::to_string(vertex_count));
+}
+
 void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
   if (vertex_count < 0) {
     throw MeshError("the number of vertices is negative");
+  }
+  if (vertex_count > std::numeric_limits<std::int32_t>::max()) {
+    throw MeshError("more than 2147483647 vertices");
   }
   if (triangle_count < 0) {
     throw MeshError("the number of triangles is negative");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trismooth/quality/point2.h"
@@ -26,8 +27,11 @@ struct TriangleTopology {
   std::vector<std::uint8_t> hold;       ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
 };
 
-/// Throws MeshError for a negative number of vertices or triangles and for more triangles than 32 bits number the
-/// corners of.
+/// Throws the MeshError for a triangle with a vertex number out of range.
+[[noreturn]] void throw_no_such_vertex(std::int64_t triangle, const std::string& vertex, std::int64_t vertex_count);
+
+/// Throws MeshError for a negative number of vertices or triangles, for more vertices than 32 bits number and for more
+/// triangles than they number the corners of.
 void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count);
 
 /// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index out of

@@ -34,7 +34,7 @@ Run run_once(const RandomMesh& mesh, const SmoothingOptions& options, std::vecto
   const auto points = flat_points(mesh);
   xy.assign(points.begin(), points.end());
   const auto start = std::chrono::steady_clock::now();
-  result = smooth(xy, flat_triangles(mesh), {}, options);
+  result = smooth(xy_points(xy), flat_triangles(mesh), {}, options);
   const std::chrono::duration<double, std::milli> together = std::chrono::steady_clock::now() - start;
   return {result.timings.transfer_in + result.timings.transfer_out, result.timings.smooth + result.timings.commit,
           together.count(), result.sweeps};

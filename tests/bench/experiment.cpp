@@ -85,7 +85,7 @@ TEST_CASE("what is measured is the smoothing of the generated mesh in single pre
     trismooth::SmoothingOptions smoothing;
     smoothing.form = form;
     smoothing.precision = trismooth::Precision::single_precision;
-    const auto expected = trismooth::smooth(xy, flat_triangles(mesh), {}, smoothing);
+    const auto expected = trismooth::smooth(trismooth::xy_points(xy), flat_triangles(mesh), {}, smoothing);
     for (const Version version : {Version::serial, Version::cpu}) {
       const Measurement* const measured = result.find(200, {version, form});
       REQUIRE(measured != nullptr);

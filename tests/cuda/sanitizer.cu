@@ -115,7 +115,7 @@ void compare_executions(const test_meshes::Mesh& mesh) {
         options.max_sweeps = most_sweeps;
         options.record_min_shape = true;
         std::vector<double> expected = mesh.xy();
-        smooth(expected, triangles, {}, options);
+        smooth(xy_points(expected), triangles, {}, options);
         options.backend = &cuda::backend();
         for (const Execution execution : {Execution::resident, Execution::single_block}) {
           for (const Layout layout : {Layout::aos, Layout::soa}) {
@@ -123,7 +123,7 @@ void compare_executions(const test_meshes::Mesh& mesh) {
             options.layout = layout;
             options.topology = layout == Layout::aos ? Topology::device : Topology::halfedge;
             std::vector<double> xy = mesh.xy();
-            smooth(xy, triangles, {}, options);
+            smooth(xy_points(xy), triangles, {}, options);
             expect(same_bits(xy, expected), std::string(to_string(execution)) + " " + std::string(to_string(layout)) +
                                                 " " + std::string(to_string(method)) + " form " +
                                                 std::string(to_string(form)) + " " + std::string(to_string(precision)) +
@@ -156,7 +156,7 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
   options.max_sweeps = most_sweeps;
   options.guard = false;
   std::vector<double> expected = mesh.xy();
-  const SmoothingResult reference = smooth(expected, mesh.indices(), {}, options);
+  const SmoothingResult reference = smooth(xy_points(expected), mesh.indices(), {}, options);
 
   cuda::Context context;
   Workers workers(1);
@@ -243,11 +243,11 @@ void compare_constraints() {
   SmoothingOptions options;
   options.method = Method::laplacian;
   std::vector<double> expected = mesh.xy();
-  const SmoothingResult reference = smooth(expected, mesh.indices(), constraints, options);
+  const SmoothingResult reference = smooth(xy_points(expected), mesh.indices(), constraints, options);
   options.backend = &cuda::backend();
   options.topology = Topology::device;
   std::vector<double> xy = mesh.xy();
-  const SmoothingResult result = smooth(xy, mesh.indices(), constraints, options);
+  const SmoothingResult result = smooth(xy_points(xy), mesh.indices(), constraints, options);
   expect(same_bits(xy, expected), "constraints and commit give other bits than the CPU");
   expect(reference.reverted_vertices > 0 && result.reverted_vertices == reference.reverted_vertices,
          "the commit takes back as many vertices as the CPU's");

@@ -1,10 +1,15 @@
 // The CUDA backend against the CPU's, in everything that callers see: bits, stop reasons, histories, commits, plans,
 // device pointers, errors.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <cuda_runtime_api.h>
@@ -18,6 +23,7 @@
 #include "trismooth/quality/float32_rounding.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -470,6 +476,127 @@ TEST_CASE("a mesh that is none is refused with the host's message, and nothing c
         message([&] { run(mesh, options, {.fixed_ids = no_vertex}); }));
 }
 
+TEST_CASE("pointers that no kernel could use are refused by name before one runs, and the device goes on") {
+  const Mesh mesh = test_meshes::jittered_grid(12, 12, 0.4, 1);
+  const auto triangle_count = static_cast<std::int32_t>(mesh.triangles.size());
+  cuda::Context context;
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, mesh.indices());
+  // Room for one number more in front.
+  std::vector<double> shifted = mesh.xy();
+  shifted.insert(shifted.begin(), 0.0);
+  cuda::DeviceBuffer<double> xy(context, shifted);
+  cuda::DeviceBuffer<float> floats(context, std::vector<float>(shifted.begin(), shifted.end()));
+  std::vector<double> of_host = mesh.xy();
+  const cuda::DeviceMesh view{mesh.vertex_count(), triangle_count, triangles.data(), {}};
+  cuda::Plan plan(view, {}, context.stream());
+  const auto refusal = [](const auto& function) -> std::string {
+    try {
+      function();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string double_message = "xy is not aligned to 16 bytes, as it must be on a device";
+  const std::string float_message = "xy is not aligned to 8 bytes, as it must be on a device";
+  const std::string host_message = " points to memory of the host, not of a device";
+  CHECK(refusal([&] { plan.smooth(xy.data() + 1); }) == double_message);
+  CHECK(refusal([&] { plan.smooth(floats.data() + 1); }) == float_message);
+  CHECK(refusal([&] { cuda::smooth(view, xy.data() + 1, {}, context.stream()); }) == double_message);
+  CHECK(refusal([&] { plan.smooth(static_cast<double*>(nullptr)); }) == "xy is a null pointer");
+  CHECK(refusal([&] { plan.smooth(static_cast<float*>(nullptr)); }) == "xy is a null pointer");
+  CHECK(refusal([&] { cuda::smooth(view, static_cast<float*>(nullptr)); }) == "xy is a null pointer");
+  int reads_host_memory = 0;
+  REQUIRE(cudaDeviceGetAttribute(&reads_host_memory, cudaDevAttrPageableMemoryAccess, 0) == cudaSuccess);
+  if (reads_host_memory == 0) {
+    alignas(16) static double pageable[288];
+    CHECK(refusal([&] { plan.smooth(pageable); }) == "xy" + host_message);
+    const std::vector<std::int32_t> indices = mesh.indices();
+    CHECK(refusal([&] {
+            cuda::Plan({mesh.vertex_count(), triangle_count, indices.data(), {}}, {});
+          }) == "DeviceMesh::triangles" + host_message);
+    const std::vector<std::uint8_t> flags(mesh.points.size());
+    cuda::DeviceMesh held = view;
+    held.constraints.fixed = flags.data();
+    CHECK(refusal([&] { cuda::Plan(held, {}); }) == "DeviceConstraints::fixed" + host_message);
+  }
+  CHECK(refusal([&] {
+          const auto* const odd =
+              reinterpret_cast<const std::int32_t*>(reinterpret_cast<const std::byte*>(triangles.data()) + 2);
+          cuda::Plan({mesh.vertex_count(), triangle_count, odd, {}}, {});
+        }) == "DeviceMesh::triangles is not aligned to 4 bytes, as it must be on a device");
+  CHECK(refusal([&] {
+          cuda::Plan({mesh.vertex_count(), triangle_count, nullptr, {}}, {});
+        }) == "DeviceMesh::triangles is a null pointer");
+  // Nobody has run into anything: the same plan and stream go on. Two numbers further on is aligned.
+  shifted.insert(shifted.begin(), 0.0);
+  cuda::DeviceBuffer<double> aligned(context, shifted);
+  Run found{mesh.xy(), plan.smooth(aligned.data() + 2)};
+  std::vector<double> all(shifted.size());
+  aligned.download(all);
+  found.xy.assign(all.begin() + 2, all.end());
+  require_same(found, run(mesh, {}));
+  // Page-locked memory can be read there.
+  void* memory = nullptr;
+  REQUIRE(cudaMallocHost(&memory, of_host.size() * sizeof(double)) == cudaSuccess);
+  auto* const locked = static_cast<double*>(memory);
+  std::copy(of_host.begin(), of_host.end(), locked);
+  plan.smooth(locked);
+  CHECK(std::equal(found.xy.begin(), found.xy.end(), locked));
+  REQUIRE(cudaFreeHost(memory) == cudaSuccess);
+}
+
+TEST_CASE("a plan that has been moved from says so, and one for device memory tells why vertices are fixed") {
+  const Mesh mesh = test_meshes::jittered_grid(7, 6, 0.3, 1);
+  cuda::Context context;
+  const cuda::DeviceBuffer<std::int32_t> triangles(context, mesh.indices());
+  cuda::DeviceBuffer<double> xy(context, mesh.xy());
+  cuda::Plan first({mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}}, {},
+                   context.stream());
+  cuda::Plan second = std::move(first);
+  CHECK_THROWS_AS(first.smooth(xy.data()), std::logic_error);
+  CHECK_THROWS_AS(first.smooth(static_cast<float*>(nullptr)), std::logic_error);
+  CHECK_THROWS_AS(first.fixed(), std::logic_error);
+  second.smooth(xy.data());
+  Workers workers(1);
+  CHECK(second.fixed() == find_mesh_rings(mesh.points, mesh.triangles, {}, workers).fixed);
+}
+
+TEST_CASE("arrays of the host in every form are the CPU's bits where the device finds the topology") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(30, 30, 0.45, 6), 3);
+  std::vector<std::array<double, 3>> triples;
+  std::vector<std::array<float, 2>> floats;
+  for (const auto& p : mesh.points) {
+    triples.push_back({p.x, p.y, -2});
+    floats.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
+  }
+  const std::vector<std::int32_t> indices = mesh.indices();
+  const std::vector<std::size_t> wide(indices.begin(), indices.end());
+  auto expected_triples = triples;
+  auto expected_floats = floats;
+  smooth(expected_triples, wide);
+  smooth(expected_floats, wide);
+  SmoothingOptions options = on_cuda();
+  options.topology = Topology::device;
+  smooth(triples, wide, {}, options);
+  smooth(floats, wide, {}, options);
+  CHECK(triples == expected_triples);
+  CHECK(floats == expected_floats);
+  // A height that only an unused vertex does not share, and one that is wrong.
+  triples.push_back({0, 0, 5});
+  CHECK_NOTHROW(smooth(triples, wide, {}, options));
+  triples.front()[2] = 5;
+  CHECK_THROWS_AS(smooth(triples, wide, {}, options), MeshError);
+}
+
+TEST_CASE("the time of preparing on the device is that of the call which prepared") {
+  const Mesh mesh = test_meshes::jittered_grid(60, 60, 0.4, 1);
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, on_cuda());
+  std::vector<double> xy = mesh.xy();
+  CHECK(repeated.smooth(xy).timings.prepare > 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+}
+
 TEST_CASE("too little device memory is an error that says how much is needed, and the next mesh is smoothed") {
   const Mesh large = test_meshes::jittered_grid(2000, 1000, 0.3, 1);
   for (const Topology topology : {Topology::halfedge, Topology::device}) {
@@ -480,7 +607,7 @@ TEST_CASE("too little device memory is an error that says how much is needed, an
       const Hoard hoard(std::size_t{40} << 20U);
       std::string message;
       try {
-        smooth(xy, large.indices(), {}, options);
+        smooth(xy_points(xy), large.indices(), {}, options);
       } catch (const DeviceError& error) {
         message = error.what();
       }

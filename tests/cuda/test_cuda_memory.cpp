@@ -42,7 +42,7 @@ SmoothingResult smooth_on_device(const Mesh& mesh) {
   options.backend = &cuda::backend();
   options.topology = Topology::device;
   std::vector<double> xy = mesh.xy();
-  return smooth(xy, mesh.indices(), {}, options);
+  return smooth(xy_points(xy), mesh.indices(), {}, options);
 }
 
 std::vector<std::int32_t> numbers(std::size_t count) {
@@ -57,6 +57,16 @@ void require_round_trip(cuda::HostCopier& copier, cuda::Context& context, const 
   std::vector<std::int32_t> back(values.size());
   copier.download(std::span(back), device);
   REQUIRE(back == values);
+  ScratchBytes kept;
+  for (const bool meanwhile : {false, true}) {
+    std::ranges::fill(back, 0);
+    Overwriting target(std::as_writable_bytes(std::span(back)), &kept, copier.workers());
+    if (meanwhile) {
+      target.keep_meanwhile();
+    }
+    copier.download(target, device);
+    REQUIRE(back == values);
+  }
   // What was uploaded in pieces is what CUDA itself brings back, and the other way round.
   std::vector<std::int32_t> straight(values.size());
   device.download(straight);
@@ -153,7 +163,7 @@ std::vector<Way> ways_to_the_device() {
       options.backend = &cuda::backend();
       after = mesh.xy();
       all_but_little();
-      smooth(after, mesh.indices(), {}, options);
+      smooth(xy_points(after), mesh.indices(), {}, options);
     };
   };
   const auto from_device = [](auto zero, bool planned) {

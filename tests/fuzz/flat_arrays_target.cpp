@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -353,6 +354,25 @@ void check_reproducible(const Case& chosen, const std::vector<double>& expected,
   }
 }
 
+/// The points in triples of double, or in pairs of float where that is what they are, the indices in 64 bits.
+template <class T, std::size_t n>
+void check_form(const Case& chosen, const std::vector<double>& expected) {
+  std::vector<std::array<T, n>> points(expected.size() / 2);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v].back() = T(3);
+    points[v][0] = static_cast<T>(chosen.arrays.xy[2 * v]);
+    points[v][1] = static_cast<T>(chosen.arrays.xy[2 * v + 1]);
+  }
+  const std::vector<std::uint64_t> triangles(chosen.arrays.triangles.begin(), chosen.arrays.triangles.end());
+  trismooth::smooth(points, triangles, chosen.holds.view(), chosen.options);
+  std::vector<double> found;
+  for (const std::array<T, n>& point : points) {
+    found.insert(found.end(), {static_cast<double>(point[0]), static_cast<double>(point[1])});
+    require(n == 2 || point.back() == T(3), "a height has changed");
+  }
+  require(same_bits(found, expected), "the bits of the result depend on the form of the arrays");
+}
+
 /// What the contract gives, bit for bit.
 void check_contract(const Case& chosen, const NaiveTopology& topology, std::span<const Point2<double>> before,
                     std::span<const Point2<double>> after, const SmoothingResult& result) {
@@ -400,6 +420,7 @@ void check_accepted(const Case& chosen) {
       check_contract(chosen, topology, before, after, result);
     }
     check_reproducible(chosen, xy, result);
+    chosen.storage == Storage::float64 ? check_form<double, 3>(chosen, xy) : check_form<float, 2>(chosen, xy);
   }
 }
 
@@ -421,7 +442,7 @@ void run_flat_arrays(std::span<const std::uint8_t> bytes) {
   std::vector<double> xy = chosen.arrays.xy;
   bool refused = false;
   try {
-    trismooth::smooth(xy, chosen.arrays.triangles, chosen.holds.view(), chosen.with_callback());
+    trismooth::smooth(trismooth::xy_points(xy), chosen.arrays.triangles, chosen.holds.view(), chosen.with_callback());
   } catch (const trismooth::MeshError&) {
     refused = true;
   } catch (const std::invalid_argument&) {

@@ -1,5 +1,5 @@
 # Installs the build into a prefix of its own; then a project that knows nothing but that prefix finds COMPONENT there,
-# builds SOURCE with it and runs the program with ARGUMENTS. Packages in WITHOUT count as missing on the machine.
+# builds SOURCE with it and runs the program with ARGUMENTS, and exact_arithmetic.cpp with flags of its own. Packages in WITHOUT count as missing on the machine.
 # Usage: cmake -D BUILD=... -D CONFIGURATION=... -D GENERATOR=... -D COMPILER=... -D FLAGS=... -D FOLDER=...
 #        -D COMPONENT=... -D SOURCE=... [-D WITHOUT=...] [-D ARGUMENTS=...] -P find_package.cmake
 
@@ -21,3 +21,6 @@ run("${CMAKE_COMMAND}" --build "${FOLDER}/build" --config "${CONFIGURATION}")
 find_program(consumer NAMES consumer PATHS "${FOLDER}/program" "${FOLDER}/program/${CONFIGURATION}" NO_DEFAULT_PATH
              REQUIRED)
 run("${consumer}" ${ARGUMENTS})
+find_program(exact_arithmetic NAMES exact_arithmetic PATHS "${FOLDER}/program" "${FOLDER}/program/${CONFIGURATION}"
+             NO_DEFAULT_PATH REQUIRED)
+run("${exact_arithmetic}")

@@ -1,9 +1,13 @@
 #include "trismooth/pipeline/auto_backend.h"
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "trismooth/mesh_io/smooth_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -38,7 +42,7 @@ Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topo
   options.backend = backend;
   options.topology = topology;
   Smoothed smoothed{{}, mesh.xy()};
-  smoothed.result = trismooth::smooth(smoothed.xy, mesh.indices(), {}, options);
+  smoothed.result = trismooth::smooth(trismooth::xy_points(smoothed.xy), mesh.indices(), {}, options);
   return smoothed;
 }
 
@@ -122,28 +126,94 @@ TEST_CASE("auto has rings found by the device where the mesh is large enough and
   CHECK_FALSE(find(AutoBackend(support(cuda, "cudaErrorNoDevice"), trismooth::cpu_backend(), 1)));
   CHECK(cuda.rings_found == 1);
   const FakeBackend failing(Failure::rings);
-  CHECK_FALSE(find(AutoBackend(support(failing), trismooth::cpu_backend(), 1)));
+  const auto by_host = find(AutoBackend(support(failing), trismooth::cpu_backend(), 1));
+  REQUIRE(by_host);
   CHECK(failing.rings_found == 1);
+  CHECK(by_host->note == "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
+  CHECK(by_host->rings.neighbours == cuda.find_rings(mesh.points, mesh.triangles, {}, options)->rings.neighbours);
 }
 
-TEST_CASE("where the device fails to find the rings, the smoothing that follows says so, once") {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
-  const FakeBackend cuda(Failure::rings);
+namespace {
+
+constexpr const char* rings_note =
+    "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test";
+
+/// A grid of the halfedge kind, smoothed as programs with such a mesh do.
+SmoothingResult smooth_halfedges(const AutoBackend& automatic, std::int32_t columns) {
+  trismooth::TriangleMesh mesh;
+  const test_meshes::Mesh grid = test_meshes::jittered_grid(columns, 8, 0.45, 3);
+  for (const auto& p : grid.points) {
+    mesh.add_vertex({p.x, p.y, 0});
+  }
+  for (const auto& [a, b, c] : grid.triangles) {
+    mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
+  }
+  SmoothingOptions options;
+  options.threads = 1;
+  options.topology = trismooth::Topology::device;
+  options.backend = &automatic;
+  return trismooth::smooth(mesh, options);
+}
+
+}  // namespace
+
+TEST_CASE("where the device fails to find the rings of a mesh, its smoothing says so, and no other mesh's") {
+  const FakeBackend cuda(Failure::rings, 8 * 9);
   const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
+  for (int round = 0; round < 2; ++round) {
+    const SmoothingResult result = smooth_halfedges(automatic, 9);
+    CHECK(result.backend == "cuda");
+    CHECK(result.backend_note == rings_note);
+    CHECK(smooth_halfedges(automatic, 10).backend_note.empty());
+  }
+  // Nor where one mesh comes between the two steps of another.
+  const test_meshes::Mesh failing = test_meshes::jittered_grid(9, 8, 0.45, 3);
+  const test_meshes::Mesh other = test_meshes::jittered_grid(10, 8, 0.45, 3);
   SmoothingOptions options;
   options.topology = trismooth::Topology::device;
   options.backend = &automatic;
   trismooth::Workers workers(1);
-  const auto smoothed = [&] {
-    auto points = mesh.points;
-    const auto found = trismooth::rings_for(options, points, mesh.triangles, {}, workers);
-    return automatic.prepare(found.rings, points, options)
-        ->smooth(points, trismooth::local_frame(points), trismooth::Storage::float64, 1);
-  };
-  const SmoothingResult result = smoothed();
-  CHECK(result.backend == "cuda");
-  CHECK(result.backend_note ==
-        "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
-  options.topology = trismooth::Topology::halfedge;
-  CHECK(smoothed().backend_note.empty());
+  const auto found = trismooth::rings_for(options, failing.points, failing.triangles, {}, workers);
+  CHECK(found.note == rings_note);
+  std::vector<double> xy = other.xy();
+  CHECK(trismooth::smooth(trismooth::xy_points(xy), other.indices(), {}, options).backend_note.empty());
+}
+
+TEST_CASE("meshes of several threads at a time get their own notes") {
+  const FakeBackend cuda(Failure::rings, 8 * 9);
+  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&, i] {
+      for (int round = 0; round < 20; ++round) {
+        const bool fails = (i + round) % 2 == 0;
+        const std::string note = smooth_halfedges(automatic, fails ? 9 : 10).backend_note;
+        wrong += note == (fails ? rings_note : "") ? 0 : 1;
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("starting the device is part of the first call's time alone") {
+  const FakeBackend cuda(Failure::no_time);
+  const AutoBackend automatic({&cuda,
+                               true,
+                               []() -> std::string {
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                                 return {};
+                               },
+                               {}},
+                              trismooth::cpu_backend(), 1);
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
+  SmoothingOptions options;
+  options.backend = &automatic;
+  trismooth::SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
+  std::vector<double> xy = mesh.xy();
+  CHECK(plan.smooth(xy).timings.prepare >= 2);
+  CHECK(plan.smooth(xy).timings.prepare == 0);
 }

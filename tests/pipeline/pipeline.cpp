@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -11,6 +12,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
@@ -183,4 +185,37 @@ TEST_CASE("triangles that are no mesh are told with the file, whoever finds out"
     CHECK(message.find("in.off: ") != std::string::npos);
     CHECK(message.find("orient") != std::string::npos);
   }
+}
+
+TEST_CASE("arrays of float are smoothed to the bits of a file of float32") {
+  const test_meshes::Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(14, 11, 0.45, 5), 3);
+  std::vector<std::array<float, 3>> points;
+  for (const auto& p : mesh.points) {
+    points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 0.25F});
+  }
+  const ScratchFolder folder;
+  {
+    std::ofstream file(folder / "in.ply");
+    file << "ply\nformat ascii 1.0\nelement vertex " << points.size()
+         << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
+         << "\nproperty list uchar int vertex_indices\nend_header\n"
+         << std::setprecision(9);
+    for (const auto& [x, y, z] : points) {
+      file << x << ' ' << y << ' ' << z << '\n';
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+      file << "3 " << a << ' ' << b << ' ' << c << '\n';
+    }
+  }
+  PipelineOptions options;
+  options.input = folder / "in.ply";
+  options.output = folder / "out.ply";
+  const PipelineResult result = run_pipeline(options);
+  REQUIRE(result.smoothing->moved_vertices > 50);
+  CHECK(trismooth::smooth(points, mesh.triangles).moved_vertices == result.smoothing->moved_vertices);
+  std::vector<double> expected;
+  for (const auto& point : points) {
+    expected.insert(expected.end(), point.begin(), point.end());
+  }
+  CHECK(trismooth::read_mesh(*options.output).points == expected);
 }

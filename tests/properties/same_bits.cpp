@@ -90,7 +90,7 @@ TEST_CASE("runs repeated, plans used again, flat arrays, and evaluating all give
         plan.smooth(other);
       }
       Run flat{mesh.mesh.xy(), {}};
-      flat.result = trismooth::smooth(flat.xy, indices, mesh.constraints(), options);
+      flat.result = trismooth::smooth(trismooth::xy_points(flat.xy), indices, mesh.constraints(), options);
       if (const std::string wrong = difference(flat, expected); !wrong.empty()) {
         return told("flat arrays", wrong);
       }

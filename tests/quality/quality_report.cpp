@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <tbb/global_control.h>
 
+#include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 
 #include "catch.h"
@@ -295,5 +297,15 @@ TEST_CASE("a mesh without triangles has NaN for every summary") {
       CHECK(std::isnan(summary.acceptable_fraction));
     }
     CHECK(std::isnan(smallest_shape({}, threads)));
+  }
+}
+
+TEST_CASE("a number of threads that no machine has is refused by every measure of a mesh") {
+  const std::vector<Point2<double>> points{{0, 0}, {1, 0}, {0, 1}};
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  for (const int threads : {-1, 100000, std::numeric_limits<int>::max()}) {
+    CHECK_THROWS_AS(quality_report({points, triangles, {}}, {threads, 10}), std::invalid_argument);
+    CHECK_THROWS_AS(smallest_shape({points, triangles, {}}, threads), std::invalid_argument);
+    CHECK_THROWS_AS(trismooth::single_precision_loss({points, triangles, {}}, threads), std::invalid_argument);
   }
 }

@@ -40,7 +40,7 @@ struct Smoothed {
 
 Smoothed smoothed(const Mesh& mesh, const SmoothingOptions& options) {
   Smoothed smoothed{{}, mesh.xy()};
-  smoothed.result = trismooth::smooth(smoothed.xy, mesh.indices(), {}, options);
+  smoothed.result = trismooth::smooth(trismooth::xy_points(smoothed.xy), mesh.indices(), {}, options);
   return smoothed;
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("at a fixed point the last sweep, in which nothing moved, counts") {
     CHECK(result.history[result.history.size() - 2].moved > 0);
     // It is one: smoothing again moves nothing, in one sweep.
     std::vector<double> again = xy;
-    const SmoothingResult second = trismooth::smooth(again, grid().indices(), {}, options);
+    const SmoothingResult second = trismooth::smooth(trismooth::xy_points(again), grid().indices(), {}, options);
     CHECK(second.sweeps == 1);
     CHECK(second.stop_reason == StopReason::fixed_point);
     CHECK(second.moved_vertices == 0);
@@ -224,7 +224,7 @@ TEST_CASE("an exception in the callback reaches the caller, whose coordinates ar
       throw std::runtime_error("sweep " + std::to_string(record.sweep));
     };
     std::vector<double> xy = grid().xy();
-    CHECK_THROWS_WITH(trismooth::smooth(xy, grid().indices(), {}, options), "sweep 1");
+    CHECK_THROWS_WITH(trismooth::smooth(trismooth::xy_points(xy), grid().indices(), {}, options), "sweep 1");
     CHECK(xy == grid().xy());
   }
 }
@@ -257,7 +257,7 @@ TEST_CASE("the unordered order is not the CPU's") {
   options.order = trismooth::Order::unordered;
   options.execution = trismooth::Execution::cdp;
   std::vector<double> xy = grid().xy();
-  CHECK_THROWS_AS(trismooth::smooth(xy, grid().indices(), {}, options), std::invalid_argument);
+  CHECK_THROWS_AS(trismooth::smooth(trismooth::xy_points(xy), grid().indices(), {}, options), std::invalid_argument);
   CHECK(xy == grid().xy());
 }
 

@@ -90,7 +90,7 @@ TEST_CASE("plain Laplacian smoothing converges to the solution of its linear sys
       options.tolerance = 1e-12;
       options.max_sweeps = 0;
       std::vector<double> xy = mesh.xy();
-      const auto result = trismooth::smooth(xy, mesh.indices(), {}, options);
+      const auto result = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), {}, options);
       CHECK(result.stop_reason == StopReason::tolerance);
       double largest_error = 0;
       for (std::size_t i = 0; i < xy.size(); ++i) {

@@ -414,7 +414,7 @@ TEST_CASE("in a domain that is not convex plain averages do damage, and the comm
   options.method = Method::laplacian;
   options.guard = false;
   std::vector<double> xy = mesh.xy();
-  trismooth::smooth(xy, mesh.indices(), {}, options);
+  trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), {}, options);
   const std::vector<std::uint8_t> reversed;
   const auto inverted = [&](const std::vector<Point>& points) {
     return trismooth::quality_report({points, mesh.triangles, reversed, 0}).inverted;
@@ -424,7 +424,7 @@ TEST_CASE("in a domain that is not convex plain averages do damage, and the comm
 
   options.guard = true;
   std::vector<double> guarded = mesh.xy();
-  const SmoothingResult result = trismooth::smooth(guarded, mesh.indices(), {}, options);
+  const SmoothingResult result = trismooth::smooth(trismooth::xy_points(guarded), mesh.indices(), {}, options);
   CHECK(result.reverted_vertices > 0);
   CHECK(result.guard_rounds > 0);
   const std::vector<Point> after = as_points(guarded);

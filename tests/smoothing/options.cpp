@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/quality/worker_threads.h"
+
 #include "catch.h"
 
 using trismooth::Execution;
@@ -73,6 +75,9 @@ TEST_CASE("numbers out of range are refused, and the message names the option") 
   CHECK(complaint([](auto& o) { o.max_sweeps = std::numeric_limits<std::int64_t>::max(); }).empty());
   CHECK(complaint([](auto& o) { o.threads = -1; }).find("threads") != std::string::npos);
   CHECK(complaint([](auto& o) { o.threads = 5; }).empty());
+  CHECK(complaint([](auto& o) { o.threads = trismooth::most_threads(); }).empty());
+  CHECK(complaint([](auto& o) { o.threads = trismooth::most_threads() + 1; }).find("threads") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.threads = std::numeric_limits<int>::max(); }).find("threads") != std::string::npos);
   CHECK(complaint([](auto& o) { o.tolerance = -1e-9; }).find("tolerance") != std::string::npos);
   CHECK(complaint([](auto& o) { o.time_limit_seconds = -1; }).find("time limit") != std::string::npos);
   CHECK(complaint([](auto& o) { o.time_limit_seconds = not_a_number; }).find("time limit") != std::string::npos);

@@ -33,6 +33,7 @@ using trismooth::SmoothingPlan;
 using trismooth::SmoothingResult;
 using trismooth::StopReason;
 using trismooth::Storage;
+using trismooth::xy_points;
 
 namespace {
 
@@ -42,7 +43,7 @@ constexpr Precision precisions[] = {Precision::double_precision, Precision::sing
 
 std::vector<double> smoothed(const Mesh& mesh, const SmoothingOptions& options = {}) {
   std::vector<double> xy = mesh.xy();
-  smooth(xy, mesh.indices(), {}, options);
+  smooth(xy_points(xy), mesh.indices(), {}, options);
   return xy;
 }
 
@@ -222,7 +223,7 @@ TEST_CASE("a plan smooths new coordinates as one call would, as often as asked")
       std::vector<double> planned = moving;
       const SmoothingResult result = repeated.smooth(planned);
       std::vector<double> once = moving;
-      const SmoothingResult expected = smooth(once, mesh.indices(), {}, options);
+      const SmoothingResult expected = smooth(xy_points(once), mesh.indices(), {}, options);
       REQUIRE(same_bits(planned, once));
       REQUIRE(result.sweeps == expected.sweeps);
       REQUIRE(result.vertex_updates == expected.vertex_updates);
@@ -288,13 +289,13 @@ TEST_CASE("vertices that the caller fixes do not move, and the others move as if
   by_flag.fixed = flags;
   for_all_options([&](const SmoothingOptions& options) {
     std::vector<double> xy = mesh.xy();
-    const SmoothingResult result = smooth(xy, mesh.indices(), by_id, options);
+    const SmoothingResult result = smooth(xy_points(xy), mesh.indices(), by_id, options);
     CHECK(result.moved_vertices > 50);
     for (const std::int32_t v : ids) {
       REQUIRE((xy[2 * v] == mesh.points[v].x && xy[2 * v + 1] == mesh.points[v].y));
     }
     std::vector<double> flagged = mesh.xy();
-    smooth(flagged, mesh.indices(), by_flag, options);
+    smooth(xy_points(flagged), mesh.indices(), by_flag, options);
     REQUIRE(same_bits(flagged, xy));
   });
 }
@@ -321,7 +322,7 @@ TEST_CASE("a mesh of nothing, of isolated vertices or without a free vertex is d
                            Mesh{{{3, 3}, {3, 3}, {3, 3}}, {{0, 1, 2}}}}) {
     for_all_options([&](const SmoothingOptions& options) {
       std::vector<double> xy = mesh.xy();
-      const SmoothingResult result = smooth(xy, mesh.indices(), {}, options);
+      const SmoothingResult result = smooth(xy_points(xy), mesh.indices(), {}, options);
       CHECK(result.stop_reason == StopReason::fixed_point);
       CHECK(result.sweeps == 1);
       CHECK(result.free_vertices == 0);
@@ -356,7 +357,7 @@ TEST_CASE("coordinates that are not finite are refused, and xy is untouched") {
       const std::string message = "vertex " + std::to_string(place / 2) + " has a coordinate that is not finite";
       CHECK_THROWS_AS(repeated.smooth(xy), MeshError);
       CHECK_THROWS_WITH(repeated.smooth(xy), message);
-      CHECK_THROWS_WITH(smooth(xy, mesh.indices()), message);
+      CHECK_THROWS_WITH(smooth(xy_points(xy), mesh.indices()), message);
       CHECK(same_bits(xy, before));
     }
   }
@@ -377,11 +378,11 @@ TEST_CASE("arrays of the wrong length are refused, and xy is untouched") {
   std::vector<double> odd = mesh.xy();
   odd.push_back(0);
   const std::vector<double> before = odd;
-  CHECK_THROWS_AS(smooth(odd, mesh.indices()), std::invalid_argument);
+  CHECK_THROWS_AS(smooth(xy_points(odd), mesh.indices()), std::invalid_argument);
   std::vector<std::int32_t> indices = mesh.indices();
   indices.pop_back();
   std::vector<double> xy = mesh.xy();
-  CHECK_THROWS_AS(smooth(xy, indices), std::invalid_argument);
+  CHECK_THROWS_AS(smooth(xy_points(xy), indices), std::invalid_argument);
   CHECK_THROWS_AS(plan(mesh.vertex_count(), indices), std::invalid_argument);
   CHECK(odd == before);
   CHECK(xy == mesh.xy());
@@ -393,7 +394,7 @@ TEST_CASE("triangles that are no mesh, constraints and options that do not fit a
   const auto refuses_triangle = [&](std::vector<std::int32_t> more) {
     std::vector<std::int32_t> indices = mesh.indices();
     indices.insert(indices.end(), more.begin(), more.end());
-    CHECK_THROWS_AS(smooth(xy, indices), MeshError);
+    CHECK_THROWS_AS(smooth(xy_points(xy), indices), MeshError);
   };
   refuses_triangle({0, 1, 6});
   refuses_triangle({0, -1, 2});
@@ -401,13 +402,13 @@ TEST_CASE("triangles that are no mesh, constraints and options that do not fit a
   const std::vector<std::int32_t> ids{6};
   Constraints constraints;
   constraints.fixed_ids = ids;
-  CHECK_THROWS_AS(smooth(xy, mesh.indices(), constraints), std::invalid_argument);
+  CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), constraints), std::invalid_argument);
   SmoothingOptions options;
   options.tolerance = -1;
-  CHECK_THROWS_AS(smooth(xy, mesh.indices(), {}, options), std::invalid_argument);
+  CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), std::invalid_argument);
   CHECK(xy == mesh.xy());
   std::vector<double> band = test_meshes::moebius_band(5).xy();
-  CHECK_THROWS_AS(smooth(band, test_meshes::moebius_band(5).indices()), MeshError);
+  CHECK_THROWS_AS(smooth(xy_points(band), test_meshes::moebius_band(5).indices()), MeshError);
 }
 
 TEST_CASE("without a backend in the options it is the CPU's") {
@@ -425,7 +426,7 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
     mirrored[i] = -mirrored[i];
   }
   std::vector<double> expected = mirrored;
-  smooth(expected, mesh.indices());
+  smooth(xy_points(expected), mesh.indices());
 
   fakes::FakeBackend device;
   SmoothingOptions options;
@@ -440,4 +441,43 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
   device.fail_next_at(fakes::Failure::none);
   plan.smooth(xy);
   CHECK(xy == expected);
+}
+
+TEST_CASE("more threads than a machine can have are refused before any is started, by every call that takes a number") {
+  const Mesh mesh = test_meshes::star(5);
+  std::vector<double> xy = mesh.xy();
+  SmoothingOptions options;
+  for (const int threads : {100000, std::numeric_limits<int>::max(), -1}) {
+    options.threads = threads;
+    CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), std::invalid_argument);
+    CHECK_THROWS_AS(plan(mesh.vertex_count(), mesh.indices(), {}, options), std::invalid_argument);
+  }
+  CHECK(xy == mesh.xy());
+}
+
+TEST_CASE("the time of preparing is that of the call which prepared") {
+  const Mesh mesh = test_meshes::jittered_grid(30, 30, 0.3, 1);
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
+  std::vector<double> xy = mesh.xy();
+  CHECK(repeated.smooth(xy).timings.prepare > 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+  for (std::size_t i = 0; i < xy.size(); i += 2) {
+    xy[i] = -xy[i];
+  }
+  CHECK(repeated.smooth(xy).timings.prepare > 0);
+  CHECK(repeated.smooth(xy).timings.prepare == 0);
+}
+
+TEST_CASE("a plan that has been moved from says so, and can be made anew") {
+  const Mesh mesh = test_meshes::star(5);
+  SmoothingPlan first = plan(mesh.vertex_count(), mesh.indices());
+  SmoothingPlan second = std::move(first);
+  std::vector<double> xy = mesh.xy();
+  // NOLINTNEXTLINE(bugprone-use-after-move): that is the question
+  CHECK_THROWS_AS(first.smooth(xy), std::logic_error);
+  CHECK(xy == mesh.xy());
+  first = plan(mesh.vertex_count(), mesh.indices());
+  first.smooth(xy);
+  CHECK(xy == smoothed(mesh));
 }

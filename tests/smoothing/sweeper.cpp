@@ -103,7 +103,7 @@ void check_against_reference(const Mesh& mesh, SmoothingOptions options) {
       options.threads = threads;
       options.record_min_shape = threads % 2 == 1;
       std::vector<double> xy = mesh.xy();
-      const SmoothingResult result = trismooth::smooth(xy, mesh.indices(), {}, options);
+      const SmoothingResult result = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), {}, options);
       REQUIRE(xy == expected.xy);
       REQUIRE(result.sweeps == static_cast<std::int64_t>(expected.outcome.sweeps.size()));
       REQUIRE(result.stop_reason == expected.outcome.reason);
@@ -198,10 +198,10 @@ TEST_CASE("skipping unchanged neighbourhoods saves evaluations") {
     options.form = form;
     options.tolerance = 0;
     std::vector<double> xy = mesh.xy();
-    const SmoothingResult changed = trismooth::smooth(xy, mesh.indices(), {}, options);
+    const SmoothingResult changed = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), {}, options);
     options.evaluation = Evaluation::all;
     std::vector<double> again = mesh.xy();
-    const SmoothingResult all = trismooth::smooth(again, mesh.indices(), {}, options);
+    const SmoothingResult all = trismooth::smooth(trismooth::xy_points(again), mesh.indices(), {}, options);
     CHECK(xy == again);
     CHECK(all.vertex_updates == all.sweeps * all.free_vertices);
     CHECK(changed.vertex_updates < all.vertex_updates / 2);

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/overwriting.h"
+#include "trismooth/smoothing/smooth.h"
+#include "trismooth/smoothing/triangle_topology.h"
 
 /// A device that a test can count the calls of and make fail, on any machine.
 namespace fakes {
@@ -19,6 +28,7 @@ enum class Failure : std::uint8_t {
   rings,
   prepare,
   smooth,
+  download,  ///< on the way back from a mesh that is on the device alone
   host_memory,
   bits,     ///< silently: a coordinate is not the one that it must be
   no_time,  ///< not at all, but its clock stands still
@@ -27,7 +37,9 @@ enum class Failure : std::uint8_t {
 /// Does the CPU's work under the name "cuda".
 class FakeBackend final : public trismooth::Backend {
  public:
-  explicit FakeBackend(Failure failure = Failure::none) : failure_(failure) {}
+  /// Fails there: with every mesh, or with those of so many vertices alone.
+  explicit FakeBackend(Failure failure = Failure::none, std::size_t vertices = 0)
+      : failure_(failure), failing_vertices_(vertices) {}
 
   std::string name() const override { return "cuda"; }
 
@@ -35,7 +47,7 @@ class FakeBackend final : public trismooth::Backend {
                                                        std::span<const trismooth::Point2<double>> points,
                                                        const trismooth::SmoothingOptions& options) const override {
     ++prepared;
-    fail_at(Failure::prepare);
+    fail_at(Failure::prepare, points.size());
     trismooth::SmoothingOptions on_cpu = options;
     on_cpu.order = trismooth::Order::colour;  // the CPU has no other
     return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(rings, points, on_cpu));
@@ -46,17 +58,27 @@ class FakeBackend final : public trismooth::Backend {
                                                  const trismooth::Constraints& constraints,
                                                  const trismooth::SmoothingOptions& options) const override {
     ++rings_found;
-    fail_at(Failure::rings);
+    fail_at(Failure::rings, points.size());
     trismooth::Workers workers(options.threads);
     return trismooth::find_mesh_rings(points, triangles, constraints, workers);
+  }
+
+  /// Keeps the mesh "on the device", and brings results back in pieces.
+  std::unique_ptr<trismooth::PreparedMesh> prepare_mesh(std::int32_t vertex_count,
+                                                        std::span<const trismooth::Triangle> triangles,
+                                                        const trismooth::Constraints& constraints,
+                                                        const trismooth::SmoothingOptions& options) const override {
+    ++prepared;
+    fail_at(Failure::prepare, static_cast<std::size_t>(vertex_count));
+    return std::make_unique<Mesh>(*this, vertex_count, triangles, constraints, options);
   }
 
   /// From now on it fails there.
   void fail_next_at(Failure failure) { failure_ = failure; }
 
-  mutable int prepared = 0;     ///< calls of prepare()
-  mutable int smoothed = 0;     ///< of smooth()
-  mutable int rings_found = 0;  ///< of find_rings()
+  mutable std::atomic<int> prepared = 0;     ///< calls of prepare() and prepare_mesh()
+  mutable std::atomic<int> smoothed = 0;     ///< of smooth()
+  mutable std::atomic<int> rings_found = 0;  ///< of find_rings()
 
  private:
   class Smoother final : public trismooth::PreparedSmoother {
@@ -68,7 +90,7 @@ class FakeBackend final : public trismooth::Backend {
                                       trismooth::Storage storage, double fixed_quotient) override {
       ++backend_.smoothed;
       trismooth::SmoothingResult result = cpu_->smooth(points, frame, storage, fixed_quotient);
-      backend_.fail_at(Failure::smooth);  // with the points written already
+      backend_.fail_at(Failure::smooth, points.size());  // with the points written already
       if (backend_.failure_ == Failure::bits) {
         points.front().x = std::nextafter(points.front().x, 2.0);
       }
@@ -87,13 +109,59 @@ class FakeBackend final : public trismooth::Backend {
     std::unique_ptr<PreparedSmoother> cpu_;
   };
 
-  void fail_at(Failure place) const {
-    if (failure_ == place) {
+  class Mesh final : public trismooth::PreparedMesh {
+   public:
+    Mesh(const FakeBackend& backend, std::int32_t vertex_count, std::span<const trismooth::Triangle> triangles,
+         const trismooth::Constraints& constraints, const trismooth::SmoothingOptions& options)
+        : backend_(backend), workers_(1) {
+      fixed_ = trismooth::fixed_vertices(trismooth::connect_triangles(vertex_count, triangles, workers_), triangles,
+                                         constraints);
+      trismooth::SmoothingOptions on_cpu = options;
+      on_cpu.backend = nullptr;
+      on_cpu.topology = trismooth::Topology::halfedge;
+      plan_ = std::make_unique<trismooth::SmoothingPlan>(vertex_count, triangles, constraints, on_cpu);
+    }
+
+    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points,
+                                      trismooth::Storage storage) override {
+      ++backend_.smoothed;
+      std::vector<trismooth::Point2<double>> on_device(points.begin(), points.end());
+      trismooth::SmoothingResult result = plan_->smooth(on_device, storage);
+      backend_.fail_at(Failure::smooth, points.size());
+      trismooth::Overwriting overwriting(std::as_writable_bytes(points), &kept_, workers_);
+      const std::size_t pieces = 3;
+      const auto bytes = std::as_bytes(std::span(on_device));
+      for (std::size_t piece = 0, begin = 0; piece < pieces; ++piece) {
+        const std::size_t end = bytes.size() * (piece + 1) / pieces;
+        if (piece == pieces - 1) {
+          backend_.fail_at(Failure::download, points.size());
+        }
+        overwriting.write(bytes.data() + begin, end - begin);
+        begin = end;
+      }
+      overwriting.done();
+      result.backend = "cuda";
+      return result;
+    }
+
+    std::vector<std::uint8_t> fixed() const override { return fixed_; }
+
+   private:
+    const FakeBackend& backend_;
+    trismooth::Workers workers_;
+    std::vector<std::uint8_t> fixed_;
+    std::unique_ptr<trismooth::SmoothingPlan> plan_;
+    trismooth::ScratchBytes kept_;
+  };
+
+  void fail_at(Failure place, std::size_t vertices) const {
+    if (failure_ == place && (failing_vertices_ == 0 || failing_vertices_ == vertices)) {
       throw trismooth::DeviceError("CUDA: cudaErrorMemoryAllocation (out of memory) from a test");
     }
   }
 
   Failure failure_;
+  std::size_t failing_vertices_;
 };
 
 }  // namespace fakes
