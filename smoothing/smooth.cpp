@@ -9,6 +9,7 @@
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/hold.h"
+#include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth {
 
@@ -58,6 +59,7 @@ SmoothingPlan::SmoothingPlan(std::int32_t vertex_count, std::span<const std::int
                              const Constraints& constraints, const SmoothingOptions& options)
     : options_(options) {
   const std::span<const Triangle> listed = as_triangles(triangles);
+  check_mesh_size(vertex_count, std::ssize(listed));
   options.validate();
   if (options.topology == Topology::device) {
     mesh_ = backend_of(options).prepare_mesh(vertex_count, listed, constraints, options);
@@ -106,9 +108,7 @@ SmoothingPlan plan(std::int32_t vertex_count, std::span<const std::int32_t> tria
 
 SmoothingResult smooth(std::span<double> xy, std::span<const std::int32_t> triangles, const Constraints& constraints,
                        const SmoothingOptions& options) {
-  if (xy.size() / 2 > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw MeshError("more than 2147483647 vertices");
-  }
+  check_mesh_size(std::ssize(xy) / 2, std::ssize(triangles) / 3);
   return plan(static_cast<std::int32_t>(xy.size() / 2), triangles, constraints, options).smooth(xy);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -440,4 +441,19 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
   device.fail_next_at(fakes::Failure::none);
   plan.smooth(xy);
   CHECK(xy == expected);
+}
+
+TEST_CASE("arrays of more vertices or triangles than 32 bits number are refused before anybody looks at them") {
+  // No memory is behind all of these numbers.
+  double coordinate = 0;
+  std::int32_t index = 0;
+  constexpr std::size_t vertices = std::size_t{1} << 31U;
+  constexpr std::size_t triangles = 715827883;
+  for (const std::size_t wrapped_around : {vertices, 2 * vertices, 2 * vertices + 3}) {
+    CHECK_THROWS_AS(smooth(std::span(&coordinate, 2 * wrapped_around), {}), MeshError);
+  }
+  for (const std::size_t wrapped_around : {triangles, 2 * vertices, 2 * vertices + 1}) {
+    CHECK_THROWS_AS(smooth(std::span(&coordinate, 2), std::span(&index, 3 * wrapped_around)), MeshError);
+    CHECK_THROWS_AS(plan(3, std::span(&index, 3 * wrapped_around)), MeshError);
+  }
 }
