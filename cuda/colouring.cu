@@ -1,6 +1,13 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "trismooth/cuda/colouring.h"
+#include "trismooth/cuda/device_algorithms.h"
 #include "trismooth/cuda/launch.h"
 #include "trismooth/cuda/thread_index.cuh"
+#include "trismooth/smoothing/colouring.h"
 #include "trismooth/smoothing/splitmix64.h"
 
 namespace trismooth::cuda {
@@ -62,6 +69,19 @@ __global__ void colour_round(RingsView rings, std::int32_t* colours, Progress* p
   }
 }
 
+/// Colours on the host what the rounds have left.
+void colour_the_rest_on_host(Context& context, const RingsView& rings, DeviceColouring& colouring) {
+  const auto vertex_count = static_cast<std::size_t>(rings.size);
+  const std::vector<std::uint32_t> narrow = download(context, rings.offsets, vertex_count + 1);
+  const std::vector<std::int64_t> offsets(narrow.begin(), narrow.end());
+  const std::vector<std::int32_t> neighbours =
+      download(context, rings.neighbours, static_cast<std::size_t>(offsets.back()));
+  std::vector<std::int32_t> colours = download(context, colouring.colours.data(), vertex_count);
+  colour_the_rest({offsets, neighbours, {}}, colours);
+  colouring.colours.upload(colours);
+  colouring.count = *std::ranges::max_element(colours) + 1;
+}
+
 }  // namespace
 
 DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
@@ -73,8 +93,7 @@ DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
   }
   DeviceBuffer<Progress> progress(context, 1);
   Progress after{1, uncoloured};
-  while (after.waiting != 0) {
-    // The vertex that comes first of those waiting is coloured in every round, so this ends.
+  for (; after.waiting != 0 && colouring.rounds < DeviceColouring::most_rounds; ++colouring.rounds) {
     after.waiting = 0;
     progress.upload({&after, 1});
     colour_round<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(rings, colouring.colours.data(),
@@ -83,6 +102,9 @@ DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
     progress.download({&after, 1});
   }
   colouring.count = after.largest + 1;
+  if (after.waiting != 0) {
+    colour_the_rest_on_host(context, rings, colouring);
+  }
   return colouring;
 }
 

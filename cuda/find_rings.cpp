@@ -41,8 +41,8 @@ OneRings copied_to_host(Context& context, const DeviceRings& rings) {
 
 MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                                const Constraints& constraints, NeighbourFinding way) {
+  check_mesh_size(std::ssize(points), std::ssize(triangles));
   const auto vertex_count = static_cast<std::int32_t>(points.size());
-  check_mesh_size(vertex_count, std::ssize(triangles));
   check_lengths(vertex_count, triangles, constraints);
 
   Context context;

@@ -95,9 +95,10 @@ __global__ void make_window_keys(RingsView rings, const std::int32_t* order, con
     keys[own] = ~std::uint64_t{0};
     return;
   }
-  std::int32_t batch = 0;
-  while (own >= batches[batch + 1]) {
-    ++batch;
+  std::int32_t batch = 0;  // the last one that begins at or before it
+  for (std::int32_t end = batch_count; end - batch > 1;) {
+    const std::int32_t middle = batch + (end - batch) / 2;
+    (batches[middle] <= own ? batch : end) = middle;
   }
   // Windows are numbered on, one more for each batch: a batch ends with a window that is not full.
   const std::int32_t window = batches[batch] / window_size + batch + (own - batches[batch]) / window_size;

@@ -1,7 +1,11 @@
 #include "trismooth/mesh_io/halfedge_mesh.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 #include <unordered_map>
+
+#include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
 
@@ -18,6 +22,8 @@ class Builder {
       : triangles_(triangles), topology_(topology), reversed_(reversed), result_(result), mesh_(result.mesh) {}
 
   void build(std::span<const double> xyz) {
+    check_halfedge_mesh_size(topology_.vertex_count, std::ssize(triangles_),
+                             std::ranges::count_if(topology_.twins, [](std::int32_t twin) { return twin < 0; }));
     split_fans();
     number_edges();
     const auto vertices = static_cast<std::size_t>(topology_.vertex_count) + result_.copies_of.size();
@@ -39,6 +45,7 @@ class Builder {
       if ((topology_.hold[v] & hold::bow_tie) != 0 && !fan_vertex_.contains(corner)) {
         std::int32_t vertex = v;
         if (topology_.corner[v] != corner) {
+          check_halfedge_mesh_size(topology_.vertex_count + std::ssize(result_.copies_of) + 1, 0, 0);
           vertex = topology_.vertex_count + static_cast<std::int32_t>(result_.copies_of.size());
           result_.copies_of.push_back(v);
         }
@@ -124,6 +131,20 @@ class Builder {
 };
 
 }  // namespace
+
+void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std::int64_t unpaired_sides) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (vertices > most) {
+    throw MeshError("more than " + std::to_string(most) +
+                    " vertices in the halfedge mesh, where a vertex of several fans is one for each");
+  }
+  // Two halfedges an edge: each side of a triangle is one, and those that are not paired have another beside them.
+  const std::int64_t halfedges = 3 * triangles + unpaired_sides;
+  if (halfedges > most) {
+    throw MeshError("more than " + std::to_string(most) + " halfedges: three for each of " + std::to_string(triangles) +
+                    " triangles, and " + std::to_string(unpaired_sides) + " on the boundary");
+  }
+}
 
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
                                  const TriangleTopology& topology, std::span<const std::uint8_t> reversed) {

@@ -19,8 +19,13 @@ struct HalfedgeMesh {
   std::vector<std::int32_t> copies_of;  ///< the input vertex of mesh vertex vertex_count + i
 };
 
-/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Complexity:
-/// linear.
+/// Throws MeshError where a halfedge mesh of so many vertices (copies included) and triangles, of whose edges so many
+/// have one triangle or more than two, has more vertices or halfedges than OpenMesh's handles tell apart:
+/// 2,147,483,647. Such an edge has two halfedges for each of its triangles, every other one two.
+void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std::int64_t unpaired_sides);
+
+/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Throws MeshError
+/// for a mesh that is too large, see check_halfedge_mesh_size(). Complexity: linear.
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
                                  const TriangleTopology& topology, std::span<const std::uint8_t> reversed);
 

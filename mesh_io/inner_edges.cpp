@@ -35,13 +35,29 @@ std::vector<std::array<std::int32_t, 2>> find_neighbours(std::span<const Triangl
 
 }  // namespace
 
-std::int64_t InnerEdges::vertices_between(std::span<const std::int32_t> numbers) const {
+void InnerEdges::label_used_vertices() {
+  constexpr std::int32_t unused = -1;
+  std::vector<std::int32_t> labels(vertex_count_, unused);
+  labelled_.assign(triangles_.begin(), triangles_.end());
+  for (Triangle& triangle : labelled_) {
+    for (std::int32_t& v : triangle) {
+      std::int32_t& label = labels[static_cast<std::size_t>(v)];
+      label = label == unused ? label_count_++ : label;
+      v = label;
+    }
+  }
+}
+
+std::int64_t InnerEdges::vertices_between(std::span<const std::int32_t> numbers) {
   constexpr std::int32_t unseen = -1;
   constexpr std::int32_t several = -2;
-  std::vector<std::int32_t> seen(vertex_count_, unseen);
+  if (labelled_.empty()) {
+    label_used_vertices();
+  }
+  std::vector<std::int32_t> seen(static_cast<std::size_t>(label_count_), unseen);
   std::int64_t count = 0;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::int32_t v : triangles_[t]) {
+  for (std::size_t t = 0; t < labelled_.size(); ++t) {
+    for (const std::int32_t v : labelled_[t]) {
       std::int32_t& number = seen[static_cast<std::size_t>(v)];
       if (number == unseen) {
         number = numbers[t];

@@ -26,10 +26,11 @@ class MemoryBlock {
     return begin;
   }
 
-  /// Makes room for `count` bytes more, exactly. Throws std::bad_alloc.
+  /// Makes room for `count` bytes more: exactly, if these are the first ones; else capacity doubles at least, so that
+  /// many small steps cost little. Throws std::bad_alloc.
   void reserve_more(std::size_t count) {
     if (count > capacity_ - size_) {
-      reallocate(size_ + count);
+      reallocate(std::max(size_ + count, 2 * size_));
     }
   }
 

@@ -90,10 +90,18 @@ void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& d
 
 }  // namespace
 
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
-  if (document.point_count() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw ReadError(path, "holds more than 2147483647 vertices");
+void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  if (points > most) {
+    throw ReadError(path, "holds more than " + std::to_string(most) + " vertices");
   }
+  if (cells > most) {
+    throw ReadError(path, "holds more than " + std::to_string(most) + " cells");
+  }
+}
+
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
+  check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
   sort_cells(document, mesh);
   if (mesh.triangles.empty() && document.cells.size() > 0) {

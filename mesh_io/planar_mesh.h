@@ -26,6 +26,9 @@ struct PlanarMesh {
   std::vector<std::string> notes;           ///< what the user should know, one sentence each
 };
 
+/// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
+void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path);
+
 /// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
 /// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and
 /// a note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane())

@@ -2,15 +2,18 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <optional>
-#include <set>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/buffered_writer.h"
+#include "trismooth/mesh_io/free_names.h"
 #include "trismooth/mesh_io/other_cells.h"
 #include "trismooth/mesh_io/ply.h"
 #include "trismooth/mesh_io/ply_header.h"
@@ -56,27 +59,26 @@ std::optional<ScalarType> written_type(const DataArray& array) {
   return std::nullopt;
 }
 
-/// The name as a PLY header can state it, made different from all of `used` and added to them.
-std::string unique_name(std::string name, std::set<std::string>& used) {
+/// The name as a PLY header can state it.
+std::string header_name(std::string name) {
   std::ranges::replace_if(
       name, [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
-  if (name.empty()) {
-    name = "_";
-  }
-  while (!used.insert(name).second) {
-    name += '_';
-  }
-  return name;
+  return name.empty() ? "_" : name;
 }
 
 /// The properties of the arrays that PLY can hold; `used` are names that they must not take.
-std::vector<WrittenProperty> written_properties(const std::vector<DataArray>& arrays, std::set<std::string> used) {
+std::vector<WrittenProperty> written_properties(const std::vector<DataArray>& arrays,
+                                                std::initializer_list<std::string_view> used) {
+  FreeNames names;
+  for (const std::string_view name : used) {
+    names.take(name);
+  }
   std::vector<WrittenProperty> properties;
   for (const DataArray& array : arrays) {
     const auto type = written_type(array);
     for (std::size_t c = 0; type && c < array.components; ++c) {
       const std::string name = array.components == 1 ? array.name : array.name + "_" + std::to_string(c);
-      properties.push_back({&array, c, *type, unique_name(name, used)});
+      properties.push_back({&array, c, *type, names.claim(header_name(name))});
     }
   }
   return properties;
@@ -205,10 +207,13 @@ void write_cells(BufferedWriter& writer, const MeshDocument& document, const Wri
 /// Says which arrays are not in `properties` and which are there in another form.
 void describe_arrays(std::vector<std::string>& lost, std::string_view kind, const std::vector<DataArray>& arrays,
                      std::span<const WrittenProperty> properties) {
+  auto next = properties.begin();
   for (const DataArray& array : arrays) {
     const std::string label = std::string(kind) + " array '" + array.name + "'";
-    const auto first = std::ranges::find(properties, &array, &WrittenProperty::array);
-    if (first == properties.end()) {
+    // They come in the order of their arrays.
+    const auto first = next;
+    next = std::find_if(first, properties.end(), [&](const WrittenProperty& p) { return p.array != &array; });
+    if (first == next) {
       lost.push_back("PLY holds no numbers of 64-bit integer types: " + label + " is not written");
       continue;
     }
@@ -217,9 +222,8 @@ void describe_arrays(std::vector<std::string>& lost, std::string_view kind, cons
                                  to_string(first->type)));
     }
     if (array.components > 1) {
-      const auto last = first + static_cast<std::ptrdiff_t>(array.components) - 1;
       lost.push_back(fmt::format("PLY holds one number a property: {} is written as '{}' to '{}'", label, first->name,
-                                 last->name));
+                                 std::prev(next)->name));
     } else if (first->name != array.name) {
       lost.push_back(
           fmt::format("PLY cannot have a property of that name there: {} is written as '{}'", label, first->name));

@@ -78,6 +78,7 @@ vtkSmartPointer<vtkDataArray> make_vtk_array(ScalarType type, std::size_t compon
     array.TakeReference(vtkDataArray::CreateDataArray(vtk_type_of(type)));
   }
   array->SetNumberOfComponents(static_cast<int>(components));
+  numbers.shrink_to_fit();
   const auto count = static_cast<vtkIdType>(numbers.size() / size_of(type));
   if (count > 0) {
     array->SetVoidArray(numbers.release(), count, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
@@ -119,9 +120,13 @@ bool holds_non_finite(const DataArray& array) {
          (array.type == ScalarType::float64 && any(array.as<double>()));
 }
 
+void reserve_vtk_arrays(vtkFieldData& fields, std::size_t count) {
+  fields.AllocateArrays(fields.GetNumberOfArrays() + static_cast<int>(count));
+}
+
 void add_vtk_array(vtkFieldData& fields, vtkAbstractArray& array, const std::string& name) {
   // Names are compared when the array is added; one that is set later is not looked at.
-  array.SetName(("array " + std::to_string(fields.GetNumberOfArrays())).c_str());
+  array.SetName(nullptr);
   fields.AddArray(&array);
   array.SetName(name.c_str());
 }

@@ -35,8 +35,11 @@ std::optional<DataArray> view_as_data_array(vtkAbstractArray* array);
 /// True where the array holds a NaN or an infinity.
 bool holds_non_finite(const DataArray& array);
 
+/// Makes room for `count` arrays more. VTK does so for each array by itself, and copies the list of all the others.
+void reserve_vtk_arrays(vtkFieldData& fields, std::size_t count);
+
 /// Gives the array that name and adds it; one that is there under the same name already stays, too (VTK's own
-/// AddArray() would replace it). The array must belong to nobody else yet.
+/// AddArray() would replace it, and looks at the names of all others). The array must belong to nobody else yet.
 void add_vtk_array(vtkFieldData& fields, vtkAbstractArray& array, const std::string& name);
 
 }  // namespace trismooth

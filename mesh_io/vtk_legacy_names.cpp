@@ -134,13 +134,4 @@ std::string encode_vtk_name(std::string_view name) {
   return encoded;
 }
 
-std::string free_array_name(std::string_view name, std::span<const std::string> taken) {
-  const std::string wanted(name.empty() ? "unnamed" : name);
-  std::string candidate = wanted;
-  for (int number = 1; std::ranges::find(taken, candidate) != taken.end(); ++number) {
-    candidate = wanted + "_" + std::to_string(number);
-  }
-  return candidate;
-}
-
 }  // namespace trismooth

@@ -2,10 +2,8 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "trismooth/mesh_io/data_array.h"
 
@@ -36,8 +34,5 @@ std::string decode_vtk_name(std::string_view encoded);
 
 /// The %-encoded form of a name: one token, none that VTK would take for a keyword.
 std::string encode_vtk_name(std::string_view name);
-
-/// `name`, or the first of name_1, name_2, ... that is not among `taken`; "unnamed" in place of an empty name.
-std::string free_array_name(std::string_view name, std::span<const std::string> taken);
 
 }  // namespace trismooth

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/buffered_writer.h"
+#include "trismooth/mesh_io/free_names.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_legacy_names.h"
 
@@ -116,15 +117,19 @@ void VtkLegacyOutput::end_numbers() {
   }
 }
 
-void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::vector<std::string> taken_names) {
+void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::span<const std::string> taken_names) {
   if (arrays.empty()) {
     return;
   }
+  FreeNames names;
+  for (const std::string& name : taken_names) {
+    names.take(name);
+  }
   text("FIELD FieldData " + std::to_string(arrays.size()) + "\n");
   for (const DataArray& array : arrays) {
-    taken_names.push_back(free_array_name(array.name, taken_names));
-    text(encode_vtk_name(taken_names.back()) + " " + std::to_string(array.components) + " " +
-         std::to_string(array.rows()) + " " + std::string(vtk_legacy_type_name(array.type)) + "\n");
+    text(encode_vtk_name(names.claim(array.name.empty() ? "unnamed" : array.name)) + " " +
+         std::to_string(array.components) + " " + std::to_string(array.rows()) + " " +
+         std::string(vtk_legacy_type_name(array.type)) + "\n");
     visit_scalar_type(array.type, [&](auto zero) {
       const auto values = array.as<decltype(zero)>();
       for (std::size_t i = 0; i < values.size(); ++i) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/mesh_document.h"
@@ -27,8 +26,9 @@ class VtkLegacyOutput {
   void number(T value, char separator);
   /// The end of a list of numbers.
   void end_numbers();
-  /// A FIELD of the arrays, if there are any. Names that are empty or among `taken_names` give way to free ones.
-  void field(std::span<const DataArray> arrays, std::vector<std::string> taken_names);
+  /// A FIELD of the arrays, if there are any. Names that are empty, among `taken_names` or there twice give way to free
+  /// ones.
+  void field(std::span<const DataArray> arrays, std::span<const std::string> taken_names);
   /// Hands on what is left.
   void flush();
 

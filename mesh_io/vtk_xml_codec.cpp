@@ -25,9 +25,11 @@
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/free_names.h"
 #include "trismooth/mesh_io/memory_block.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_cells.h"
+#include "trismooth/mesh_io/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_xml_reader.h"
 #include "trismooth/mesh_io/vtk_xml_writer.h"
 
@@ -54,12 +56,15 @@ void set_points(vtkPointSet& data, vtkDataArray& array) {
 
 /// Adds views of the arrays; where a name is taken, "_1", "_2", ... makes another.
 void add_arrays(std::span<const DataArray> arrays, vtkFieldData& fields) {
-  for (const DataArray& array : arrays) {
-    std::string name = array.name;
-    for (int i = 1; fields.HasArray(name.c_str()) != 0; ++i) {
-      name = array.name + "_" + std::to_string(i);
+  FreeNames names;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    if (const char* const name = fields.GetArrayName(i)) {
+      names.take(name);
     }
-    add_vtk_array(fields, *view_as_vtk_array(array), name);
+  }
+  reserve_vtk_arrays(fields, arrays.size());
+  for (const DataArray& array : arrays) {
+    add_vtk_array(fields, *view_as_vtk_array(array), names.claim(array.name));
   }
 }
 
@@ -79,8 +84,7 @@ class VtkXmlOriginal : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays,
              std::span<const DataArray> added_cell_arrays) const override {
-    const auto copy = vtkSmartPointer<vtkPointSet>::Take(file_.data->NewInstance());
-    copy->ShallowCopy(file_.data);
+    const vtkSmartPointer<vtkPointSet> copy = shallow_copy(*file_.data);
     vtkDataArray* const old_points = file_.data->GetPoints()->GetData();
     const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
     if (points->GetNumberOfValues() != old_points->GetNumberOfValues()) {
@@ -224,7 +228,7 @@ void write_unstructured_grid(const std::filesystem::path& path, const MeshDocume
   const auto types = vtkSmartPointer<vtkUnsignedCharArray>::New();
   types->SetNumberOfValues(static_cast<vtkIdType>(document.cells.size()));
   std::ranges::copy(document.cells.types, types->GetPointer(0));
-  const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
   grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells)));
   set_points(*grid, *make_points_array(document));
   grid->GetPoints()->GetData()->SetName("Points");
@@ -266,7 +270,7 @@ DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
 
 void write_poly_data(const std::filesystem::path& path, const MeshDocument& document) {
   const auto groups = group_cells(document.cells);
-  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  const vtkSmartPointer<vtkPolyData> data = make_poly_data();
   data->SetVerts(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::verts)]));
   data->SetLines(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::lines)]));
   data->SetPolys(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::polys)]));

@@ -261,7 +261,6 @@ void VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& sourc
   if (!source.end_run()) {
     fail(array, "has more compressed data than it declares");
   }
-  bytes.shrink_to_fit();
 }
 
 void VtkXmlDecoder::read_bytes(const XmlElement& array, std::size_t word_size, std::optional<std::uint64_t> expected,

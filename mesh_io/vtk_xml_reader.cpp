@@ -19,6 +19,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
+#include "trismooth/mesh_io/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_information.h"
 #include "trismooth/mesh_io/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml_cells_reader.h"
@@ -253,6 +254,7 @@ void Reader::read_attributes(const std::string& section, std::uint64_t VtkXmlPie
       decode(decoder_, *here[i], piece.*rows, decoded[i]);
     }
   }
+  reserve_vtk_arrays(target, arrays.size());
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     const auto is_id_attribute = [&](const char* attribute) {
       const std::string* const name = model_section->attribute(attribute);
@@ -273,7 +275,9 @@ void Reader::read_attributes(const std::string& section, std::uint64_t VtkXmlPie
 }
 
 void Reader::read_field_data(const XmlElement& section) {
-  for (const XmlElement* const element : vtk_xml_arrays_of(&section)) {
+  const std::vector<const XmlElement*> elements = vtk_xml_arrays_of(&section);
+  reserve_vtk_arrays(*file_.data->GetFieldData(), elements.size());
+  for (const XmlElement* const element : elements) {
     DecodedArray array;
     array.type = vtk_xml_array_type_of(path_, *element);
     if (element->attribute("Name") == nullptr) {
@@ -303,7 +307,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
   for (const VtkXmlPiece& piece : pieces_) {
     counts.push_back(piece.cells);
   }
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
   VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
   const vtkSmartPointer<vtkCellArray> cells = reader.read_cells("Cells", counts);
   grid->SetCells(reader.read_types(*cells), cells);
@@ -311,7 +315,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
 }
 
 vtkSmartPointer<vtkPointSet> Reader::read_poly_data() {
-  auto data = vtkSmartPointer<vtkPolyData>::New();
+  const vtkSmartPointer<vtkPolyData> data = make_poly_data();
   VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
   for (std::size_t i = 0; i < poly_data_groups; ++i) {
     const auto group = static_cast<PolyDataGroup>(i);

@@ -34,6 +34,7 @@
 #include "trismooth/mesh_io/output_stream_buffer.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_messages.h"
 #include "trismooth/mesh_io/xml_names.h"
 
@@ -161,6 +162,7 @@ void escape_names(vtkFieldData& fields) {
     attributes->GetAttributeIndices(active.data());
   }
   fields.Initialize();
+  reserve_vtk_arrays(fields, copies.size());
   for (const auto& copy : copies) {
     add_vtk_array(fields, *copy, copy->GetName());
   }
@@ -201,8 +203,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
                      const VtkXmlEncoding& encoding) {
-  const vtkSmartPointer<vtkPointSet> copy = vtkSmartPointer<vtkPointSet>::Take(data.NewInstance());
-  copy->ShallowCopy(&data);
+  const vtkSmartPointer<vtkPointSet> copy = shallow_copy(data);
   for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
                                      static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
     forget_ranges(*fields);

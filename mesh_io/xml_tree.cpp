@@ -139,14 +139,19 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
   XML_SetStartDoctypeDeclHandler(parser.get(), &on_document_type);
 
   // expat takes int lengths, and copies what it is given.
-  constexpr std::size_t chunk_size = std::size_t{1} << 16;
+  constexpr std::size_t least_chunk = std::size_t{1} << 16;
+  constexpr std::size_t largest_chunk = std::size_t{1} << 30;
   XML_Status status = XML_STATUS_OK;
   std::size_t parsed = 0;
+  std::size_t chunk = least_chunk;
   do {
-    const std::size_t chunk = std::min(chunk_size, bytes.size() - parsed);
-    const bool last = parsed + chunk == bytes.size();
-    status = XML_Parse(parser.get(), bytes.data() + parsed, static_cast<int>(chunk), last ? XML_TRUE : XML_FALSE);
-    parsed += chunk;
+    const std::size_t here = std::min(chunk, bytes.size() - parsed);
+    const bool last = parsed + here == bytes.size();
+    status = XML_Parse(parser.get(), bytes.data() + parsed, static_cast<int>(here), last ? XML_TRUE : XML_FALSE);
+    parsed += here;
+    // A tag or comment that goes on is read again from its start with the next chunk: chunks double along with it.
+    const bool goes_on = parsed - std::min(parsed, state.position()) >= chunk;
+    chunk = goes_on ? std::min(2 * chunk, largest_chunk) : least_chunk;
   } while (status == XML_STATUS_OK && parsed < bytes.size());
 
   if (state.error != nullptr) {

@@ -2,7 +2,8 @@
 # Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
-#   scripts/install-deps.sh --tests    also Clang with its sanitizers, and what single tests need: a locale, strace, a browser
+#   scripts/install-deps.sh --tests    also Clang with its sanitizers, and what single tests need: a locale, strace,
+#                                      valgrind, a browser
 #   scripts/install-deps.sh --tools    also clang-format and clang-tidy
 set -euo pipefail
 
@@ -16,7 +17,7 @@ packages=(
 case "${1:-}" in
   '') ;;
   --tests)
-    packages+=(clang libclang-rt-dev llvm locales strace)
+    packages+=(clang libclang-rt-dev llvm locales strace valgrind)
     # Ubuntu has it as a snap only: there that test is skipped.
     if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
       packages+=(chromium)

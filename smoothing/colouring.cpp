@@ -42,7 +42,7 @@ class SmallestFree {
 };
 
 /// The colour of `vertex`, or uncoloured while a neighbour that comes before it has none.
-std::int32_t colour_of(std::int32_t vertex, const RingView& rings, std::vector<std::int32_t>& colours) {
+std::int32_t colour_of(std::int32_t vertex, const RingView& rings, std::span<std::int32_t> colours) {
   SmallestFree free;
   for (const std::int32_t neighbour : rings[vertex]) {
     if (rings.is_free(neighbour) && coloured_before(rings.input(neighbour), rings.input(vertex))) {
@@ -56,7 +56,25 @@ std::int32_t colour_of(std::int32_t vertex, const RingView& rings, std::vector<s
   return free.value();
 }
 
+struct Waiting {
+  std::uint64_t rank;  ///< in the order of the colouring
+  std::int32_t vertex;
+};
+
 }  // namespace
+
+void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours) {
+  std::vector<Waiting> waiting;
+  for (std::int32_t v = 0; v < rings.size(); ++v) {
+    if (colours[v] == uncoloured && rings.is_free(v)) {
+      waiting.push_back({splitmix64(static_cast<std::uint64_t>(rings.input(v))), v});
+    }
+  }
+  std::ranges::sort(waiting, {}, &Waiting::rank);
+  for (const Waiting& next : waiting) {
+    colours[next.vertex] = colour_of(next.vertex, rings, colours);
+  }
+}
 
 Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
   Colouring colouring;
@@ -68,7 +86,11 @@ Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
       waiting.push_back(v);
     }
   }
-  while (!waiting.empty()) {
+  // A round of few vertices is the work of one thread, which does better without rounds; and a round that colours few
+  // of those that wait for it is one of many, where a chain of vertices runs against the order.
+  constexpr std::size_t least_share = 16;
+  std::size_t coloured = waiting.size();
+  while (std::ssize(waiting) > colouring_grain && coloured >= waiting.size() / least_share) {
     workers.for_blocks(static_cast<std::int64_t>(waiting.size()), colouring_grain,
                        [&](std::int64_t begin, std::int64_t end) {
                          for (std::int64_t i = begin; i < end; ++i) {
@@ -79,7 +101,10 @@ Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
                            }
                          }
                        });
-    std::erase(waiting, done);
+    coloured = std::erase(waiting, done);
+  }
+  if (!waiting.empty()) {
+    colour_the_rest(rings, colouring.colours);
   }
   for (const std::int32_t colour : colouring.colours) {
     colouring.count = std::max(colouring.count, colour + 1);

@@ -8,6 +8,7 @@ namespace trismooth {
 
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                           const Constraints& constraints, Workers& workers, const RingFinder& find_rings) {
+  check_mesh_size(std::ssize(points), std::ssize(triangles));
   const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(points.size()), triangles, workers);
   Orientation orientation = orient(topology, triangles, points);
   MeshRings found;

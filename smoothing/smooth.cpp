@@ -10,6 +10,7 @@
 #include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/heights.h"
 #include "trismooth/smoothing/hold.h"
+#include "trismooth/smoothing/triangle_topology.h"
 
 namespace trismooth {
 

@@ -64,8 +64,8 @@ EdgeBuckets bucket_edges(std::int32_t vertex_count, std::span<const Triangle> tr
   for (std::int32_t h = 0; h < halfedge_count; ++h) {
     ++buckets.offsets[ends_of(h).first + 2];
   }
-  for (std::int32_t v = 0; v < vertex_count; ++v) {
-    buckets.offsets[v + 2] += buckets.offsets[v + 1];
+  for (std::size_t end = 2; end < buckets.offsets.size(); ++end) {
+    buckets.offsets[end] += buckets.offsets[end - 1];
   }
   // While they are filled, offsets[b + 1] is where bucket b goes on; in the end, where it ends.
   buckets.ends.resize(labels.size());
@@ -245,6 +245,9 @@ void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
   }
   if (triangle_count < 0) {
     throw MeshError("the number of triangles is negative");
+  }
+  if (vertex_count > std::numeric_limits<std::int32_t>::max()) {
+    throw MeshError("more than 2147483647 vertices");
   }
   if (triangle_count > std::numeric_limits<std::int32_t>::max() / 3) {
     throw MeshError("more than 715827882 triangles");

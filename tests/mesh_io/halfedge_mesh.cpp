@@ -11,12 +11,14 @@
 #include <OpenMesh/Tools/Utils/MeshCheckerT.hh>
 
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
 #include "mesh_io/planar_samples.h"
 
 using planar_samples::Sample;
 using trismooth::HalfedgeMesh;
+using trismooth::MeshError;
 using trismooth::OneRings;
 using trismooth::Orientation;
 using trismooth::Triangle;
@@ -288,4 +290,14 @@ TEST_CASE("a mesh whose faces run clockwise gives the same one-rings, counter-cl
   const OneRings rings = trismooth::one_rings(clockwise.mesh, fixed, turned, workers);
   CHECK(rings.offsets == expected.offsets);
   CHECK(rings.neighbours == expected.neighbours);
+}
+
+TEST_CASE("a halfedge mesh larger than OpenMesh's handles is refused") {
+  // 3 T + boundary edges: a mesh of separate triangles has twice as many halfedges as corners.
+  constexpr std::int64_t most = 2147483647;
+  CHECK_NOTHROW(trismooth::check_halfedge_mesh_size(most, 715827882, 0));
+  CHECK_NOTHROW(trismooth::check_halfedge_mesh_size(1, 357913941, std::int64_t{3} * 357913941));
+  CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(1, 357913942, std::int64_t{3} * 357913942), MeshError);
+  CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(1, 715827882, 2), MeshError);
+  CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(most + 1, 1, 3), MeshError);
 }

@@ -257,3 +257,36 @@ TEST_CASE("regions that differ beyond the digits of a double are two regions") {
       make_data_array("region", 1, std::vector<std::int64_t>{large, large, 0, large + 1, large + 1}));
   CHECK(regions_of(document).of_triangle == Numbers{0, 0, 1, 1});
 }
+<<<<<<< HEAD
+=======
+
+TEST_CASE("a point array fixes the vertices where any of its components is not zero") {
+  MeshDocument document = two_squares();
+  document.point_arrays.push_back(make_data_array("fixed", 1, std::vector<double>{0, 1, -0.0, -1, 1e-300, 0}));
+  document.point_arrays.push_back(
+      make_data_array("two", 2, std::vector<std::uint8_t>{0, 0, 0, 1, 2, 0, 0, 0, 3, 3, 0, 0}));
+  for (const bool required : {false, true}) {
+    CHECK(fixed_by_array(document, "fixed", required) == Bytes{0, 1, 0, 1, 1, 0});
+    CHECK(fixed_by_array(document, "two", required) == Bytes{0, 1, 1, 0, 1, 0});
+  }
+}
+
+TEST_CASE("a missing point array fixes nothing, unless it is required") {
+  MeshDocument document = two_squares();
+  document.point_arrays.push_back(make_data_array("depth", 1, std::vector<float>(6, 1)));
+  document.cell_arrays.push_back(make_data_array("fixed", 1, std::vector<float>(5, 1)));
+  CHECK(fixed_by_array(document, "fixed", false).empty());
+  const std::string message = message_of<std::invalid_argument>([&] { fixed_by_array(document, "fixed", true); });
+  CHECK(contains(message, "'fixed'"));
+  CHECK(contains(message, "it has: depth"));
+}
+
+TEST_CASE("documents of more points or cells than 32 bits number are refused by name") {
+  constexpr std::size_t most = 2147483647;
+  CHECK_NOTHROW(trismooth::check_document_size(most, most, "large.vtu"));
+  CHECK(message_of<ReadError>([&] { trismooth::check_document_size(most + 1, 1, "large.vtu"); }) ==
+        "large.vtu: holds more than 2147483647 vertices");
+  CHECK(message_of<ReadError>([&] { trismooth::check_document_size(1, std::size_t{1} << 33U, "large.vtu"); }) ==
+        "large.vtu: holds more than 2147483647 cells");
+}
+>>>>>>> 92126c7 (wip2)

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "catch.h"
+#include "support/hostile_meshes.h"
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
 
@@ -123,6 +125,40 @@ TEST_CASE("more than 64 colours are found where the rings need them") {
   const Colouring found = colour_free_vertices(graph.view(), workers);
   CHECK(found.count == size);
   CHECK(found.colours == serial_colours(complete));
+}
+
+TEST_CASE("a chain against the order has the colours of the serial greedy colouring, with any number of threads") {
+  // Short enough for no round at all, and long enough for several blocks of them.
+  for (const std::int32_t length : {100, 5000, 20000}) {
+    CAPTURE(length);
+    const Mesh mesh = hostile_meshes::chain(length);
+    const naive::Rings rings = naive::one_rings(mesh.vertex_count(), mesh.triangles);
+    const Graph graph = renumbered(rings, identity(rings.size()));
+    // The last one in the row comes first, and so on: two colours in turn.
+    for (const int threads : {1, 3}) {
+      Workers workers(threads);
+      const Colouring found = colour_free_vertices(graph.view(), workers);
+      CHECK(found.count == 2);
+      CHECK(found.colours == serial_colours(rings));
+    }
+  }
+}
+
+TEST_CASE("the serial colouring goes on where others have left off") {
+  const Mesh mesh = test_meshes::jittered_grid(20, 20, 0.3, 1);
+  const naive::Rings rings = naive::one_rings(mesh.vertex_count(), mesh.triangles);
+  const Graph graph = renumbered(rings, identity(rings.size()));
+  const std::vector<std::int32_t> expected = serial_colours(rings);
+  std::vector<std::int32_t> order = identity(rings.size());
+  std::ranges::sort(order, &trismooth::coloured_before);
+  for (const std::size_t done : {0, 100, 399, 400}) {
+    std::vector<std::int32_t> colours(rings.size(), -1);
+    for (const std::int32_t v : std::span(order).first(done)) {
+      colours[v] = expected[v];
+    }
+    trismooth::colour_the_rest(graph.view(), colours);
+    CHECK(colours == expected);
+  }
 }
 
 TEST_CASE("nothing free needs no colour") {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -480,4 +481,20 @@ TEST_CASE("a plan that has been moved from says so, and can be made anew") {
   first = plan(mesh.vertex_count(), mesh.indices());
   first.smooth(xy);
   CHECK(xy == smoothed(mesh));
+}
+
+TEST_CASE("arrays of more vertices or triangles than 32 bits number are refused before anybody looks at them") {
+  // No memory is behind all of these numbers.
+  double coordinate = 0;
+  std::int32_t index = 0;
+  constexpr std::size_t vertices = std::size_t{1} << 31U;
+  constexpr std::size_t triangles = 715827883;
+  for (const std::size_t wrapped_around : {vertices, 2 * vertices, 2 * vertices + 3}) {
+    CHECK_THROWS_AS(smooth(xy_points(std::span(&coordinate, 2 * wrapped_around)), std::span<const std::int32_t>{}),
+                    MeshError);
+  }
+  for (const std::size_t wrapped_around : {triangles, 2 * vertices, 2 * vertices + 1}) {
+    CHECK_THROWS_AS(smooth(xy_points(std::span(&coordinate, 2)), std::span(&index, 3 * wrapped_around)), MeshError);
+    CHECK_THROWS_AS(plan(3, std::span(&index, 3 * wrapped_around)), MeshError);
+  }
 }

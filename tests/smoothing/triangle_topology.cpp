@@ -403,6 +403,10 @@ TEST_CASE("corners are walked around a vertex both ways") {
 TEST_CASE("numbers of vertices and triangles that no mesh has are refused") {
   CHECK_NOTHROW(trismooth::check_mesh_size(0, 0));
   CHECK_NOTHROW(trismooth::check_mesh_size(1, 715827882));
+  CHECK_NOTHROW(trismooth::check_mesh_size(2147483647, 1));
+  CHECK_THROWS_AS(trismooth::check_mesh_size(2147483648, 1), trismooth::MeshError);
+  CHECK_THROWS_AS(trismooth::check_mesh_size(std::int64_t{1} << 32, 0), trismooth::MeshError);
+  CHECK_THROWS_AS(trismooth::check_mesh_size(1, std::int64_t{1} << 33), trismooth::MeshError);
   CHECK_THROWS_AS(trismooth::check_mesh_size(-1, 0), trismooth::MeshError);
   CHECK_THROWS_AS(trismooth::check_mesh_size(1, -1), trismooth::MeshError);
   CHECK_THROWS_AS(trismooth::check_mesh_size(1, 715827883), trismooth::MeshError);

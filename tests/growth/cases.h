@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/scratch_folder.h"
+
+/// Work whose input has a size, and which is to grow no faster than that.
+struct GrowthCase {
+  std::string name;
+  int size;  ///< that is measured, and four times that
+  /// Makes the input of a size and answers the work on it, which alone is counted.
+  std::function<std::function<void()>(int size, const ScratchFolder& folder)> prepare;
+};
+
+/// Files of every format through the command line.
+std::vector<GrowthCase> file_cases();
+
+/// Flat arrays through the library.
+std::vector<GrowthCase> flat_array_cases();

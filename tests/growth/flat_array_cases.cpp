@@ -1,0 +1,71 @@
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "trismooth/smoothing/smooth.h"
+
+#include "cases.h"
+#include "support/hostile_meshes.h"
+
+namespace {
+
+using test_meshes::Mesh;
+
+void smooth_once(const Mesh& mesh, std::vector<double> xy, const std::vector<std::int32_t>& indices) {
+  trismooth::SmoothingOptions options;
+  options.threads = 1;
+  options.max_sweeps = 2;
+  // A region a triangle for some of them: there are borders everywhere.
+  std::vector<std::int32_t> regions(mesh.triangles.size(), 0);
+  regions.back() = 1;
+  trismooth::smooth(trismooth::xy_points(xy), indices, {.regions = regions}, options);
+}
+
+GrowthCase flat(std::string name, int size, Mesh (*make)(int)) {
+  return {"flat arrays: " + std::move(name), size, [make](int count, const ScratchFolder&) {
+            const auto mesh = std::make_shared<Mesh>(make(count));
+            return [mesh, xy = mesh->xy(), indices = mesh->indices()] { smooth_once(*mesh, xy, indices); };
+          }};
+}
+
+/// A strip whose triangles are listed from both ends: trees of triangles meet at their leaves.
+Mesh strip_from_both_ends(int columns) {
+  Mesh mesh = test_meshes::jittered_grid(columns, 2, 0, 1);
+  std::vector<trismooth::Triangle> listed;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    listed.push_back(mesh.triangles[i % 2 == 0 ? i / 2 : mesh.triangles.size() - 1 - i / 2]);
+  }
+  mesh.triangles = std::move(listed);
+  return mesh;
+}
+
+Mesh reversed_strip(int columns) {
+  Mesh mesh = test_meshes::jittered_grid(columns, 2, 0, 1);
+  std::ranges::reverse(mesh.triangles);
+  return mesh;
+}
+
+Mesh islands(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t first = mesh.vertex_count();
+    mesh.points.insert(mesh.points.end(), {{3.0 * i, 0}, {3.0 * i + 1, 0}, {3.0 * i, 1}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<GrowthCase> flat_array_cases() {
+  return {
+      flat("a chain against the order of the colours", 1100, &hostile_meshes::chain),
+      flat("a hub of free neighbours", 500, &hostile_meshes::wheel),
+      flat("a vertex of many fans", 500, &hostile_meshes::windmill),
+      flat("an edge of many triangles", 500, &hostile_meshes::book),
+      flat("a strip listed from both ends", 500, &strip_from_both_ends),
+      flat("a strip listed backwards", 500, &reversed_strip),
+      flat("many components", 500, &islands),
+  };
+}
