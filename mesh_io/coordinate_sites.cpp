@@ -24,9 +24,10 @@ class SitePatcher {
   SitePatcher(std::string_view bytes, const CoordinateSites& sites) : bytes_(bytes), sites_(sites) {}
 
   /// The bytes that the coordinate at `offset` takes; fills `text` with new ones where `value` differs from it.
-  std::size_t patch(std::size_t offset, double value, std::string& text) const {
-    return sites_.type == ScalarType::float32 ? patch_as(offset, static_cast<float>(value), text)
-                                              : patch_as(offset, value, text);
+  std::size_t patch(std::size_t offset, std::size_t axis, double value, std::string& text) const {
+    const ScalarType type = sites_.axis_types.empty() ? sites_.type : sites_.axis_types[axis];
+    return type == ScalarType::float32 ? patch_as(offset, static_cast<float>(value), text)
+                                       : patch_as(offset, value, text);
   }
 
  private:
@@ -85,7 +86,7 @@ void write_patched(const std::filesystem::path& path, std::string_view bytes, co
     std::ranges::sort(axes, {}, [&](std::size_t axis) { return sites.offsets[3 * site + axis]; });
     for (const std::size_t axis : axes) {
       const std::size_t offset = sites.offsets[3 * site + axis];
-      const std::size_t length = patcher.patch(offset, points[3 * vertex + axis], text);
+      const std::size_t length = patcher.patch(offset, axis, points[3 * vertex + axis], text);
       if (!text.empty()) {
         writer.write(bytes.substr(written, offset - written));
         writer.write(text);

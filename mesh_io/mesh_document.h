@@ -23,6 +23,11 @@ inline constexpr std::uint8_t triangle = 5;
 inline constexpr std::uint8_t triangle_strip = 6;
 inline constexpr std::uint8_t polygon = 7;
 inline constexpr std::uint8_t quad = 9;
+
+/// The type of a face of that many vertices, three or more.
+constexpr std::uint8_t of_face(std::size_t vertices) {
+  return vertices == 3 ? triangle : vertices == 4 ? quad : polygon;
+}
 }  // namespace cell_type
 
 /// The cells of a document, of any type and number of vertices, in the file's order.
@@ -67,7 +72,8 @@ class OriginalFile {
 struct MeshDocument {
   FileFormat format = FileFormat::off;
   std::vector<double> points;                   ///< x, y, z of every point; exact, also where the file holds float32
-  ScalarType point_type = ScalarType::float64;  ///< how the file stores coordinates: float32 or float64
+  ScalarType point_type = ScalarType::float64;  ///< float32 or float64: holds every coordinate as the file stores it
+  bool has_float32_axis = false;                ///< some of x, y, z are stored as float32, though point_type is float64
   CellList cells;
   std::vector<DataArray> point_arrays;  ///< a row for every point
   std::vector<DataArray> cell_arrays;   ///< a row for every cell
@@ -79,6 +85,9 @@ struct MeshDocument {
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
   std::size_t point_count() const { return points.size() / 3; }
+  /// What the coordinates of a point that is moved must be numbers of, so that the file can hold each: float32 where it
+  /// stores any of x, y, z so.
+  ScalarType moved_point_type() const { return has_float32_axis ? ScalarType::float32 : point_type; }
 };
 
 }  // namespace trismooth

@@ -5,6 +5,7 @@
 
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/compressed_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/file_bytes.h"
 #include "trismooth/mesh_io/output_file.h"
@@ -83,18 +84,33 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
 
 }  // namespace
 
-MeshDocument read_mesh(const std::filesystem::path& path) {
-  const auto format = format_of(path);
-  if (!format) {
-    throw ReadError(path, unknown_extension(path));
+FileFormat input_format(const std::filesystem::path& path) {
+  if (const auto format = format_of(path)) {
+    return *format;
   }
-  MeshDocument document = codec_of(*format).read(path, read_file_bytes(path));
-  document.format = *format;
+  if (const auto compression = compression_named(path)) {
+    throw ReadError(path, describe(*compression));
+  }
+  throw ReadError(path, unknown_extension(path));
+}
+
+MeshDocument read_mesh(const std::filesystem::path& path) {
+  const FileFormat format = input_format(path);
+  std::string bytes = read_file_bytes(path);
+  if (const auto compression = compression_of(bytes)) {
+    throw ReadError(path, describe(*compression));
+  }
+  MeshDocument document = codec_of(format).read(path, std::move(bytes));
+  document.format = format;
   return document;
 }
 
 FileFormat output_format(const std::filesystem::path& path) {
   const auto format = format_of(path);
+  if (!format && compression_named(path)) {
+    throw WriteError(path, "nothing is written compressed; leave out '" + path.extension().string() +
+                               "' and compress the file then");
+  }
   if (!format) {
     throw WriteError(path, unknown_extension(path));
   }

@@ -9,8 +9,8 @@
 namespace trismooth {
 
 /// Reads a mesh file; its extension chooses the format. Nothing is interpreted: see planar_mesh.h for the triangles.
-/// Throws ReadError for an unknown extension, an unreadable file, or one that breaks its format's rules, with the
-/// place in the file. Counts and indices are checked against the file's size before anything is allocated.
+/// Throws ReadError for an unknown extension, a compressed or unreadable file, or one that breaks its format's rules,
+/// with the place in the file. Counts and indices are checked against the file's size before anything is allocated.
 /// Complexity: linear in the file's size.
 MeshDocument read_mesh(const std::filesystem::path& path);
 
@@ -31,6 +31,9 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as
 /// properties, unless the document was read from PLY (its bytes are written back then).
 bool takes_added_arrays(const MeshDocument& document, FileFormat target);
+
+/// The format that read_mesh() would read `path` as. Throws ReadError for an unknown extension.
+FileFormat input_format(const std::filesystem::path& path);
 
 /// The format that write_mesh() would write to `path`. Throws WriteError for an unknown extension: to find that out
 /// before the work is done.

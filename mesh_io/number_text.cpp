@@ -42,6 +42,14 @@ const char* begin_of_number(std::string_view token) {
   return token.data() + (plus ? 1 : 0);
 }
 
+template <class T>
+std::optional<T> parse_whole(std::string_view token) {
+  T value = 0;
+  const char* const end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(begin_of_number(token), end, value);
+  return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 template <class T>
@@ -65,10 +73,11 @@ template std::optional<float> parse_number(std::string_view);
 template std::optional<double> parse_number(std::string_view);
 
 std::optional<std::int64_t> parse_integer(std::string_view token) {
-  std::int64_t value = 0;
-  const char* const end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(begin_of_number(token), end, value);
-  return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
+  return parse_whole<std::int64_t>(token);
+}
+
+std::optional<std::uint64_t> parse_unsigned(std::string_view token) {
+  return parse_whole<std::uint64_t>(token);
 }
 
 void append_number(std::string& text, float value) {

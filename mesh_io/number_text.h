@@ -18,6 +18,9 @@ extern template std::optional<double> parse_number(std::string_view);
 /// The whole number that `token` states as a whole, or nothing; also nothing beyond the range of 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view token);
 
+/// The same from 0 to 2^64 - 1.
+std::optional<std::uint64_t> parse_unsigned(std::string_view token);
+
 /// Appends the shortest text that reads back to the same value.
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);

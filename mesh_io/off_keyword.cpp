@@ -1,21 +1,27 @@
 #include "trismooth/mesh_io/off_keyword.h"
 
+#include <algorithm>
+
 namespace trismooth {
 
+namespace {
+
+constexpr std::size_t longest_keyword = 9;  // STCN4nOFF
+
+}  // namespace
+
 std::size_t OffKeyword::least_extras() const {
-  return (normals ? 3U : 0U) + (colours ? 3U : 0U) + (texture_coordinates ? 2U : 0U);
+  return (normals ? 3U : 0U) + (texture_coordinates ? 2U : 0U);
 }
 
 bool OffKeyword::allows_extras(std::size_t count) const {
-  return count == least_extras() || (colours && count == least_extras() + 1);
+  const std::size_t least = least_extras();
+  return count == least || count == least + 3 || count == least + 4;
 }
 
 std::string OffKeyword::describe_extras() const {
   const std::size_t least = least_extras();
-  if (least == 0) {
-    return "no numbers";
-  }
-  return std::to_string(least) + (colours ? " or " + std::to_string(least + 1) : "") + " numbers";
+  return std::to_string(least) + ", " + std::to_string(least + 3) + " or " + std::to_string(least + 4) + " numbers";
 }
 
 std::string OffKeyword::text_or_default() const {
@@ -32,7 +38,10 @@ OffExtras OffKeyword::split(std::span<const double> row) const {
 }
 
 std::optional<OffKeyword> parse_off_keyword(std::string_view token) {
-  const std::size_t off = token.find("OFF");
+  std::string capitals(token.substr(0, longest_keyword));
+  std::ranges::transform(capitals, capitals.begin(),
+                         [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  const std::size_t off = capitals.find("OFF");
   if (off == std::string_view::npos) {
     return std::nullopt;
   }
@@ -42,7 +51,8 @@ std::optional<OffKeyword> parse_off_keyword(std::string_view token) {
   }
   OffKeyword keyword;
   keyword.text = token.substr(0, end);
-  const std::string_view prefix = token.substr(0, off);
+  const std::string_view prefix =
+      token.substr(off, 3) == "OFF" ? token.substr(0, off) : std::string_view(capitals).substr(0, off);
   for (std::size_t i = 0; i < prefix.size(); ++i) {
     if (prefix.substr(i, 2) == "ST") {
       keyword.texture_coordinates = true;

@@ -17,6 +17,8 @@ struct OffExtras {
 };
 
 /// The keyword that opens an OFF file, [ST][C][N][4][n]OFF: the fields of its vertices. As default the plain OFF.
+/// Colours need not be declared (many programs write them under a plain OFF), nor need they be there where they are
+/// (OpenMesh writes COFF for colours of faces alone).
 struct OffKeyword {
   std::string_view text;  ///< as the file has it
   bool texture_coordinates = false;
@@ -30,10 +32,11 @@ struct OffKeyword {
   /// False where the coordinates are not x, y, z.
   bool is_supported() const { return !homogeneous && !any_dimension; }
 
-  /// The fewest numbers after the coordinates; colours are three or four, the end of the line decides.
+  /// The fewest numbers after the coordinates: those without a colour. Colours are three or four, the end of the line
+  /// decides.
   std::size_t least_extras() const;
   bool allows_extras(std::size_t count) const;
-  /// "7 or 8 numbers" for messages.
+  /// "3, 6 or 7 numbers" for messages.
   std::string describe_extras() const;
   std::string text_or_default() const;
 
@@ -41,7 +44,8 @@ struct OffKeyword {
   OffExtras split(std::span<const double> row) const;
 };
 
-/// The keyword at the start of `token`, if it starts with one: alone, or with digits glued to it ("OFF490").
+/// The keyword at the start of `token`, if it starts with one: alone, or with digits glued to it ("OFF490"). It may be
+/// in lower or mixed case, where n stands for normals; before an OFF in capitals it is the dimension.
 std::optional<OffKeyword> parse_off_keyword(std::string_view token);
 
 }  // namespace trismooth

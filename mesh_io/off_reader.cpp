@@ -13,6 +13,7 @@
 
 #include "trismooth/mesh_io/coordinate_sites.h"
 #include "trismooth/mesh_io/number_text.h"
+#include "trismooth/mesh_io/off_binary_reader.h"
 #include "trismooth/mesh_io/off_keyword.h"
 #include "trismooth/mesh_io/patched_original.h"
 #include "trismooth/mesh_io/text_scanner.h"
@@ -64,6 +65,9 @@ class OffReader {
 
   std::pair<MeshDocument, CoordinateSites> read() {
     read_keyword();
+    if (is_binary_) {
+      return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_);
+    }
     read_counts();
     read_vertices();
     read_faces();
@@ -82,14 +86,26 @@ class OffReader {
       keyword_ = *keyword;
       // Some files have the first count glued to the keyword.
       scanner_.seek(scanner_.token_offset() + keyword->text.size());
-      if (scanner_.peek_token() == "BINARY") {
-        scanner_.next_token("the counts");
-        scanner_.fail("binary OFF is not supported");
-      }
+      is_binary_ = !scanner_.at_end_of_line() && is_binary_word(scanner_.peek_token());
     } else if (!parse_integer(token)) {
       scanner_.next_token("the keyword OFF or the number of vertices");
       scanner_.fail("is not an OFF file: expected the keyword OFF or the number of vertices, got " + quoted(token));
     }
+  }
+
+  static bool is_binary_word(std::string_view token) {
+    return std::ranges::equal(token, std::string_view("BINARY"), {},
+                              [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  }
+
+  /// The data begin after the end of the line.
+  std::size_t begin_of_binary_data() {
+    scanner_.next_token("the word BINARY");
+    if (!scanner_.at_end_of_line()) {
+      scanner_.fail("expected the end of the line after BINARY, got " + quoted(scanner_.peek_token()));
+    }
+    scanner_.next_line();
+    return scanner_.offset();
   }
 
   void read_counts() {
@@ -135,6 +151,13 @@ class OffReader {
                       " after the coordinates, got " + describe_count(extras.size()));
       }
       const OffExtras parts = keyword_.split(extras);
+      if (vertex == 0) {
+        has_vertex_colours_ = !parts.colour.empty();
+      } else if (has_vertex_colours_ == parts.colour.empty()) {
+        scanner_.fail("vertex " + std::to_string(vertex + 1) + " of " + std::to_string(vertex_count_) +
+                      (has_vertex_colours_ ? ": has no colour, but" : ": has a colour, but not") +
+                      " the vertices before it");
+      }
       normals.insert(normals.end(), parts.normal.begin(), parts.normal.end());
       texture_coordinates.insert(texture_coordinates.end(), parts.texture.begin(), parts.texture.end());
       colours.add(parts.colour);
@@ -147,6 +170,10 @@ class OffReader {
       document_.point_arrays.push_back(make_data_array("texture_coordinates", 2, std::move(texture_coordinates)));
     }
     note_unless_uniform(colours, "vertex");
+    if (has_vertex_colours_ && !keyword_.colours) {
+      document_.notes.push_back("The keyword " + keyword_.text_or_default() +
+                                " declares no colours; the numbers after the coordinates are read as colours.");
+    }
   }
 
   void read_faces() {
@@ -167,7 +194,7 @@ class OffReader {
         cells.connectivity.push_back(read_index(face));
       }
       cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
-      cells.types.push_back(degree == 3 ? cell_type::triangle : degree == 4 ? cell_type::quad : cell_type::polygon);
+      cells.types.push_back(cell_type::of_face(degree));
       const std::span<const double> colour = read_rest_of_line();
       if (colour.size() > 4 || colour.size() == 2) {
         fail_face(face,
@@ -248,6 +275,8 @@ class OffReader {
 
   TextScanner scanner_;
   OffKeyword keyword_;
+  bool is_binary_ = false;
+  bool has_vertex_colours_ = false;
   MeshDocument document_;
   CoordinateSites sites_;
   std::size_t vertex_count_ = 0;

@@ -7,11 +7,12 @@
 
 namespace trismooth {
 
-/// Reads an OFF file, `bytes` being the whole of it: Geomview's ASCII form with the keyword [ST][C][N]OFF (or none),
-/// comments, any line ends, and colours behind faces. Triangles, quads and larger faces become cells in the file's
+/// Reads an OFF file, `bytes` being the whole of it: Geomview's ASCII form with the keyword [ST][C][N]OFF in any case
+/// (or none), comments, any line ends, and colours behind vertices and faces, declared or not; or binary (see
+/// off_binary_reader.h). Triangles, quads and larger faces become cells in the file's
 /// order. Normals, colours and texture coordinates become the point arrays "normals", "colours" and
 /// "texture_coordinates", face colours the cell array "colours" where all faces have the same number of them.
-/// Throws ReadError for homogeneous (4), n-dimensional (n) and binary files and for whatever breaks the rules; more
+/// Throws ReadError for homogeneous (4) and n-dimensional (n) files and for whatever breaks the rules; more
 /// faces or vertices than the counts declare are refused too, since they mean that the counts are wrong.
 /// Memory beside the result: none that grows with the file.
 MeshDocument read_off(const std::filesystem::path& path, std::string bytes);

@@ -70,7 +70,7 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
 }
 
 Storage storage_of(const MeshDocument& document) {
-  return document.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
+  return document.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64;
 }
 
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,

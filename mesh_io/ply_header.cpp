@@ -19,7 +19,7 @@ struct TypeName {
   std::string_view sized_name;
 };
 
-constexpr std::array<TypeName, 8> ply_type_names{{
+constexpr std::array<TypeName, 10> ply_type_names{{
     {ScalarType::int8, "char", "int8"},
     {ScalarType::uint8, "uchar", "uint8"},
     {ScalarType::int16, "short", "int16"},
@@ -28,11 +28,17 @@ constexpr std::array<TypeName, 8> ply_type_names{{
     {ScalarType::uint32, "uint", "uint32"},
     {ScalarType::float32, "float", "float32"},
     {ScalarType::float64, "double", "float64"},
+    // Not of the format, but written and read by some.
+    {ScalarType::int64, "int64", "int64"},
+    {ScalarType::uint64, "uint64", "uint64"},
 }};
 
 class HeaderParser {
  public:
-  HeaderParser(const std::filesystem::path& path, std::string_view bytes) : bytes_(bytes), scanner_(bytes, path) {}
+  HeaderParser(const std::filesystem::path& path, std::string_view bytes)
+      : bytes_(bytes),
+        begin_(bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+        scanner_(bytes, path, TextScanner::Comments::none, begin_) {}
 
   PlyHeader parse() {
     parse_magic();
@@ -73,7 +79,8 @@ class HeaderParser {
  private:
   void parse_magic() {
     constexpr std::string_view magic = "ply";
-    if (!bytes_.starts_with(magic) || scanner_.next_token(magic) != magic || !scanner_.at_end_of_line()) {
+    if (!bytes_.substr(begin_).starts_with(magic) || scanner_.next_token(magic) != magic ||
+        !scanner_.at_end_of_line()) {
       throw ReadError(scanner_.path(), 1, "is not a PLY file: the first line is not 'ply'");
     }
     const std::string_view line_end = bytes_.substr(scanner_.offset(), 2);
@@ -141,7 +148,7 @@ class HeaderParser {
     }
     scanner_.fail(
         "expected a type (char, uchar, short, ushort, int, uint, float, double, int8, uint8, int16, uint16, int32, "
-        "uint32, float32 or float64), got " +
+        "uint32, float32, float64, int64 or uint64), got " +
         trismooth::quoted(name));
   }
 
@@ -164,6 +171,7 @@ class HeaderParser {
   }
 
   std::string_view bytes_;
+  std::size_t begin_;  ///< behind a byte-order mark
   TextScanner scanner_;
   PlyHeader header_;
   std::set<std::string> element_names_;

@@ -42,11 +42,11 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads the header at the start of `bytes`; lines end with LF, CR LF or CR. Throws ReadError with the line.
-/// Declared counts are taken as they are: nothing is checked against the file's size.
+/// Reads the header at the start of `bytes`, behind a byte-order mark if there is one; lines end with LF, CR LF or CR.
+/// Throws ReadError with the line. Declared counts are taken as they are: nothing is checked against the file's size.
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes);
 
-/// True for the types that PLY has: all but the 64-bit integers.
+/// True for the types that PLY has: all but the 64-bit integers, which some programs read and write all the same.
 bool is_ply_type(ScalarType type);
 
 /// PLY's own name of one of its types: "char", "uchar", ... "double".

@@ -19,8 +19,24 @@
 
 namespace trismooth {
 
-// The rows of a PLY file, number by number. Both encodings have the same interface, so that one reader serves both;
-// every PLY type is exact in a double.
+// The rows of a PLY file, number by number. Both encodings have the same interface, so that one reader serves both.
+
+/// A number of a PLY file.
+struct PlyNumber {
+  double value = 0;        ///< exact but for 64-bit integers, which may be rounded
+  std::int64_t whole = 0;  ///< the same of an integer type, exact; of uint64 less 2^64 where it is 2^63 or more
+
+  /// The digits of a number of an integer type.
+  std::string text() const {
+    return value < 0 ? std::to_string(whole) : std::to_string(static_cast<std::uint64_t>(whole));
+  }
+};
+
+/// True where the bytes are white space and zeros alone.
+inline bool is_padding(std::string_view bytes) {
+  constexpr std::string_view padding(" \t\v\f\r\n\0", 7);
+  return bytes.find_first_not_of(padding) == bytes.npos;
+}
 
 /// The rows of an ASCII file. A row may run over several lines, but the next row begins on a new one.
 class PlyTextSource {
@@ -35,12 +51,14 @@ class PlyTextSource {
 
   /// True where no number is left.
   bool at_end() { return scanner_.at_end(); }
+  /// True where nothing but white space and zeros is left.
+  bool at_padding() const { return is_padding(scanner_.text().substr(scanner_.offset())); }
   std::size_t offset() const { return scanner_.offset(); }
 
   /// The next number, of type `type`; integers are checked against the type's range, floating-point numbers may be
   /// infinite or NaN. `label` names it in messages.
-  double number(ScalarType type, std::string_view label) {
-    return visit_scalar_type(type, [&](auto zero) -> double {
+  PlyNumber number(ScalarType type, std::string_view label) {
+    return visit_scalar_type(type, [&](auto zero) -> PlyNumber {
       using T = decltype(zero);
       if constexpr (std::is_floating_point_v<T>) {
         const std::string_view token = scanner_.next_token(label);
@@ -48,13 +66,19 @@ class PlyTextSource {
         if (!value) {
           scanner_.fail("expected " + std::string(label) + " (a number), got " + quoted(token));
         }
-        return static_cast<double>(*value);
+        return {static_cast<double>(*value)};
+      } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+        const std::string_view token = scanner_.next_token(label);
+        const auto value = parse_unsigned(token);
+        if (!value) {
+          scanner_.fail("expected " + std::string(label) + " (a whole number from 0 to 18446744073709551615), got " +
+                        quoted(token));
+        }
+        return {static_cast<double>(*value), static_cast<std::int64_t>(*value)};
       } else {
-        // The 64-bit types, which PLY lacks, make this instantiation only.
-        constexpr auto highest = static_cast<std::int64_t>(
-            std::min<std::uint64_t>(std::numeric_limits<T>::max(), std::numeric_limits<std::int64_t>::max()));
-        return static_cast<double>(
-            scanner_.next_integer(label, static_cast<std::int64_t>(std::numeric_limits<T>::min()), highest));
+        const std::int64_t value =
+            scanner_.next_integer(label, std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
+        return {static_cast<double>(value), value};
       }
     });
   }
@@ -70,15 +94,6 @@ class PlyTextSource {
 
   /// True where a row may end: nothing but the next row's line follows.
   bool at_row_end() { return scanner_.at_end_of_line(); }
-
-  /// Fails where a number follows.
-  void refuse_more_rows() {
-    const std::string_view token = scanner_.next_token("the end of the file");
-    if (parse_number<double>(token)) {
-      scanner_.fail("expected the end of the file after the rows that the header declares, got " + quoted(token));
-    }
-    scanner_.seek(scanner_.token_offset());
-  }
 
   [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
 
@@ -100,10 +115,11 @@ class PlyBinarySource {
   std::uint64_t room() const { return bytes_.size() - offset_; }
 
   bool at_end() const { return offset_ == bytes_.size(); }
+  bool at_padding() const { return is_padding(bytes_.substr(offset_)); }
   std::size_t offset() const { return offset_; }
 
-  double number(ScalarType type, std::string_view label) {
-    return visit_scalar_type(type, [&](auto zero) -> double {
+  PlyNumber number(ScalarType type, std::string_view label) {
+    return visit_scalar_type(type, [&](auto zero) -> PlyNumber {
       std::array<char, sizeof(zero)> stored{};
       number_offset_ = offset_;
       if (room() < stored.size()) {
@@ -114,7 +130,12 @@ class PlyBinarySource {
         std::ranges::reverse(stored);
       }
       offset_ += stored.size();
-      return static_cast<double>(std::bit_cast<decltype(zero)>(stored));
+      const auto number = std::bit_cast<decltype(zero)>(stored);
+      if constexpr (std::is_floating_point_v<decltype(zero)>) {
+        return {static_cast<double>(number)};
+      } else {
+        return {static_cast<double>(number), static_cast<std::int64_t>(number)};
+      }
     });
   }
 
@@ -128,16 +149,6 @@ class PlyBinarySource {
   }
 
   bool at_row_end() const { return true; }
-
-  /// Fails where anything but white space or zeros follows.
-  void refuse_more_rows() {
-    constexpr std::string_view padding(" \t\v\f\r\n\0", 7);
-    if (bytes_.find_first_not_of(padding, offset_) != bytes_.npos) {
-      number_offset_ = offset_;
-      fail("expected the end of the file after the rows that the header declares, got " + std::to_string(room()) +
-           " bytes more");
-    }
-  }
 
   [[noreturn]] void fail(const std::string& message) const {
     throw ReadError(path_, "byte " + std::to_string(number_offset_) + ": " + message);

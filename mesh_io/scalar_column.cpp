@@ -13,6 +13,10 @@ void ScalarColumn::store(std::size_t row, double value) {
   });
 }
 
+void ScalarColumn::store_whole(std::size_t row, std::int64_t value) {
+  std::memcpy(bytes_.data() + row * sizeof(value), &value, sizeof(value));
+}
+
 void ScalarColumn::append(const ScalarColumn& column) {
   bytes_.insert(bytes_.end(), column.bytes_.begin(), column.bytes_.end());
 }

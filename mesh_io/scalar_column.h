@@ -22,6 +22,9 @@ class ScalarColumn {
   /// Sets a row to `value`, which the column's type must be able to hold: no check.
   void store(std::size_t row, double value);
 
+  /// The same for a column of a 64-bit integer type; of uint64, numbers of 2^63 or more are given less 2^64.
+  void store_whole(std::size_t row, std::int64_t value);
+
   /// Adds the rows of another column of the same type at the end.
   void append(const ScalarColumn& column);
 

@@ -9,7 +9,9 @@
 namespace trismooth {
 
 /// Reads an STL file (ASCII or binary), whose bytes are `bytes`. It is binary where its size is that of its number of
-/// facets, whatever its first word is.
+/// facets, whatever its first word is, or larger and no text: bytes behind the last facet are kept and noted, unless
+/// they begin with another facet. Text may begin with a byte-order mark and end without 'endsolid'; lines that begin
+/// with a word that STL does not know, such as 'color', are kept and noted.
 ///
 /// Corners of equal coordinates become one point, numbered in the order of the file; a moved point is written back at
 /// all its corners. ASCII coordinates are float64, binary ones float32. Several ASCII solids give the int32 cell array

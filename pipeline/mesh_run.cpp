@@ -78,8 +78,8 @@ void require_own_file(const std::filesystem::path& report, const PipelineOptions
 /// A place where no file can be made is told before the work, not after it.
 void try_outputs(const MeshRunSettings& settings) {
   const PipelineOptions& options = settings.pipeline;
+  require_known_formats(options);
   if (const auto& target = options.written()) {
-    output_format(*target);
     const OutputFile attempt(*target);
   }
   for (const std::filesystem::path& report : settings.reports) {

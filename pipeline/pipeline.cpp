@@ -6,6 +6,7 @@
 
 #include <sys/resource.h>
 
+#include "trismooth/mesh_io/compressed_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/fixed_array.h"
 #include "trismooth/mesh_io/halfedge_mesh.h"
@@ -52,9 +53,7 @@ class Run {
   PipelineResult run() {
     const auto start = Clock::now();
     options_.smoothing.validate();
-    if (const auto& target = options_.written()) {
-      output_format(*target);  // an unknown extension is said before any work
-    }
+    require_known_formats(options_);
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
     timed(Stage::check_before, result_.timings_ms.check_before, [&] {
@@ -220,7 +219,7 @@ class Run {
     const double fixed_quotient = wants_shape
                                       ? smallest_fixed_quotient(local_, mesh_.triangles, found_.reversed, found_.fixed)
                                       : std::numeric_limits<double>::infinity();
-    const Storage storage = document_.point_type == ScalarType::float32 ? Storage::float32 : Storage::float64;
+    const Storage storage = document_.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64;
     SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, frame_,
                                                 local_, fixed_quotient, storage, options_.smoothing);
     smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
@@ -246,7 +245,7 @@ class Run {
     for (const auto& [vertex, position] : smoothing.reverted) {
       Eigen::Map<Eigen::Vector3d> point(uncommitted.data() + 3 * static_cast<std::size_t>(vertex));
       const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
-      point = document_.point_type == ScalarType::float32 ? moved.unaryExpr(&rounded_to_float32).eval() : moved;
+      point = document_.moved_point_type() == ScalarType::float32 ? moved.unaryExpr(&rounded_to_float32).eval() : moved;
     }
     result_.uncommitted_hash = coordinates_hash(uncommitted);
   }
@@ -314,6 +313,19 @@ class Run {
 };
 
 }  // namespace
+
+void require_known_formats(const PipelineOptions& options) {
+  const auto& output = options.written();
+  if (output && !format_of(options.input) && !format_of(*output) && !compression_named(options.input)) {
+    throw ReadError(options.input, "the extension '" + options.input.extension().string() +
+                                       "' names no format, nor does that of the output, " + output->string() +
+                                       "; known are " + format_list());
+  }
+  input_format(options.input);
+  if (output) {
+    output_format(*output);
+  }
+}
 
 PipelineResult run_pipeline(const PipelineOptions& options) {
   return Run(options).run();

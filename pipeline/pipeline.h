@@ -102,6 +102,10 @@ struct PipelineResult {
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far
 };
 
+/// Throws for extensions that name no format, before any work: ReadError for that of the input (and of the output, if
+/// that is unknown too), else WriteError for that of the output.
+void require_known_formats(const PipelineOptions& options);
+
 /// Runs the stages read, check, smooth, check, export on one file. Throws ReadError or MeshError for an input that
 /// cannot be read or is no planar triangle mesh, WriteError for an output that cannot be written,
 /// std::invalid_argument for options that do not fit the input, Cancelled.

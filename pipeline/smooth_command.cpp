@@ -120,7 +120,8 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   add_result_options(command, settings->run);
   command
       .add_flag("--annotate", options.annotate,
-                "Add arrays to VTK output, in place of earlier ones:\n"
+                "Add arrays to VTK output, or PLY made of another\n"
+                "format, in place of earlier ones:\n"
                 "trismooth:shape, trismooth:shape_before (cells),\n"
                 "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);

@@ -158,8 +158,8 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   const trismooth::SmoothingOptions options = choose_options(choices);
   const std::vector<Point2<double>> before = mesh.points;
   const std::vector<double> stored_before = document.points;
-  const auto storage =
-      document.point_type == trismooth::ScalarType::float32 ? trismooth::Storage::float32 : trismooth::Storage::float64;
+  const auto storage = document.moved_point_type() == trismooth::ScalarType::float32 ? trismooth::Storage::float32
+                                                                                     : trismooth::Storage::float64;
   const trismooth::SmoothingResult result =
       trismooth::smooth_in_plane(prepared->found.rings, mesh.plane, document.points, mesh.points, prepared->frame,
                                  prepared->local, std::numeric_limits<double>::infinity(), storage, options);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -187,7 +188,8 @@ TEST_CASE("OFF: what breaks the rules is refused with its place") {
   CHECK(failure_of(replaced("OFF", "4OFF")) == "mesh.off:1: unsupported OFF variant '4OFF'");
   CHECK(failure_of(replaced("OFF", "nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'nOFF'");
   CHECK(failure_of(replaced("OFF", "STCN4nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'STCN4nOFF'");
-  CHECK(failure_of(replaced("OFF", "OFF BINARY")) == "mesh.off:1: binary OFF is not supported");
+  CHECK(failure_of(replaced("OFF\n", "OFF BINARY ")) ==
+        "mesh.off:1: expected the end of the line after BINARY, got '5'");
   CHECK(failure_of(replaced("5 3 0", "-5 3 0")) ==
         "mesh.off:2: expected the number of vertices from 0 to 2147483647, got '-5'");
   CHECK(failure_of(replaced("5 3 0", "4294967301 3 0")) ==
@@ -204,10 +206,14 @@ TEST_CASE("OFF: what breaks the rules is refused with its place") {
         "mesh.off:5: expected a coordinate (a finite number), got '1e999'");
   CHECK(failure_of(replaced("1 1 0", "1 abc 0")) == "mesh.off:5: expected a coordinate (a finite number), got 'abc'");
   CHECK(failure_of(replaced("1 1 0", "1 1 0 9")) ==
-        "mesh.off:5: vertex 3 of 5: OFF has no numbers after the "
+        "mesh.off:5: vertex 3 of 5: OFF has 0, 3 or 4 numbers after the "
         "coordinates, got 1");
+  CHECK(failure_of(replaced("1 1 0", "1 1 0 9 9 9")) ==
+        "mesh.off:5: vertex 3 of 5: has a colour, but not the vertices before it");
+  CHECK(failure_of(replaced("0 0 0", "0 0 0 1 1 1 1")) ==
+        "mesh.off:4: vertex 2 of 5: has no colour, but the vertices before it");
   CHECK(failure_of(replaced("OFF", "NOFF") + "# " + std::string(100, 'x'))
-            .find("vertex 1 of 5: NOFF has 3 numbers after the coordinates, got none") != std::string::npos);
+            .find("vertex 1 of 5: NOFF has 3, 6 or 7 numbers after the coordinates, got none") != std::string::npos);
   CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 5")) ==
         "mesh.off:9: face 2 of 3: expected a vertex index, got '5'; the file has 5 vertices, counted from 0");
   CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 -1")).find("mesh.off:9: face 2 of 3: ") == 0);
@@ -222,6 +228,45 @@ TEST_CASE("OFF: what breaks the rules is refused with its place") {
   CHECK(failure_of(house.substr(0, house.find("5 0 1"))) == "mesh.off:9: expected 3 faces, got 2");
   CHECK(failure_of("OFF 3 0 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n") == "mesh.off:3: expected 3 vertices, got 2");
   CHECK(failure_of(replaced("0.5 1.75 0\n3 0 1 2", "")).find("mesh.off:") == 0);
+}
+
+TEST_CASE("OFF: the keyword may be in lower case, and names the same fields") {
+  for (const std::string keyword : {"off", "Off", "oFF"}) {
+    CAPTURE(keyword);
+    const std::string text = replace_all(house, "OFF", keyword.c_str());
+    const MeshDocument document = read(text);
+    check_house(document);
+    CHECK(written(document) == text);
+  }
+  const std::string rows = "\n1 0 0\n0 0 0  0 0 1  10 20 30  0.5 0.25\n";
+  const MeshDocument upper = read("STCNOFF" + rows);
+  const MeshDocument lower = read("stcnoff" + rows);
+  REQUIRE(lower.point_arrays.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(lower.point_arrays[i].name == upper.point_arrays[i].name);
+    CHECK(std::ranges::equal(lower.point_arrays[i].bytes, upper.point_arrays[i].bytes));
+  }
+  CHECK(failure_of("4off" + rows) == "mesh.off:1: unsupported OFF variant '4off'");
+  CHECK(failure_of("offset" + rows).find("is not an OFF file") != std::string::npos);
+}
+
+TEST_CASE("OFF: colours need not be declared, and declared ones may be of the faces alone") {
+  const std::string rows = "3 1 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2\n";
+  const MeshDocument undeclared = read("OFF\n" + rows);
+  REQUIRE(undeclared.point_arrays.size() == 1);
+  CHECK(undeclared.point_arrays[0].name == "colours");
+  CHECK(std::ranges::equal(undeclared.point_arrays[0].as<double>(), std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  REQUIRE(undeclared.notes.size() == 1);
+  CHECK(undeclared.notes[0].find("OFF declares no colours") != std::string::npos);
+  CHECK(written(undeclared) == "OFF\n" + rows);
+
+  // OpenMesh writes this where only the faces have colours.
+  const std::string of_faces = "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7 8 9\n";
+  const MeshDocument document = read(of_faces);
+  CHECK(document.point_arrays.empty());
+  CHECK(find_array(document.cell_arrays, "colours") != nullptr);
+  CHECK(document.notes.empty());
+  CHECK(written(document) == of_faces);
 }
 
 TEST_CASE("OFF: more numbers than the counts declare are refused, other text behind the mesh stays") {

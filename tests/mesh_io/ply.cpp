@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -308,6 +309,7 @@ TEST_CASE("PLY: what does not belong to a planar mesh is refused with its place"
     std::string message;
   };
   const std::string good_faces = three + "element face 1\n" + face;
+  const std::string strips = three + "element tristrips 1\nproperty list int int vertex_indices\n";
   const std::vector<Case> cases{
       {"", "not a PLY file"},
       {"plyx\n", "not a PLY file"},
@@ -328,8 +330,6 @@ TEST_CASE("PLY: what does not belong to a planar mesh is refused with its place"
       {ascii("", ""), "no element 'vertex'"},
       {ascii("element vertex 1\nproperty float x\nproperty float y\n", "0 0\n"), "no scalar property 'z'"},
       {ascii("element vertex 1\nproperty int x\nproperty int y\nproperty int z\n", "0 0 0\n"), "integer type int"},
-      {ascii("element vertex 1\nproperty float x\nproperty double y\nproperty float z\n", "0 0 0\n"),
-       "different types"},
       {ascii(three, "0 0 0\n1 nan 0\n0 1 0\n"), ":9: vertex 1: y is not a finite"},
       {ascii(three, "0 0 0\n1 0 0\n0 1 inf\n"), ":10: vertex 2: z is not a finite"},
       {ascii(three, "0 0 0\n1e39 0 0\n0 1 0\n"), "not a finite float32"},
@@ -351,7 +351,21 @@ TEST_CASE("PLY: what does not belong to a planar mesh is refused with its place"
       {ascii(three + "element face 1\nproperty list uchar float vertex_indices\n", three_rows + "3 0 1 2\n"),
        "no list of"},
       {ascii(three + "element face 1\nproperty int region\n", three_rows + "3\n"), "no list of integers"},
-      {ascii(three + "element tristrips 1\n" + face, three_rows + "3 0 1 2\n"), "triangle strips"},
+      {ascii(strips, three_rows + "4 0 1 3 -1\n"), ":13: tristrips 0: vertex index 3 is out of range"},
+      {ascii(strips, three_rows + "4 0 1 2 -2\n"), "tristrips 0: vertex index -2 is out of range"},
+      {ascii(strips, three_rows + "6 0 1 2 -1 0 1\n"), ":13: tristrips 0: a strip has 2 vertices, expected 3"},
+      {ascii(strips, three_rows + "6 0 -1 0 1 2 -1\n"), "a strip has 1 vertices, expected 3"},
+      {ascii(strips, three_rows + "9 0 1 2 -1\n"), "tristrips 0 declares a list of 9 numbers"},
+      {ascii(three + "element tristrips 1\nproperty int n\n", three_rows + "0\n"), "'tristrips' has no list of"},
+      {ascii(good_faces, three_rows + "3 0 1 2\n3 1 2 0\n"), ":14: expected the end of the file after the rows"},
+      {ascii(three + "element face 1\nproperty list uint64 uint64 vertex_indices\n",
+             three_rows + "18446744073709551615 0 1 2\n"),
+       "face 0 declares a list of 18446744073709551615 numbers"},
+      {ascii(three + "element face 1\nproperty list uint64 uint64 vertex_indices\n",
+             three_rows + "3 0 1 18446744073709551615\n"),
+       "face 0: vertex index 18446744073709551615 is out of range"},
+      {ascii(three + "element face 1\nproperty list int64 int64 vertex_indices\n", three_rows + "3 0 1 4294967296\n"),
+       "face 0: vertex index 4294967296 is out of range"},
       {ascii("element vertex 3000000000\n" + xyz, three_rows), "more than are supported"},
       {ascii("element vertex 2000000000\n" + xyz, three_rows), "declares 2000000000 rows of element 'vertex'"},
       {ascii(three + "element face 9000000000000000000\n" + face, three_rows), "declares 9000000000000000000 rows"},
@@ -366,6 +380,118 @@ TEST_CASE("PLY: what does not belong to a planar mesh is refused with its place"
     CHECK(message.starts_with("mesh:"));
     CHECK_FALSE(contains(message, "\n"));
   }
+}
+
+TEST_CASE("PLY: coordinates of two types keep theirs, each in its own column") {
+  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
+  Rows rows(flavour);
+  rows.add(500000.1, "500000.1").add(0.1F, "0.10").add(7.3, "7.30").end();
+  rows.add(500001.2, "500001.2").add(0.2F, "0.20").add(7.3, "7.30").end();
+  rows.add(500000.3, "500000.3").add(1.2F, "1.20").add(7.3, "7.30").end();
+  const std::string bytes = "ply\nformat " + to_text(flavour) +
+                            " 1.0\nelement vertex 3\nproperty double x\nproperty float y\nproperty double z\n"
+                            "end_header\n" +
+                            rows.bytes();
+  MeshDocument document = ply_codec.read("utm.ply", bytes);
+  CHECK(document.points ==
+        std::vector<double>{500000.1, double(0.1F), 7.3, 500001.2, double(0.2F), 7.3, 500000.3, double(1.2F), 7.3});
+  CHECK(document.point_type == ScalarType::float64);  // what another format needs to hold them
+  CHECK(document.moved_point_type() == ScalarType::float32);
+  CHECK(written_back(document) == bytes);
+  // As a smoother moves it: to numbers that both columns hold.
+  document.points[3] = 500000.5;
+  document.points[4] = 0.5;
+  Rows moved(flavour);
+  moved.add(500000.1, "500000.1").add(0.1F, "0.10").add(7.3, "7.30").end();
+  moved.add(500000.5, "500000.5").add(0.5F, "0.5").add(7.3, "7.30").end();
+  moved.add(500000.3, "500000.3").add(1.2F, "1.20").add(7.3, "7.30").end();
+  CHECK(written_back(document) == bytes.substr(0, bytes.size() - rows.bytes().size()) + moved.bytes());
+}
+
+TEST_CASE("PLY: 64-bit integers are read exactly, as indices and as values") {
+  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
+  constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
+  constexpr std::uint64_t highest = std::numeric_limits<std::uint64_t>::max();
+  Rows rows(flavour);
+  for (const float x : {0.F, 1.F, 0.F}) {
+    rows.add(x).add(x == 0 ? 0.F : 1.F).add(0.F).add((std::int64_t{1} << 53) + 1).end();
+  }
+  rows.add(std::uint64_t{3}).add(std::int64_t{0}).add(std::int64_t{1}).add(std::int64_t{2}).add(highest).add(lowest);
+  rows.end();
+  const std::string bytes = "ply\nformat " + to_text(flavour) + " 1.0\nelement vertex 3\n" + xyz +
+                            "property int64 id\nelement face 1\nproperty list uint64 int64 vertex_indices\n"
+                            "property uint64 high\nproperty int64 low\nend_header\n" +
+                            rows.bytes();
+  const MeshDocument document = ply_codec.read("wide.ply", bytes);
+  CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2});
+  const DataArray* const id = find_array(document.point_arrays, "id");
+  REQUIRE((id != nullptr && id->type == ScalarType::int64));
+  CHECK(id->as<std::int64_t>()[1] == (std::int64_t{1} << 53) + 1);
+  CHECK(find_array(document.cell_arrays, "high")->as<std::uint64_t>()[0] == highest);
+  CHECK(find_array(document.cell_arrays, "low")->as<std::int64_t>()[0] == lowest);
+  CHECK(written_back(document) == bytes);
+}
+
+TEST_CASE("PLY: triangle strips, as Stanford's files list them, are cells") {
+  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
+  const bool is_unsigned = GENERATE(false, true);
+  if (is_unsigned && flavour == Flavour::ascii) {
+    return;  // -1 is no unsigned number in text
+  }
+  Rows rows(flavour);
+  for (const std::array<float, 2> point : {std::array{0.F, 0.F}, {0.F, 1.F}, {1.F, 0.F}, {1.F, 1.F}, {2.F, 0.F}}) {
+    rows.add(point[0]).add(point[1]).add(0.F).end();
+  }
+  rows.add(9).add(0).add(1).add(2).add(3).add(-1).add(4).add(2).add(3).add(-1).add(0.5F).end();
+  const std::string bytes = "ply\nformat " + to_text(flavour) + " 1.0\nelement vertex 5\n" + xyz +
+                            "element tristrips 1\nproperty list int " + (is_unsigned ? "uint" : "int") +
+                            " vertex_indices\nproperty float weight\nend_header\n" + rows.bytes();
+  const MeshDocument document = ply_codec.read("strips.ply", bytes);
+  CHECK(document.cells.types == std::vector<std::uint8_t>(2, cell_type::triangle_strip));
+  CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 3, 4, 2, 3});
+  CHECK(document.cells.offsets == std::vector<std::int64_t>{0, 4, 7});
+  CHECK(document.cell_arrays.empty());
+  REQUIRE(document.notes.size() == 1);
+  CHECK(contains(document.notes[0], "property 'weight' of element 'tristrips' is not read"));
+  CHECK(written_back(document) == bytes);
+}
+
+TEST_CASE("PLY: faces beside strips keep their arrays, whose rows are 0 for the strips") {
+  const std::string bytes = ascii(three + "element tristrips 1\nproperty list int int vertex_index\nelement face 1\n" +
+                                      face + "property int region\n",
+                                  three_rows + "7 0 1 2 -1 2 1 0\n3 0 1 2 5\n");
+  const MeshDocument document = ply_codec.read("both.ply", bytes);
+  CHECK(is_valid(document));
+  REQUIRE(document.cell_arrays.size() == 1);
+  CHECK(std::ranges::equal(document.cell_arrays[0].as<std::int32_t>(), std::vector<std::int32_t>{0, 0, 5}));
+}
+
+TEST_CASE("PLY: what follows the last row is noted and kept, unless it is another row") {
+  const std::string text = ascii(three + "element face 1\n" + face, three_rows + "3 0 1 2\n");
+  const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + xyz +
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+                             std::string(36, '\0') + '\3' + number_bytes(0) + number_bytes(1) + number_bytes(2);
+  const std::string row = '\3' + number_bytes(2) + number_bytes(1) + number_bytes(0);
+  for (const std::string& tail : {std::string("made by hand\n"), std::string("12 of these"), std::string(16, '\0'),
+                                  std::string("\3\0\0\0\0\1\2\3\4zz", 11), std::string("\xff\xfe")}) {
+    for (const std::string& file : {text, binary}) {
+      CAPTURE(file + tail);
+      const MeshDocument document = ply_codec.read("tail.ply", file + tail);
+      CHECK(document.cells.size() == 1);
+      REQUIRE(document.notes.size() == 1);
+      CHECK(contains(document.notes[0], "something follows the last row"));
+      CHECK(written_back(document) == file + tail);
+    }
+  }
+  CHECK(contains(refusal(ply_codec, binary + row + "and more"), "got another row of element 'face'"));
+  CHECK(contains(refusal(ply_codec, text + "3 2 1 0\n# and more"), "got another row of element 'face'"));
+}
+
+TEST_CASE("PLY: a byte-order mark in front of text is no harm") {
+  const std::string bytes = "\xEF\xBB\xBF" + square_file(Flavour::ascii);
+  const MeshDocument document = ply_codec.read("mark.ply", bytes);
+  CHECK(document.points == ply_codec.read("square.ply", square_file(Flavour::ascii)).points);
+  CHECK(written_back(document) == bytes);
 }
 
 TEST_CASE("PLY: binary faults are refused with their byte") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -143,7 +144,7 @@ TEST_CASE("STL: binary is told from text by the size, whatever the first word") 
   const std::array<float, 9> triangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::string bytes = binary_file({triangle}, {0}, "solid but binary");
   CHECK(stl_codec.read("solid.stl", bytes).cells.size() == 1);
-  CHECK(contains(refusal(stl_codec, bytes + "x"), "declares 1 facets, but"));
+  CHECK(stl_codec.read("solid.stl", bytes + "x").cells.size() == 1);
   CHECK(contains(refusal(stl_codec, bytes.substr(0, 120)), "declares 1 facets, but"));
 }
 
@@ -181,16 +182,16 @@ TEST_CASE("STL: no facets are an empty document") {
 
 TEST_CASE("STL: no truncation gives part of a mesh") {
   const std::string bytes = GENERATE(fan_text("0.5 0.25 0"), fan_binary(0.5F, 0.25F));
-  const std::size_t last_word = bytes.rfind("endsolid");
+  const std::size_t last_facet = bytes.rfind(" EndFacet");
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     CAPTURE(size);
     try {
       const MeshDocument document = stl_codec.read("cut.stl", bytes.substr(0, size));
-      // Only the name after the last word of a text may be cut.
-      REQUIRE(last_word != std::string::npos);
-      REQUIRE(size >= last_word + 8);
-      REQUIRE(document.cells.size() == 4);
-      REQUIRE(document.point_count() == 5);
+      // A text may end after any facet, but says then that this is no sure end.
+      REQUIRE(last_facet != std::string::npos);
+      const bool has_end = contains(bytes.substr(0, size), "endsolid");
+      REQUIRE(document.notes.empty() == has_end);
+      REQUIRE((document.cells.size() == 4) == (size >= last_facet + 9));
     } catch (const trismooth::ReadError&) {
       SUCCEED();
     }
@@ -243,7 +244,11 @@ TEST_CASE("STL: what is no STL is refused with its place") {
       {"", "too short"},
       {"OFF\n", "does not begin with 'solid'"},
       {"solid s\n", "facet or endsolid, got the end of the file"},
-      {begin + corners + end, ":9: expected facet or endsolid, got the end of the file"},
+      {begin + corners + end + "facet\n", ":10: expected normal, got the end of the file"},
+      {begin + corners + end + "1 2 3\n", ":9: expected facet or endsolid, got '1'"},
+      {begin + corners + end + "vertex 1 2 3\n", ":9: expected facet or endsolid, got 'vertex'"},
+      {begin + "vertex 0 0 0\nvortex 1 0 0\nvertex 0 1 0\n" + end, ":7: expected vertex, got 'endloop'"},
+      {begin + corners + "endloop colour\nendfacet\n", ":7: expected endfacet, got 'colour'"},
       {begin + corners + "endloop\n", "expected endfacet, got the end of the file"},
       {begin + "vertex 0 0 0\nvertex 1 0 0\nendloop\n", ":6: expected vertex, got 'endloop'"},
       {begin + corners + "vertex 1 1 0\n" + end, ":7: expected endloop, got 'vertex'"},
@@ -251,7 +256,7 @@ TEST_CASE("STL: what is no STL is refused with its place") {
       {begin + "vertex 0 0 1e999\n", ":4: expected a coordinate"},
       {begin + "vertex 0 0\nvertex 1 0 0\n", ":5: expected a coordinate (a finite number), got 'vertex'"},
       {"solid s\nfacet normal 0 0\nouter loop\n", ":3: expected outer, got 'loop'"},
-      {begin + corners + end + "endsolid s\ntrailing\n", ":10: expected solid, got 'trailing'"},
+      {begin + corners + end + "endsolid s\nfacet normal 0 0 1\n", ":10: expected solid, got 'facet'"},
       {binary_file({{0, 0, 0, 1, 0, nan, 0, 1, 0}}, {0}), "byte 116: facet 0"},
       {binary_file({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, -infinity, 0, 1, 0, 0, 0, 1, 0}}, {0, 0}), "byte 150: facet 1"},
       {huge, "declares 4294967295 facets, but the file has room for 1"},
@@ -264,6 +269,63 @@ TEST_CASE("STL: what is no STL is refused with its place") {
     CHECK(message.starts_with("mesh:"));
     CHECK_FALSE(contains(message, "\n"));
   }
+}
+
+TEST_CASE("STL: text without endsolid, with lines of other programs, behind a byte-order mark is read and kept") {
+  const MeshDocument plain = stl_codec.read("fan.stl", fan_text("0.25 0.5 0"));
+  const auto check = [&](const std::string& text, const std::string& note) {
+    CAPTURE(text);
+    MeshDocument document = stl_codec.read("fan.stl", text);
+    CHECK(document.points == plain.points);
+    CHECK(document.cells.connectivity == plain.cells.connectivity);
+    REQUIRE(document.notes.size() == (note.empty() ? 0U : 1U));
+    CHECK((note.empty() || contains(document.notes.front(), note)));
+    CHECK(written_back(document) == text);
+    document.points[6] = 0.125;  // the centre
+    std::string moved = text;
+    for (std::size_t at = moved.find("0.25 0.5"); at != moved.npos; at = moved.find("0.25 0.5")) {
+      moved.replace(at, 4, "0.125");
+    }
+    CHECK(written_back(document) == moved);
+  };
+  const std::string text = fan_text("0.25 0.5 0");
+  REQUIRE(plain.points[6] == 0.25);
+  check("\xEF\xBB\xBF" + text, "");
+  check(text.substr(0, text.find("endsolid")), "endsolid");
+  std::string lines = text;
+  lines.insert(lines.find(" FACET"), "color 0.5 0.5 0.5\n");
+  lines.insert(lines.find("  endloop"), "  attribute-7 vertex 1 2 3\n");
+  check(lines + "made by hand\n", "'attribute-7', 'color', 'made'");
+}
+
+TEST_CASE("STL: solids may follow each other without endsolid") {
+  const std::string text = fan_text("0.25 0.5 0");
+  const std::string open = text.substr(0, text.find("endsolid"));
+  const MeshDocument document = stl_codec.read("fan.stl", open + open + text);
+  CHECK(document.cells.size() == 12U);
+  REQUIRE(document.cell_arrays.size() == 1U);
+  CHECK(std::ranges::count(document.cell_arrays.front().as<std::int32_t>(), 2) == 4);
+}
+
+TEST_CASE("STL: bytes behind the last facet are noted and kept, but facets that are not declared are refused") {
+  const std::string one = binary_file({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, {7}, "COLOR=rgba");
+  for (const std::string& tail :
+       {std::string("made by hand\n"), std::string(1, '\0'), std::string(50, '\0'), std::string(120, 'x')}) {
+    CAPTURE(tail);
+    const MeshDocument document = stl_codec.read("one.stl", one + tail);
+    CHECK(document.cells.size() == 1U);
+    REQUIRE(document.notes.size() == 1U);
+    CHECK(contains(document.notes.front(), "at byte 134"));
+    CHECK(written_back(document) == one + tail);
+  }
+  const std::string two = binary_file({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}}, {0, 0});
+  std::string wrong = two;
+  wrong[80] = 1;
+  CHECK(contains(refusal(stl_codec, wrong), "byte 80: declares 1 facets, but the file has room for 2"));
+  wrong.replace(134, 12, number_bytes(0.F) + number_bytes(0.F) + number_bytes(1.F));
+  CHECK(contains(refusal(stl_codec, wrong + "and more"), "byte 80: declares 1 facets"));
+  wrong[80] = 0;
+  CHECK(contains(refusal(stl_codec, wrong), "byte 80: declares 0 facets"));
 }
 
 TEST_CASE("STL: what is written from scratch is read back with exact coordinates") {

@@ -244,6 +244,26 @@ TEST_CASE("CUDA that cannot be had is answered with 5 and what to do, before any
   CHECK(call_on("", {"--order", "unordered", "--execution", "single-block"}).options->smoothing.backend == &backend);
 }
 
+TEST_CASE("where neither input nor output is of a known format, both are told, as a fault of the input") {
+  const Outcome both = call({"smooth", "missing.xyz", "out.abc"}, &trismooth::run_pipeline);
+  CHECK(both.code == 3);
+  CHECK(
+      both.says("missing.xyz: the extension '.xyz' names no format, nor does that of the output, out.abc; known are "
+                ".off"));
+  const Outcome input = call({"smooth", "missing.xyz", "out.vtu"}, &trismooth::run_pipeline);
+  CHECK(input.code == 3);
+  CHECK(input.says("missing.xyz: the extension '.xyz' names no format; known are .off"));
+  const Outcome checked = call({"quality", "missing.vtu.gz"}, &trismooth::run_pipeline);
+  CHECK(checked.code == 3);
+  CHECK(checked.says("missing.vtu.gz: is compressed (gzip); decompress it first"));
+  const Outcome compressed = call({"smooth", "missing.gz", "out.vtu.xz"}, &trismooth::run_pipeline);
+  CHECK(compressed.code == 3);
+  CHECK(compressed.says("missing.gz: is compressed (gzip)"));
+  const Outcome output = call({"smooth", "missing.off", "out.off.gz"}, &trismooth::run_pipeline);
+  CHECK(output.code == 4);
+  CHECK(output.says("out.off.gz: nothing is written compressed; leave out '.gz'"));
+}
+
 TEST_CASE("an output of no known format is told before the work") {
   const Outcome outcome = call({"smooth", "missing.vtk", "out.xyz"}, &trismooth::run_pipeline);
   CHECK(outcome.code == 4);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -163,6 +164,78 @@ TEST_CASE("a mesh of triangle strips is smoothed to the bits of its triangles, a
     const auto first = of_triangles.begin() + 2 * n * row;
     CHECK(of_strips[static_cast<std::size_t>(row)] == *std::min_element(first, first + 2 * n));
   }
+}
+
+TEST_CASE("coordinates of two types: vertices that stay keep their digits, the others are numbers of both types") {
+  const test_meshes::Mesh grid = test_meshes::jittered_grid(9, 9, 0.4, 3);
+  // In the plane of the axes, and in a tilted one.
+  for (const double tilt : {0.0, 0.75}) {
+    CAPTURE(tilt);
+    std::string rows;
+    for (const auto& [x, y] : grid.points) {
+      rows += fmt::format("{} {} {}\n", x / 3, static_cast<float>(y), tilt * (x / 3));
+    }
+    for (const auto& [a, b, c] : grid.triangles) {
+      rows += fmt::format("3 {} {} {}\n", a, b, c);
+    }
+    const ScratchFolder folder;
+    PipelineOptions options;
+    options.input = folder.write(
+        "in.ply",
+        fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty float y\n"
+                    "property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                    grid.points.size(), grid.triangles.size()) +
+            rows);
+    options.output = folder / "out.ply";
+    const PipelineResult result = trismooth::run_pipeline(options);
+    const trismooth::MeshDocument before = trismooth::read_mesh(options.input);
+    const trismooth::MeshDocument after = trismooth::read_mesh(*options.output);
+    std::int64_t moved = 0;
+    for (std::size_t v = 0; v < before.point_count(); ++v) {
+      const auto old = std::span(before.points).subspan(3 * v, 3);
+      const auto now = std::span(after.points).subspan(3 * v, 3);
+      if (!std::ranges::equal(old, now)) {
+        ++moved;
+        CHECK((now[0] == static_cast<double>(static_cast<float>(now[0])) && now[0] != old[0]));
+      }
+    }
+    CHECK(moved == result.smoothing->moved_vertices);
+    CHECK(moved > 0);
+    CHECK(moved < static_cast<std::int64_t>(before.point_count()));
+    CHECK(result.after->inverted <= result.before.inverted);
+    // To another format with every digit.
+    options.output = folder / "out.vtu";
+    trismooth::run_pipeline(options);
+    CHECK(trismooth::read_mesh(*options.output).points == after.points);
+  }
+}
+
+TEST_CASE("annotations become properties of a PLY that is made; one that was read takes none, and a note says so") {
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.annotate = true;
+  options.input = folder.write("in.off",
+                               "OFF\n5 4 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0.5 1.25 0\n3 0 1 4\n3 1 2 4\n"
+                               "3 2 3 4\n3 3 0 4\n");
+  options.output = folder / "out.ply";
+  const auto about_annotate = [](const PipelineResult& result) {
+    return std::ranges::count_if(result.notes, [](const std::string& note) { return note.starts_with("--annotate"); });
+  };
+  CHECK(about_annotate(trismooth::run_pipeline(options)) == 0);
+  const trismooth::MeshDocument annotated = trismooth::read_mesh(*options.output);
+  const auto has = [](const std::vector<trismooth::DataArray>& arrays, const std::string& end) {
+    return std::ranges::any_of(arrays, [&](const auto& array) { return array.name.ends_with(end); });
+  };
+  CHECK(has(annotated.cell_arrays, "shape"));
+  CHECK(has(annotated.point_arrays, "fixed"));
+  CHECK(has(annotated.point_arrays, "displacement_2"));
+
+  options.input = *options.output;
+  options.output = folder / "again.ply";
+  const PipelineResult again = trismooth::run_pipeline(options);
+  REQUIRE(about_annotate(again) == 1);
+  const auto note = std::ranges::find_if(again.notes, [](const auto& n) { return n.starts_with("--annotate"); });
+  CHECK(note->find("a PLY file that was read is written back with nothing added") != std::string::npos);
 }
 
 TEST_CASE("triangles that are no mesh are told with the file, whoever finds out") {

@@ -74,6 +74,12 @@ void add_off(std::vector<AcceptedFile>& files) {
                        .counts_end = " 8 # edges",
                        .vertex_fields = [](std::size_t i) { return fmt::format(" # vertex {}\n", i); },
                        .face_fields = [](std::size_t) { return "\t"; }}));
+  add("lower_case", off({.head = "off\n"}));
+  add("lower_case_fields", off({.head = "stcnoff\n", .vertex_fields = [&](std::size_t i) {
+                                  return normal(i) + bytes_rgba(i) + " 0.5 0.25";
+                                }}));
+  add("undeclared_colours", off({.others = true, .vertex_fields = bytes_rgb}));
+  add("colours_of_faces_alone", off({.head = "COFF\n", .face_fields = bytes_rgb}));
   add("crlf", with_line_ends(plain, "\r\n"));
   add("cr", with_line_ends(plain, "\r"));
   add("mark", "\xEF\xBB\xBF" + plain);
@@ -86,6 +92,63 @@ void add_off(std::vector<AcceptedFile>& files) {
   add("exponents",
       "OFF\n\t5\t4 0\n 0e0\t-0.0\t+0\n2E+00 0.0 -0\n\t20e-1 .2E1 0.\n0 2.000000000000000000000000 0\n7.5E-1\t"
       "+12.5e-1 \t 0.0e+00 \n\t3 0 1 4\n 3 1 2 4\n3\t2 3 4\n3 3 0 4 \n");
+}
+
+/// How a binary OFF file spells the mesh: in fields of 32 bits.
+struct BinaryOffSpelling {
+  std::string keyword = "OFF";
+  bool big_endian = true;
+  bool others = false;
+  std::vector<float> vertex_reals = {};
+  std::vector<std::int32_t> vertex_integers = {};
+  bool counts_face_colours = true;
+  std::vector<float> face_reals = {};
+  std::vector<std::int32_t> face_integers = {};
+};
+
+std::string binary_off(const BinaryOffSpelling& spelling) {
+  const Mesh all = mesh(spelling.others);
+  std::string bytes = spelling.keyword + " BINARY\n";
+  const auto add = [&](auto number) { bytes += vtk::number_bytes(number, spelling.big_endian); };
+  const auto count = [](const auto& container) { return static_cast<std::int32_t>(container.size()); };
+  add(count(all.points));
+  add(count(all.faces));
+  add(std::int32_t{0});
+  for (const auto& point : all.points) {
+    for (const double coordinate : point) {
+      add(static_cast<float>(coordinate));
+    }
+    std::ranges::for_each(spelling.vertex_reals, add);
+    std::ranges::for_each(spelling.vertex_integers, add);
+  }
+  for (const auto& face : all.faces) {
+    add(count(face));
+    std::ranges::for_each(face, add);
+    if (spelling.counts_face_colours) {
+      add(count(spelling.face_reals) + count(spelling.face_integers));
+    }
+    std::ranges::for_each(spelling.face_reals, add);
+    std::ranges::for_each(spelling.face_integers, add);
+  }
+  return bytes;
+}
+
+void add_binary_off(std::vector<AcceptedFile>& files) {
+  const auto add = [&](const std::string& name, const BinaryOffSpelling& spelling) {
+    files.push_back({"off_" + name, ".off", binary_off(spelling)});
+  };
+  // As Geomview and CGAL write it.
+  add("big_endian", {.others = true});
+  add("big_endian_fields", {.keyword = "STCNOFF", .vertex_reals = {0, 0, 1, 0.5F, 0.25F, 1, 1, 0.5F, 0.25F}});
+  add("big_endian_face_fields", {.face_reals = {1, 0.5F, 0.25F}});
+  // As OpenMesh and pmp-library do.
+  add("little_endian", {.big_endian = false, .others = true, .counts_face_colours = false});
+  add("little_endian_fields", {.keyword = "CNOFF",
+                               .big_endian = false,
+                               .vertex_reals = {0, 0, 1},
+                               .vertex_integers = {200, 100, 7},
+                               .counts_face_colours = false,
+                               .face_integers = {9, 8, 7}});
 }
 
 /// The faces in the words of OBJ; `word` makes one of a vertex, counted from 0.
@@ -140,12 +203,41 @@ void add_obj(std::vector<AcceptedFile>& files) {
 
 enum class PlyEncoding : std::uint8_t { ascii, little, big };
 
+const char* ply_format(PlyEncoding encoding) {
+  constexpr const char* names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+  return names[static_cast<int>(encoding)];
+}
+
+/// The rows behind a header.
+class PlyRows {
+ public:
+  explicit PlyRows(PlyEncoding encoding) : encoding_(encoding) {}
+
+  template <class T>
+  void add(T value) {
+    if (encoding_ == PlyEncoding::ascii) {
+      text_ += fmt::format("{} ", +value);
+    } else {
+      text_ += vtk::number_bytes(value, encoding_ == PlyEncoding::big);
+    }
+  }
+  void end_row() {
+    if (encoding_ == PlyEncoding::ascii) {
+      text_.back() = '\n';
+    }
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  PlyEncoding encoding_;
+  std::string text_;
+};
+
 std::string ply(PlyEncoding encoding, bool with_double, bool rich) {
   const Mesh all = mesh(rich);
   const bool is_text = encoding == PlyEncoding::ascii;
-  constexpr const char* names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
   const char* const real = with_double ? "double" : "float";
-  std::string text = fmt::format("ply\nformat {} 1.0\n", names[static_cast<int>(encoding)]);
+  std::string text = fmt::format("ply\nformat {} 1.0\n", ply_format(encoding));
   text += rich ? "comment made for a test\nobj_info 1\nelement material 1\nproperty list uchar uchar name\n" : "";
   text +=
       fmt::format("element vertex {}\n{}", all.points.size(), rich ? "property uchar red\nproperty int8 tag\n" : "");
@@ -212,8 +304,62 @@ std::string ply(PlyEncoding encoding, bool with_double, bool rich) {
   return text;
 }
 
+/// The coordinates in two types, and 64-bit integers, which the format lacks.
+std::string wide_ply(PlyEncoding encoding) {
+  const Mesh all = mesh(false);
+  PlyRows rows(encoding);
+  std::string text = fmt::format(
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty float y\nproperty double z\n"
+      "element face {}\nproperty uint64 id\nproperty list uint8 int64 vertex_indices\nend_header\n",
+      ply_format(encoding), all.points.size(), all.faces.size());
+  for (const auto& [x, y, z] : all.points) {
+    rows.add(x);
+    rows.add(static_cast<float>(y));
+    rows.add(z);
+    rows.end_row();
+  }
+  for (std::size_t i = 0; i < all.faces.size(); ++i) {
+    rows.add((std::uint64_t{1} << 63) + i);
+    rows.add(static_cast<std::uint8_t>(all.faces[i].size()));
+    for (const int vertex : all.faces[i]) {
+      rows.add(static_cast<std::int64_t>(vertex));
+    }
+    rows.end_row();
+  }
+  return text + rows.text();
+}
+
+/// The faces as triangle strips in one list, as Stanford's programs write them.
+std::string strips_ply(PlyEncoding encoding) {
+  const Mesh all = mesh(false);
+  PlyRows rows(encoding);
+  std::string text = fmt::format(
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n",
+      ply_format(encoding), all.points.size());
+  for (const auto& point : all.points) {
+    for (const double coordinate : point) {
+      rows.add(static_cast<float>(coordinate));
+    }
+    rows.end_row();
+  }
+  rows.add(static_cast<std::int32_t>(4 * all.faces.size()));
+  for (const auto& face : all.faces) {
+    std::ranges::for_each(face, [&](int vertex) { rows.add(std::int32_t{vertex}); });
+    rows.add(std::int32_t{-1});
+  }
+  rows.end_row();
+  return text + rows.text();
+}
+
 void add_ply(std::vector<AcceptedFile>& files) {
   constexpr const char* names[] = {"ascii", "little_endian", "big_endian"};
+  for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little, PlyEncoding::big}) {
+    const char* const name = names[static_cast<int>(encoding)];
+    files.push_back({fmt::format("ply_{}_wide", name), ".ply", wide_ply(encoding)});
+    files.push_back({fmt::format("ply_{}_strips", name), ".ply", strips_ply(encoding)});
+    files.push_back({fmt::format("ply_{}_tail", name), ".ply", ply(encoding, false, false) + "made for a test\n"});
+  }
   for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little, PlyEncoding::big}) {
     for (const bool with_double : {false, true}) {
       for (const bool rich : {false, true}) {
@@ -224,6 +370,7 @@ void add_ply(std::vector<AcceptedFile>& files) {
     }
   }
   const std::string plain = ply(PlyEncoding::ascii, true, false);
+  files.push_back({"ply_mark", ".ply", "\xEF\xBB\xBF" + plain});
   files.push_back({"ply_crlf", ".ply", with_line_ends(plain, "\r\n")});
   files.push_back({"ply_cr", ".ply", with_line_ends(plain, "\r")});
   std::string crlf_header = ply(PlyEncoding::little, false, false);
@@ -275,6 +422,15 @@ void add_stl(std::vector<AcceptedFile>& files) {
   files.push_back({"stl_ascii_solids", ".stl", text_stl(2)});
   files.push_back({"stl_ascii_crlf", ".stl", with_line_ends(upper, "\r\n")});
   files.push_back({"stl_ascii_cr", ".stl", with_line_ends(text, "\r")});
+  files.push_back({"stl_ascii_mark", ".stl", "\xEF\xBB\xBF" + text});
+  files.push_back({"stl_ascii_no_end", ".stl", text.substr(0, text.find("endsolid"))});
+  std::string coloured = text_stl(2);
+  for (std::size_t at = coloured.find(" facet"); at != std::string::npos; at = coloured.find(" facet", at + 30)) {
+    coloured.insert(at, " color 0.5 0.25 1\n");
+  }
+  coloured.insert(coloured.find("  endloop"), "\tMaterial brass\n");
+  files.push_back({"stl_ascii_coloured", ".stl", coloured});
+  files.push_back({"stl_binary_tail", ".stl", binary_stl("COLOR=", true) + "made for a test\n"});
   files.push_back({"stl_binary", ".stl", binary_stl("", false)});
   files.push_back({"stl_binary_solid", ".stl", binary_stl("solid that is none", true)});
 }
@@ -282,6 +438,7 @@ void add_stl(std::vector<AcceptedFile>& files) {
 std::vector<AcceptedFile> make_all() {
   std::vector<AcceptedFile> files;
   add_off(files);
+  add_binary_off(files);
   add_obj(files);
   add_ply(files);
   add_stl(files);
