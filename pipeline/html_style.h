@@ -70,7 +70,7 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px;
   h1 { font-size: 24px; }
   .card .value, th, td { white-space: normal; overflow-wrap: anywhere; }
   th, td { padding: 6px 4px; }
-  /* A row of many columns becomes a block: its name over lines of one value, or of two, before and after. */
+  /* A row of many columns becomes a block: its name over lines of one value, or of two. */
   table.stack, table.stack tbody { display: block; }
   table.stack thead { display: none; }
   table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; padding: 8px 0; gap: 2px 0;
