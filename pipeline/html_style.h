@@ -37,6 +37,7 @@ th { color: var(--soft); font-size: 13px; font-weight: 600; }
 th:first-child, td:first-child, td.word { text-align: left; }
 td:first-child { padding-left: 0; }
 th:first-child { padding-left: 0; }
+table.wrap th { white-space: normal; }
 thead tr:not(:last-child) th { border-bottom: 0; }
 thead tr:last-child th { border-bottom: 1px solid var(--soft); }
 th.group { text-align: center; border-bottom: 0; padding-bottom: 0; }
@@ -70,13 +71,16 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px;
   h1 { font-size: 24px; }
   .card .value, th, td { white-space: normal; overflow-wrap: anywhere; }
   th, td { padding: 6px 4px; }
+}
+@media screen and (max-width: 960px) {
   /* A row of many columns becomes a block: its name over lines of one value, or of two. */
-  table.stack, table.stack tbody { display: block; }
+  table.stack { display: block; }
   table.stack thead { display: none; }
-  table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; padding: 8px 0; gap: 2px 0;
-                   border-bottom: 1px solid var(--line); }
+  table.stack tbody { display: grid; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); gap: 0 40px; }
+  table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; align-content: start; gap: 2px 0;
+                   padding: 8px 0; border-bottom: 1px solid var(--line); }
   table.stack td { border: 0; padding: 0; white-space: nowrap; }
-  table.stack td:first-child { grid-area: 1 / 1; font-weight: 650; }
+  table.stack td:first-child { grid-area: 1 / 1; font-weight: 650; white-space: normal; }
   table.stack td.word { grid-area: 1 / 2; text-align: right; }
   table.stack td[data-label] { display: flex; justify-content: space-between; grid-column: 1 / -1; }
   table.stack td.start { grid-column: 1; }
