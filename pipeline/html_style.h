@@ -22,7 +22,7 @@ p { margin: 0 0 8px; }
 small { display: block; white-space: normal; font-size: 12px; line-height: 1.35; font-weight: 400; }
 .lead { margin: 20px 0 0; font-size: 17px; }
 .lead.bad { color: var(--bad); }
-.cards { display: grid; grid-template-columns: repeat(3, 1fr); gap: 14px; margin-top: 22px; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(272px, 1fr)); gap: 14px; margin-top: 22px; }
 .card { border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px 12px; break-inside: avoid; }
 .card .label { color: var(--soft); font-size: 13px; }
 .card .value { font-size: 22px; line-height: 1.45; white-space: nowrap; font-weight: 650; font-variant-numeric: tabular-nums; }
@@ -65,7 +65,6 @@ svg.chart .dot { fill: #fff; stroke: var(--after); stroke-width: 2; }
 ul { margin: 0; padding-left: 20px; }
 code { font: 13px ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px; color: var(--soft); font-size: 13px; }
-@media (max-width: 760px) { .cards, .two { grid-template-columns: minmax(0, 1fr); } }
 @media (max-width: 600px) {
   main { padding: 20px 16px 32px; }
   h1 { font-size: 24px; }
@@ -73,6 +72,7 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px;
   th, td { padding: 6px 4px; }
 }
 @media screen and (max-width: 960px) {
+  .two { grid-template-columns: minmax(0, 1fr); }
   /* A row of many columns becomes a block: its name over lines of one value, or of two. */
   table.stack { display: block; }
   table.stack thead { display: none; }

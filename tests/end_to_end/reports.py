@@ -31,8 +31,8 @@ REPORT_KEYS = {
 # What a report may hold beyond the keys that are promised.
 MORE_KEYS = {"input": {"region_array", "region_arrays", "fixed_array", "fixed_array_vertices", "fixed_ids_vertices",
                        "held"},
-             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "fixed_array", "fixed_ids",
-                         "annotate", "annotated_metrics"}}
+             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
+                         "fixed_ids", "annotate", "annotated_metrics"}}
 
 
 class Reports(tool.ToolTest):
