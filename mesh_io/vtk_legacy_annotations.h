@@ -40,6 +40,7 @@ class VtkLegacyAnnotations {
 
  private:
   void end_section(std::size_t end);
+  ByteEdit cut(std::size_t begin, std::size_t end) const;
 
   std::string_view bytes_;
   std::vector<ByteEdit> edits_;

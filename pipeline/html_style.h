@@ -22,7 +22,7 @@ p { margin: 0 0 8px; }
 small { display: block; white-space: normal; font-size: 12px; line-height: 1.35; font-weight: 400; }
 .lead { margin: 20px 0 0; font-size: 17px; }
 .lead.bad { color: var(--bad); }
-.cards { display: grid; grid-template-columns: repeat(3, 1fr); gap: 14px; margin-top: 22px; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(272px, 1fr)); gap: 14px; margin-top: 22px; }
 .card { border: 1px solid var(--line); border-radius: 8px; padding: 14px 16px 12px; break-inside: avoid; }
 .card .label { color: var(--soft); font-size: 13px; }
 .card .value { font-size: 22px; line-height: 1.45; white-space: nowrap; font-weight: 650; font-variant-numeric: tabular-nums; }
@@ -37,6 +37,7 @@ th { color: var(--soft); font-size: 13px; font-weight: 600; }
 th:first-child, td:first-child, td.word { text-align: left; }
 td:first-child { padding-left: 0; }
 th:first-child { padding-left: 0; }
+table.wrap th { white-space: normal; }
 thead tr:not(:last-child) th { border-bottom: 0; }
 thead tr:last-child th { border-bottom: 1px solid var(--soft); }
 th.group { text-align: center; border-bottom: 0; padding-bottom: 0; }
@@ -64,19 +65,22 @@ svg.chart .dot { fill: #fff; stroke: var(--after); stroke-width: 2; }
 ul { margin: 0; padding-left: 20px; }
 code { font: 13px ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 12px; color: var(--soft); font-size: 13px; }
-@media (max-width: 760px) { .cards, .two { grid-template-columns: minmax(0, 1fr); } }
 @media (max-width: 600px) {
   main { padding: 20px 16px 32px; }
   h1 { font-size: 24px; }
   .card .value, th, td { white-space: normal; overflow-wrap: anywhere; }
   th, td { padding: 6px 4px; }
-  /* A row of many columns becomes a block: its name over lines of one value, or of two, before and after. */
-  table.stack, table.stack tbody { display: block; }
+}
+@media screen and (max-width: 960px) {
+  .two { grid-template-columns: minmax(0, 1fr); }
+  /* A row of many columns becomes a block: its name over lines of one value, or of two. */
+  table.stack { display: block; }
   table.stack thead { display: none; }
-  table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; padding: 8px 0; gap: 2px 0;
-                   border-bottom: 1px solid var(--line); }
+  table.stack tbody { display: grid; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); gap: 0 40px; }
+  table.stack tr { display: grid; grid-template-columns: minmax(0, 1fr) 8em; align-content: start; gap: 2px 0;
+                   padding: 8px 0; border-bottom: 1px solid var(--line); }
   table.stack td { border: 0; padding: 0; white-space: nowrap; }
-  table.stack td:first-child { grid-area: 1 / 1; font-weight: 650; }
+  table.stack td:first-child { grid-area: 1 / 1; font-weight: 650; white-space: normal; }
   table.stack td.word { grid-area: 1 / 2; text-align: right; }
   table.stack td[data-label] { display: flex; justify-content: space-between; grid-column: 1 / -1; }
   table.stack td.start { grid-column: 1; }

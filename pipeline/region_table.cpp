@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/region_table.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -107,16 +108,21 @@ std::string region_table(const PipelineResult& result, std::size_t most) {
 
 std::string region_table_html(const PipelineResult& result) {
   const bool smoothed = !result.regions_after.empty();
-  std::string html = "<table>\n<thead><tr><th>region</th><th>triangles</th>";
-  for (const char* const title : {"inverted", "min shape", "mean shape", "min angle"}) {
+  static constexpr std::array<const char*, 4> titles{"inverted", "min shape", "mean shape", "min angle"};
+  std::string html = "<table class=\"stack wrap\">\n<thead><tr><th>region</th><th>triangles</th>";
+  for (const char* const title : titles) {
     html += smoothed ? fmt::format("<th class=\"start\">{0}, before</th><th>{0}, after</th>", title)
                      : fmt::format("<th>{}</th>", title);
   }
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t region = 0; region < result.region_names.size(); ++region) {
-    html += "<tr>" + html_cell(escape_html(result.region_names[region]));
-    for (const std::string& text : cells_of(result, region)) {
-      html += html_cell(text);
+    html += "<tr>" + html_cell(escape_html(result.region_names[region]), "text");
+    const std::vector<std::string> cells = cells_of(result, region);
+    html += html_cell(cells.front(), "", "triangles");
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+      const std::size_t title = smoothed ? (i - 1) / 2 : i - 1;
+      const bool second = smoothed && i % 2 == 0;
+      html += html_cell(cells[i], smoothed && !second ? "start" : "", second ? "" : titles[title]);
     }
     html += "</tr>\n";
   }

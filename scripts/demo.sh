@@ -30,5 +30,5 @@ print(f"  smallest shape  {before['min']:.3f} -> {after['min']:.3f}")
 print(f"  mean shape      {before['mean']:.3f} -> {after['mean']:.3f}")
 PYTHON
 echo
-echo "Smoothed mesh:  $project/out/machine.vtu   (open it in ParaView and colour it by 'shape')"
+echo "Smoothed mesh:  $project/out/machine.vtu   (open it in ParaView and colour it by 'trismooth:shape')"
 echo "Report:         $project/out/machine.html  (open it in a browser)"

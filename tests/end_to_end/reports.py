@@ -1,5 +1,6 @@
 """The reports: promised keys, numbers that agree with each other, pages that stand alone."""
 
+import datetime
 import json
 import os
 import re
@@ -15,8 +16,8 @@ import tool
 METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ratio", "edge_ratio", "condition",
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
-    "": {"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash", "uncommitted_hash",
-         "warnings", "timings_ms", "peak_memory_bytes"},
+    "": {"trismooth", "date", "command", "input", "options", "before", "after", "gates", "smoothing",
+         "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
@@ -28,9 +29,10 @@ REPORT_KEYS = {
                    "check_after", "write", "total"},
 }
 # What a report may hold beyond the keys that are promised.
-MORE_KEYS = {"input": {"region_array"},
-             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "fixed_array", "fixed_ids",
-                         "annotate"}}
+MORE_KEYS = {"input": {"region_array", "region_arrays", "fixed_array", "fixed_array_vertices", "fixed_ids_vertices",
+                       "held"},
+             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
+                         "fixed_ids", "annotate", "annotated_metrics"}}
 
 
 class Reports(tool.ToolTest):
@@ -44,7 +46,8 @@ class Reports(tool.ToolTest):
         self.assertEqual({*part} - REPORT_KEYS[name] - MORE_KEYS.get(name, set()), set(), name)
 
     def assert_quality(self, quality):
-        self.assertEqual({*quality}, {"triangles", "inverted", "metrics", "histogram", "worst"})
+        self.assertEqual({*quality} - {"regions"}, {"triangles", "inverted", "degenerate", "metrics", "histogram",
+                                                    "worst"})
         self.assertEqual({*quality["metrics"]}, METRICS)
         for metric in quality["metrics"].values():
             self.assertEqual({*metric}, {"min", "mean", "max", "stddev", "acceptable_fraction"})
@@ -100,6 +103,78 @@ class Reports(tool.ToolTest):
         self.assertIsNone(checked["after"])
         self.assertIsNone(checked["smoothing"])
 
+    def test_reports_hold_the_gates_and_how_they_went(self):
+        outcome = self.run_tool("smooth", "plate.off", "out.off", "--require", "min_shape>=0.999", "--require",
+                                "triangles == 128", "--report", "r.json", "--report", "r.html", expect=1)
+        report = json.loads(self.read("r.json"))
+        smallest = report["after"]["metrics"]["shape"]["min"]
+        self.assertEqual(report["gates"],
+                         [{"gate": "min_shape >= 0.999", "name": "min_shape", "comparison": ">=", "bound": 0.999,
+                           "value": smallest, "passed": False},
+                          {"gate": "triangles == 128", "name": "triangles", "comparison": "==", "bound": 128,
+                           "value": 128, "passed": True}])
+        parser = page_parser.PageParser()
+        parser.feed(self.read("r.html").decode())
+        self.assertIn("1 of 2 gates failed.", parser.text)
+        self.assertRegex(parser.text, r"min_shape >= 0\.999\s*0\.\d+\s*failed")
+        self.assertRegex(parser.text, r"triangles == 128\s*128\s*passed")
+        self.assertIn(report["date"], parser.text)
+        self.assertIn(report["command"], parser.text)
+        self.assertRegex(outcome.err, "gate failed: min_shape >= 0.999")
+        self.assertEqual(self.report("quality", "plate.off")["gates"], [])
+
+    def test_the_date_is_that_of_the_run_with_its_zone(self):
+        before = datetime.datetime.now(datetime.timezone.utc).replace(microsecond=0)
+        self.run_tool("quality", "plate.off", "--report", "r.json", environment={"TZ": "XXX-5:30"})
+        date = json.loads(self.read("r.json"))["date"]
+        self.assertRegex(date, r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+05:30$")
+        self.assertLessEqual(before, datetime.datetime.fromisoformat(date))
+        self.assertLessEqual(datetime.datetime.fromisoformat(date), datetime.datetime.now(datetime.timezone.utc))
+
+    def test_a_shell_that_is_given_the_command_line_makes_the_same_run(self):
+        every_byte = bytes(c for c in range(1, 256) if c != ord("/"))
+        names = [b"it's a mesh", b"$HOME `id` \\ \"x\" * ~ !! #", b"\x1b[31mred\n\r\t", "Größe".encode(), b"=x", b"-",
+                 every_byte[:120], every_byte[120:]]
+        os.symlink(tool.program, self.path("trismooth"))
+        environment = {**os.environ, "PATH": self.folder + os.pathsep + os.environ["PATH"]}
+        for name in names:
+            with self.subTest(name):
+                path = b"./" + name + b".off"
+                with open(os.fsencode(self.folder) + b"/" + path, "wb") as file:
+                    file.write(self.read("plate.off"))
+                arguments = [b"quality", path, b"--require", b"min_shape >= -1", b"--report", b"r.json"]
+                subprocess.run([tool.program, *arguments], cwd=self.folder, check=True, capture_output=True)
+                first = json.loads(self.read("r.json"))
+                os.remove(self.path("r.json"))
+                self.assertTrue(first["command"].isprintable(), first["command"])
+                subprocess.run(["bash", "-c", first["command"]], cwd=self.folder, env=environment, check=True,
+                               capture_output=True)
+                again = json.loads(self.read("r.json"))
+                for key in ("command", "input", "options", "before", "gates"):
+                    self.assertEqual(again[key], first[key])
+
+    def test_triangles_without_area_are_counted_everywhere_and_a_gate_finds_them(self):
+        flat = "OFF\n6 5 0\n0 0 0\n1 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 0\n"
+        good = ["3 0 1 5", "3 1 2 3", "3 1 3 5"]
+        for cells, count in ((good, 0), ([*good, "3 0 1 2"], 1), ([*good, "3 0 2 1", "3 4 3 4"], 2),
+                             ([*good, "3 3 3 3"], 1)):
+            with self.subTest(count):
+                self.write("flat.off", flat.replace("6 5 0", f"6 {len(cells)} 0") + "\n".join(cells) + "\n")
+                self.write("all.txt", "0 1 2 3 4 5")  # smoothing would mend them
+                for arguments in (("quality", "flat.off"), ("smooth", "flat.off", "out.off", "--fixed-ids", "all.txt")):
+                    outcome = self.run_tool(*arguments, "--require", "inverted==0", "--require", "degenerate==0",
+                                            "--verbose", "--report", "r.json", "--report", "r.html",
+                                            expect=1 if count else 0)
+                    self.assertEqual("gate failed: degenerate == 0" in outcome.err, count > 0)
+                    self.assertRegex(outcome.out, rf"(?m)^degenerate +{count}\b")
+                    report = json.loads(self.read("r.json"))
+                    for stage in filter(None, (report["before"], report["after"])):
+                        self.assertEqual((stage["degenerate"], stage["inverted"]), (count, 0))
+                        self.assert_quality(stage)
+                    parser = page_parser.PageParser()
+                    parser.feed(self.read("r.html").decode())
+                    self.assertIn(f"{count} degenerate", parser.text)
+
     def test_the_html_report_is_well_formed_and_stands_alone(self):
         self.write("a&b <c>.off", self.read("plate.off"))
         self.run_tool("smooth", "a&b <c>.off", "out.off", "--report", "run.html", "--report", "run.json")
@@ -110,7 +185,9 @@ class Reports(tool.ToolTest):
         self.assertEqual(parser.outside, [])
         self.assertIn("a&b <c>.off", parser.text)
         json.loads(self.read("run.json"))
-        for picture in re.findall(r"<svg.*?</svg>", page, re.DOTALL):
+        pictures = re.findall(r"<figure.*?</figure>", page, re.DOTALL)
+        self.assertEqual(len(pictures), 2)
+        for picture in pictures:
             ElementTree.fromstring(picture)
 
     def test_a_path_that_is_no_text_is_no_trouble(self):

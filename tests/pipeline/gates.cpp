@@ -9,6 +9,7 @@
 
 #include "catch.h"
 
+using trismooth::check_gate;
 using trismooth::Comparison;
 using trismooth::gate_failure;
 using trismooth::gate_names;
@@ -24,6 +25,7 @@ QualityReport distinct_report() {
   QualityReport report;
   report.triangles = 12345678;
   report.inverted = 3;
+  report.degenerate = 4;
   double value = 1;
   for (auto& metric : report.metrics) {
     metric = {value + 0.1, value + 0.2, value + 0.3, value + 0.4, value + 0.5};
@@ -33,7 +35,7 @@ QualityReport distinct_report() {
 }
 
 bool passes(const std::string& gate, const QualityReport& report) {
-  return !gate_failure(parse_gate(gate), report).has_value();
+  return check_gate(parse_gate(gate), report).passed;
 }
 
 std::string message_of(const std::string& gate) {
@@ -81,7 +83,8 @@ TEST_CASE("an unknown name is answered with the valid ones") {
     for (const auto& metric : trismooth::all_metrics()) {
       CHECK(message.find(std::string(metric.name)) != std::string::npos);
     }
-    for (const char* part : {"inverted", "triangles", "min_", "mean_", "max_", "stddev_", "acceptable_"}) {
+    for (const char* part :
+         {"inverted", "degenerate", "triangles", "min_", "mean_", "max_", "stddev_", "acceptable_"}) {
       CHECK(message.find(part) != std::string::npos);
     }
   }
@@ -91,6 +94,7 @@ TEST_CASE("every name gives the number it says") {
   const QualityReport report = distinct_report();
   CHECK(gate_value("triangles", report) == 12345678);
   CHECK(gate_value("inverted", report) == 3);
+  CHECK(gate_value("degenerate", report) == 4);
   for (const auto& metric : trismooth::all_metrics()) {
     const std::string name(metric.name);
     CAPTURE(name);
@@ -110,7 +114,7 @@ TEST_CASE("min_angle and max_angle are the extreme angles of the mesh") {
 
 TEST_CASE("the list of names is complete, without repeats, and every one is taken") {
   const auto names = gate_names();
-  CHECK(names.size() == 4 + 5 * trismooth::metric_count);
+  CHECK(names.size() == 5 + 5 * trismooth::metric_count);
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   for (const std::string& name : names) {
     CAPTURE(name);
@@ -139,11 +143,24 @@ TEST_CASE("comparisons hold at the bound as they say") {
 TEST_CASE("a failed gate says what was demanded and what is") {
   QualityReport report;
   report[Metric::shape].min = 0.21343;
-  CHECK(gate_failure(parse_gate("min_shape >= 0.3"), report) == "gate failed: min_shape >= 0.3, is 0.2134");
+  CHECK(gate_failure(check_gate(parse_gate("min_shape >= 0.3"), report)) == "gate failed: min_shape >= 0.3, is 0.2134");
   report.inverted = 12345678;
-  CHECK(gate_failure(parse_gate("inverted==0"), report) == "gate failed: inverted == 0, is 12345678");
+  CHECK(gate_failure(check_gate(parse_gate("inverted==0"), report)) == "gate failed: inverted == 0, is 12345678");
   report[Metric::shape].min = 0.29999999;
-  CHECK(gate_failure(parse_gate("min_shape>=0.3"), report) == "gate failed: min_shape >= 0.3, is 0.29999999");
+  CHECK(gate_failure(check_gate(parse_gate("min_shape>=0.3"), report)) ==
+        "gate failed: min_shape >= 0.3, is 0.29999999");
+}
+
+TEST_CASE("the outcome of a gate has what was demanded, what is, and whether it passed") {
+  QualityReport report;
+  report.degenerate = 2;
+  const auto outcome = check_gate(parse_gate("degenerate==0"), report);
+  CHECK(outcome.gate.name == "degenerate");
+  CHECK(outcome.value == 2);
+  CHECK_FALSE(outcome.passed);
+  CHECK(gate_text(outcome.gate) == "degenerate == 0");
+  CHECK(gate_value_text(outcome) == "2");
+  CHECK(check_gate(parse_gate("degenerate<=2"), report).passed);
 }
 
 TEST_CASE("a value that is not a number meets no gate") {
@@ -151,9 +168,9 @@ TEST_CASE("a value that is not a number meets no gate") {
   report[Metric::shape].min = std::numeric_limits<double>::quiet_NaN();
   for (const char* gate : {"min_shape>=0", "min_shape<=0", "min_shape>0", "min_shape<0", "min_shape==0"}) {
     CAPTURE(gate);
-    const auto failure = gate_failure(parse_gate(gate), report);
-    REQUIRE(failure.has_value());
-    CHECK(failure->find("is not defined for this mesh") != std::string::npos);
+    const auto outcome = check_gate(parse_gate(gate), report);
+    CHECK_FALSE(outcome.passed);
+    CHECK(gate_failure(outcome).find("is not defined for this mesh") != std::string::npos);
   }
 }
 

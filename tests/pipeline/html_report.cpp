@@ -1,8 +1,12 @@
 #include "trismooth/pipeline/html_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/pipeline/html_text.h"
@@ -31,7 +35,7 @@ TEST_CASE("text is escaped for content and for attributes") {
 TEST_CASE("the report of a smoothing is well-formed and has all its parts") {
   const Parsed page = parse(html_report(sample::options(), sample::result()));
   REQUIRE(page.error.empty());
-  CHECK(page.count("svg") == 2);
+  CHECK(page.count("figure") == 2);
   CHECK(page.count("title") >= 1);
   for (const char* words :
        {"plate.vtk", "out.vtk", "Smallest shape", "Worst elements", "Convergence", "Options", "Time", "equiangle_skew",
@@ -63,7 +67,7 @@ TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
   options.output.reset();
   const Parsed page = parse(html_report(options, sample::quality_result()));
   REQUIRE(page.error.empty());
-  CHECK(page.count("svg") == 1);
+  CHECK(page.count("figure") == 1);
   CHECK_FALSE(page.says("Convergence"));
   CHECK_FALSE(page.says(", before"));
 }
@@ -131,6 +135,18 @@ TEST_CASE("inverted triangles are said and drawn") {
   CHECK(page.says("inverted, after: 4"));
 }
 
+TEST_CASE("degenerate triangles, gates, date and command line are said") {
+  const Parsed page = parse(html_report(sample::options(), sample::result(), sample::record()));
+  REQUIRE(page.error.empty());
+  for (const char* words :
+       {"6 triangles are without area.", "1 of 2 gates failed.", "min_shape >= 0.5", "0.35", "degenerate < 7", "passed",
+        "failed", "2026-11-22T10:05:31+01:00", "trismooth smooth plate.vtk 'a <b>.vtk'"}) {
+    CAPTURE(words);
+    CHECK(page.says(words));
+  }
+  CHECK_FALSE(parse(html_report(sample::options(), sample::result())).says("gate"));
+}
+
 TEST_CASE("the histogram has a bar for every bin that is not empty") {
   trismooth::QualityReport report;
   report.triangles = 1000001;
@@ -141,6 +157,44 @@ TEST_CASE("the histogram has a bar for every bin that is not empty") {
   CHECK(chart.count("rect") == 2);
   CHECK(chart.says("0.15 to 0.20: 1"));
   CHECK(chart.says("0.95 to 1.00: 1,000,000"));
+}
+
+TEST_CASE("the histogram is logarithmic: one element is seen beside a million, and none is seen as none") {
+  trismooth::QualityReport report;
+  report.inverted = 1;
+  for (std::size_t bin = 0; bin < 7; ++bin) {
+    report.shape_histogram[bin] = static_cast<std::int64_t>(std::llround(std::pow(10, bin)));
+  }
+  const std::string svg = trismooth::shape_histogram_svg(report, nullptr);
+  const std::regex bar_pattern(R"re(<rect [^>]* y="([\d.]+)"[^>]* height="([\d.]+)"><title>[^<]*: ([\d,]+)</title>)re");
+  std::map<std::int64_t, double> heights;
+  double bottom = 0;
+  for (std::sregex_iterator bar(svg.begin(), svg.end(), bar_pattern), end; bar != end; ++bar) {
+    std::string count = (*bar)[3];
+    std::erase(count, ',');
+    heights[std::stoll(count)] = std::stod((*bar)[2]);
+    bottom = std::stod((*bar)[1]) + std::stod((*bar)[2]);
+  }
+  REQUIRE(heights.size() == 7);  // the bins without an element have no bar, the inverted one has that of 1
+  CHECK(pages::count_of(svg, "<rect") == 8);
+  CHECK(heights[1] >= 5);
+  const double decade = heights[10] - heights[1];
+  CHECK(decade > 15);
+  for (std::int64_t count = 1; count < 1000000; count *= 10) {
+    CHECK(std::abs(heights[10 * count] - heights[count] - decade) < 0.2);
+  }
+  // The axis says so: its labels stand at the heights of the bars of that many, and 0 at the foot of all.
+  const std::regex label_pattern(R"re(<line class="grid"[^>]* y1="([\d.]+)"[^>]*/>\s*<text[^>]*>([\w.]+)</text>)re");
+  std::map<std::string, double> labels;
+  for (std::sregex_iterator label(svg.begin(), svg.end(), label_pattern), end; label != end; ++label) {
+    labels[(*label)[2]] = bottom - std::stod((*label)[1]);
+  }
+  CHECK(labels["0"] == 0);
+  for (const auto& [text, count] : {std::pair{"1", 1}, {"10", 10}, {"100", 100}, {"1K", 1000}, {"1M", 1000000}}) {
+    CAPTURE(text);
+    CHECK(std::abs(labels[text] - heights[count]) < 0.2);
+  }
+  CHECK(parse(svg).says("logarithmic"));
 }
 
 TEST_CASE("the convergence of any history can be drawn") {

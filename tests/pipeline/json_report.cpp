@@ -30,9 +30,11 @@ using Keys = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
-  const Json report = Json::parse(json_report(sample::options(), sample::result()));
-  CHECK(keys_of(report) == Keys{"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash",
-                                "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
+  const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
+  CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "gates",
+                                "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
+                                "peak_memory_bytes"});
+  CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
                                          "region_array", "components", "fixed_vertices", "free_vertices",
                                          "reoriented_triangles"});
@@ -43,7 +45,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
   for (const char* side : {"before", "after"}) {
-    CHECK(keys_of(report[side]) == Keys{"triangles", "inverted", "metrics", "histogram", "worst"});
+    CHECK(keys_of(report[side]) == Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst"});
     CHECK(keys_of(report[side]["metrics"]) == Keys{"shape", "area", "min_angle", "max_angle", "aspect_ratio",
                                                    "radius_ratio", "edge_ratio", "condition", "scaled_jacobian",
                                                    "equiangle_skew"});
@@ -96,6 +98,24 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["timings_ms"]["write"] == 9.5);
   CHECK(report["timings_ms"]["total"] == 50);
   CHECK(report["peak_memory_bytes"] == 987654321);
+}
+
+TEST_CASE("the JSON report holds when and by what command, and how the gates went") {
+  auto record = sample::record();
+  record.gates.push_back({{"max_shape", trismooth::Comparison::equal, 1}, std::nan(""), false});
+  const Json report = Json::parse(json_report(sample::options(), sample::result(), record));
+  CHECK(report["date"] == "2026-11-22T10:05:31+01:00");
+  CHECK(report["command"] == "trismooth smooth plate.vtk 'a <b>.vtk'");
+  REQUIRE(report["gates"].size() == 3);
+  CHECK(report["gates"][0]["gate"] == "min_shape >= 0.5");
+  CHECK(report["gates"][0]["name"] == "min_shape");
+  CHECK(report["gates"][0]["comparison"] == ">=");
+  CHECK(report["gates"][0]["bound"] == 0.5);
+  CHECK(report["gates"][0]["value"] == 0.35);
+  CHECK(report["gates"][0]["passed"] == false);
+  CHECK(report["gates"][1]["passed"] == true);
+  CHECK(report["gates"][2]["value"].is_null());
+  CHECK(report["before"]["degenerate"] == 6);
 }
 
 TEST_CASE("the JSON report of a run on a device says how it ran") {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/run_record.h"
 
 /// A run with a different value in every field, for tests of reports.
 namespace sample {
@@ -10,6 +11,7 @@ namespace sample {
 inline trismooth::QualityReport quality(double offset) {
   trismooth::QualityReport report;
   report.triangles = 210;
+  report.degenerate = 6;
   for (std::size_t i = 0; i < report.metrics.size(); ++i) {
     const double base = offset + static_cast<double>(i);
     report.metrics[i] = {base + 0.1, base + 0.2, base + 0.3, base + 0.4, base / 100};
@@ -54,6 +56,16 @@ inline trismooth::PipelineResult result() {
   result.timings_ms = {1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 50};
   result.peak_memory_bytes = 987654321;
   return result;
+}
+
+/// Two gates, of which one failed.
+inline trismooth::RunRecord record() {
+  trismooth::RunRecord record;
+  record.command = "trismooth smooth plate.vtk 'a <b>.vtk'";
+  record.date = "2026-11-22T10:05:31+01:00";
+  record.gates = {{{"min_shape", trismooth::Comparison::at_least, 0.5}, 0.35, false},
+                  {{"degenerate", trismooth::Comparison::below, 7}, 6, true}};
+  return record;
 }
 
 /// The same of a run on a device, in the paper's literal version.

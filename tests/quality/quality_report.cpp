@@ -273,13 +273,41 @@ TEST_CASE("shape 1 counts in the last bin, shape 0 in the first, inverted triang
     const QualityReport report = quality_report(mesh.view());
     CHECK(report.shape_histogram.front() == 1);
     CHECK(report.inverted == 0);
+    CHECK(report.degenerate == 1);
     CHECK(report[Metric::condition].max == std::numeric_limits<double>::infinity());
   }
   SECTION("inverted") {
     mesh.triangles = {{0, 2, 1}};
     const QualityReport report = quality_report(mesh.view());
     CHECK(report.inverted == 1);
+    CHECK(report.degenerate == 0);
     CHECK(std::count(report.shape_histogram.begin(), report.shape_histogram.end(), 0) == 20);
+  }
+}
+
+TEST_CASE("triangles without area are counted, however many blocks and threads there are") {
+  Mesh mesh = random_mesh(5000);
+  const auto degenerate = static_cast<std::int32_t>(mesh.points.size());
+  // On one point, on one line in either order of corners, and too small for any area to be told.
+  mesh.points.insert(mesh.points.end(),
+                     {{0.5, 0.5}, {0.5, 0.5}, {0.75, 0.75}, {1, 1}, {0, 0}, {1e-170, 0}, {0, 1e-170}});
+  const Triangle offsets[] = {{0, 1, 2}, {0, 2, 3}, {3, 2, 0}, {4, 5, 6}};
+  for (std::size_t i = 0; i < 1300; ++i) {
+    Triangle triangle = offsets[i % 4];
+    for (std::int32_t& corner : triangle) {
+      corner += degenerate;
+    }
+    mesh.triangles.insert(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * i), triangle);
+  }
+  mesh.reversed.assign(mesh.triangles.size(), 0);
+  for (const int threads : {1, 2}) {
+    const QualityReport report = quality_report(mesh.view(), {threads, 10});
+    CHECK(report.degenerate == 1300);
+    std::int64_t others = report.inverted;
+    for (const std::int64_t count : report.shape_histogram) {
+      others += count;
+    }
+    CHECK(others == report.triangles);
   }
 }
 

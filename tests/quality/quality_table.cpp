@@ -165,7 +165,7 @@ TEST_CASE("reports with inverted triangles only, and with none at all") {
   report.shape_histogram = {};
   report.inverted = report.triangles;
   CHECK(words_after(format_table(report), "below 0").size() == 2);
-  CHECK(format_table(QualityReport{}) == "triangles   0\ninverted    0\n");
+  CHECK(format_table(QualityReport{}) == "triangles    0\ninverted     0\ndegenerate   0\n");
   const QualityReport empty;
   CHECK(contains(format_table(empty, &empty), "before"));
 }

@@ -1,0 +1,172 @@
+"""Annotations: right values, replaced by a later run, never taken for input; a file's own arrays stay."""
+
+import os
+
+import mesh_reader
+import planar_geometry
+import sample_meshes
+import tool
+
+WRONG_USAGE, NOT_WRITTEN = 2, 4
+PREFIX = "trismooth:"
+
+
+def samples():
+    grid = sample_meshes.Grid(others=True)
+    return {"a.vtk": sample_meshes.legacy_vtk(grid), "b.vtk": sample_meshes.legacy_vtk(grid, True, "5.1", True),
+            "a.vtu": sample_meshes.vtu(grid, "appended raw", compressed=True), "a.vtp": sample_meshes.vtp(grid)}
+
+
+def extension(name):
+    return os.path.splitext(name)[1]
+
+
+class Annotations(tool.ToolTest):
+
+    def mesh(self, name):
+        return mesh_reader.read(self.path(name))
+
+    def assert_own_arrays_stay(self, before, after):
+        """Of everything that is no annotation, nothing is gone, new or changed."""
+        for table in ("cell_arrays", "point_arrays"):
+            own = {name: rows for name, rows in getattr(after, table).items() if not name.startswith(PREFIX)}
+            self.assertEqual(own, {name: rows for name, rows in getattr(before, table).items()
+                                   if not name.startswith(PREFIX)})
+        self.assertEqual(after.cells, before.cells)
+
+    def assert_annotated(self, mesh, cells, points):
+        for table, names in ((mesh.cell_arrays, cells), (mesh.point_arrays, points)):
+            self.assertEqual({name for name in table if name.startswith(PREFIX)}, {PREFIX + name for name in names})
+
+    def test_smoothing_shows_before_and_after(self):
+        for name, content in samples().items():
+            with self.subTest(name):
+                self.write(name, content)
+                output = "out" + extension(name)
+                report = self.report("smooth", name, output, "--annotate", "--annotate-metrics", "shape,min_angle")
+                before, after = self.mesh(name), self.mesh(output)
+                self.assert_own_arrays_stay(before, after)
+                self.assert_annotated(after, {"shape", "shape_before", "min_angle", "min_angle_before"},
+                                      {"fixed", "displacement"})
+                fixed = planar_geometry.fixed_vertices(before)
+                self.assertEqual([flag for flag, in after.point_arrays[PREFIX + "fixed"]],
+                                 [int(v in fixed) for v in range(len(before.points))])
+                for p, q, d in zip(before.points, after.points, after.point_arrays[PREFIX + "displacement"]):
+                    self.assertEqual(d, tuple(b - a for a, b in zip(p, q)))
+                triangles = {cell for cell, _ in after.triangles()}
+                for metric in ("shape", "min_angle"):
+                    for stage, suffix in (("before", "_before"), ("after", "")):
+                        rows = after.cell_arrays[PREFIX + metric + suffix]
+                        self.assertEqual({value for cell, (value,) in enumerate(rows) if cell not in triangles}, {0})
+                        self.assertAlmostEqual(min(rows[cell][0] for cell in triangles),
+                                               report[stage]["metrics"][metric]["min"], places=12)
+
+    def test_quality_writes_the_mesh_as_it_is_with_what_was_found(self):
+        for name, content in samples().items():
+            with self.subTest(name):
+                self.write(name, content)
+                output = "out" + extension(name)
+                report = self.report("quality", name, "--annotate", output, "--annotate-metrics", "max_angle,shape")
+                before, after = self.mesh(name), self.mesh(output)
+                self.assertEqual(after.points, before.points)
+                self.assert_own_arrays_stay(before, after)
+                self.assert_annotated(after, {"max_angle", "shape"}, {"fixed"})
+                self.assertEqual(max(value for value, in after.cell_arrays[PREFIX + "max_angle"]),
+                                 report["before"]["metrics"]["max_angle"]["max"])
+                self.assertEqual(sum(flag for flag, in after.point_arrays[PREFIX + "fixed"]),
+                                 report["input"]["fixed_vertices"])
+                self.assertIsNone(report["after"])
+                self.assertEqual(report["options"]["output"], output)
+
+    def test_annotating_again_replaces_what_was_written_before(self):
+        for name, content in samples().items():
+            with self.subTest(name):
+                self.write(name, content)
+                kind = extension(name)
+                once, twice, other = f"once{kind}", f"twice{kind}", f"other{kind}"
+                self.run_tool("quality", name, "--annotate", once)
+                self.run_tool("smooth", name, other, "--annotate", "--annotate-metrics", "area,condition", "--method",
+                              "laplacian", "--max-sweeps", "0", "--tolerance", "1e9")
+                self.run_tool("quality", once, "--annotate", twice)
+                self.assertEqual(self.read(twice), self.read(once))
+                self.run_tool("quality", other, "--annotate", twice, "--annotate-metrics", "edge_ratio")
+                self.assert_own_arrays_stay(self.mesh(name), self.mesh(twice))
+                self.assert_annotated(self.mesh(twice), {"edge_ratio"}, {"fixed"})
+                # In another format, too.
+                for target in ("converted.vtk", "converted.vtu"):
+                    self.run_tool("quality", other, "--annotate", target, "--quiet")
+                    self.assert_annotated(self.mesh(target), {"shape"}, {"fixed"})
+
+    def test_a_run_on_annotated_output_is_one_on_the_plain_output(self):
+        for name, content in samples().items():
+            with self.subTest(name):
+                self.write(name, content)
+                kind = extension(name)
+                self.run_tool("smooth", name, f"plain{kind}", "--max-sweeps", "2")
+                self.run_tool("smooth", name, f"annotated{kind}", "--max-sweeps", "2", "--annotate",
+                              "--annotate-metrics", "shape,area,edge_ratio")
+                plain = self.report("smooth", f"plain{kind}", f"plain_out{kind}")
+                annotated = self.report("smooth", f"annotated{kind}", f"annotated_out{kind}")
+                for key in ("coordinates_hash", "before", "after"):
+                    self.assertEqual(annotated[key], plain[key])
+                self.assertEqual({**annotated["input"], "path": ""}, {**plain["input"], "path": ""})
+
+    def test_arrays_of_the_user_with_such_names_stay_and_are_obeyed(self):
+        grid = sample_meshes.Grid()
+        count, cells, held = len(grid.points), len(grid.cells), 4 * 9 + 3  # within the plate, off its boundary
+        of_cells = ["FIELD own 2", f"shape 1 {cells} int", *["7"] * cells, f"shape_before 1 {cells} int",
+                    *["8"] * cells, "POINT_DATA"]
+        of_points = ["FIELD own 2", f"fixed 1 {count} int", *[str(int(v == held)) for v in range(count)],
+                     f"displacement 1 {count} int", *["9"] * count, ""]
+        self.write("own.vtk", sample_meshes.legacy_vtk(grid).replace(b"POINT_DATA", "\n".join(of_cells).encode()) +
+                   "\n".join(of_points).encode())
+        self.run_tool("smooth", "own.vtk", "once.vtk", "--annotate")
+        self.run_tool("smooth", "once.vtk", "twice.vtk", "--annotate")
+        before, once, twice = map(self.mesh, ("own.vtk", "once.vtk", "twice.vtk"))
+        for after in (once, twice):
+            self.assert_own_arrays_stay(before, after)
+            self.assert_annotated(after, {"shape", "shape_before"}, {"fixed", "displacement"})
+            self.assertEqual({*after.cell_arrays["shape"]}, {(7,)})
+            self.assertEqual(after.points[held], before.points[held])
+            self.assertEqual(after.point_arrays[PREFIX + "fixed"][held], (1,))
+
+    def test_annotations_that_a_run_keeps_are_said(self):
+        self.write("a.vtk", samples()["a.vtk"])
+        self.run_tool("smooth", "a.vtk", "b.vtk", "--annotate")
+        outcome = self.run_tool("smooth", "b.vtk", "c.vtk", "--verbose")
+        self.assertIn("trismooth:shape_before", outcome.err)
+        self.assert_annotated(self.mesh("c.vtk"), {"shape", "shape_before"}, {"fixed", "displacement"})
+
+    def test_what_is_infinite_is_as_verdict_has_it_and_every_reader_reads_it(self):
+        self.write("flat.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n2 0 0\n2 2 0\n0 2 0\n3 0 1 2\n3 0 1 4\n3 1 3 4\n3 1 2 3\n")
+        self.run_tool("quality", "flat.off", "--annotate", "flat.vtk", "--annotate-metrics",
+                      "shape,aspect_ratio,condition,area")
+        cells = self.mesh("flat.vtk").cell_arrays
+        self.assertEqual([cells[PREFIX + name][0][0] for name in ("shape", "aspect_ratio", "condition", "area")],
+                         [0, 1e30, 1e30, 0])
+        self.assertEqual(cells[PREFIX + "area"][2][0], 2)
+
+    def test_a_place_that_holds_no_arrays_or_cannot_be_written_is_told_before_the_work(self):
+        self.write("a.vtk", samples()["a.vtk"])
+        outcome = self.run_tool("quality", "a.vtk", "--annotate", "b.off", expect=WRONG_USAGE)
+        self.assertRegex(outcome.err, r"b\.off.*no arrays.*\.vtu")
+        self.run_tool("quality", "a.vtk", "--annotate", "no/such/folder.vtu", expect=NOT_WRITTEN)
+        self.run_tool("quality", "a.vtk", "--annotate", "b.xyz", expect=NOT_WRITTEN)
+        self.run_tool("quality", "a.vtk", "--annotate-metrics", "shape", expect=WRONG_USAGE)
+        for text in ("size", "shape,shape", "", "shape,"):
+            outcome = self.run_tool("smooth", "a.vtk", "b.vtk", "--annotate", f"--annotate-metrics={text}",
+                                    expect=WRONG_USAGE)
+            self.assertIn("--annotate-metrics", outcome.err)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.vtk"])
+
+    def test_the_input_may_be_annotated_in_place(self):
+        self.write("a.vtk", samples()["a.vtk"])
+        before = self.mesh("a.vtk")
+        for _ in range(2):
+            self.run_tool("quality", "a.vtk", "--annotate", "a.vtk")
+        self.assert_own_arrays_stay(before, self.mesh("a.vtk"))
+        self.assert_annotated(self.mesh("a.vtk"), {"shape"}, {"fixed"})
+
+
+if __name__ == "__main__":
+    tool.main()
