@@ -211,6 +211,9 @@ std::string format_summary(const QualityReport& before, const QualityReport& aft
                      cell_text(from.mean, digits), cell_text(to.mean, digits), std::string(verdict(metric, from, to))});
   }
   columns.add_row({"inverted", count_text(before.inverted), count_text(after.inverted)});
+  if (before.degenerate > 0 || after.degenerate > 0) {
+    columns.add_row({"degenerate", count_text(before.degenerate), count_text(after.degenerate)});
+  }
   return columns.text({{1, 2, "worst"}, {3, 4, "mean"}});
 }
 

@@ -12,7 +12,7 @@ namespace trismooth {
 std::string format_table(const QualityReport& before, const QualityReport* after = nullptr);
 
 /// The least that tells whether a smoothing was good, as such a table of a few lines: the worst value and the mean of
-/// shape and angles, before and after, and the inverted triangles.
+/// shape and angles, before and after, the inverted triangles, and the degenerate ones if there are any.
 std::string format_summary(const QualityReport& before, const QualityReport& after);
 
 }  // namespace trismooth

@@ -221,6 +221,8 @@ TEST_CASE("the summary has the worst value and the mean of shape and angles, and
   CHECK(words_after(summary, "max_angle") == Words{"170.000", "160.000", "70.000", "65.000", "better"});
   CHECK(words_after(summary, "inverted") == Words{"1,234", "0"});
   CHECK(lines_of(summary).size() == 6);
+  before.degenerate = 5;
+  CHECK(words_after(format_summary(before, after), "degenerate") == Words{"5", "0"});
   after[Metric::shape].min = before[Metric::shape].min + 1e-7;
   CHECK(words_after(format_summary(before, after), "shape")[0] !=
         words_after(format_summary(before, after), "shape")[1]);
