@@ -1,3 +1,4 @@
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/file_bytes.h"
 #include "trismooth/mesh_io/planar_mesh.h"
 #include "trismooth/mesh_io/text_scanner.h"
@@ -9,6 +10,9 @@ std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std
   TextScanner scanner(bytes, path, TextScanner::Comments::hash);
   std::vector<std::int32_t> ids;
   while (!scanner.at_end()) {
+    if (vertex_count == 0) {
+      throw ReadError(path, "names vertices, but the mesh has none; leave the file out");
+    }
     ids.push_back(static_cast<std::int32_t>(scanner.next_integer("a vertex number", 0, vertex_count - 1)));
   }
   return ids;

@@ -25,6 +25,7 @@
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/output_attempts.h"
+#include "trismooth/pipeline/printable_text.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/pipeline/report_format.h"
 #include "trismooth/pipeline/subcommands.h"
@@ -36,7 +37,6 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t least_vertices = 4;
 constexpr int most_runs = 1000;
 
 struct BenchSettings {
@@ -53,15 +53,8 @@ BenchReportWriter bench_writer_of(const std::filesystem::path& path) {
   return writer_for<BenchReportWriter>(path, formats);
 }
 
-/// "1K", "50k", "2M" or plain digits.
 std::int64_t parse_size(std::string_view text) {
-  std::int64_t factor = 1;
-  if (!text.empty()) {
-    const char last = text.back();
-    factor = last == 'K' || last == 'k' ? 1'000 : last == 'M' || last == 'm' ? 1'000'000 : 1;
-  }
-  const std::string_view digits = factor > 1 ? text.substr(0, text.size() - 1) : text;
-  return factor * parse_integer(digits, (least_vertices + factor - 1) / factor, max_random_mesh_vertices / factor);
+  return parse_count(text, least_random_mesh_vertices, max_random_mesh_vertices);
 }
 
 /// The parts of "a,b,c", each parsed; every value counts once.
@@ -136,12 +129,12 @@ std::string command_text(const BenchSettings& settings) {
 bench::ExperimentResult run_watched(bench::ExperimentOptions options, const CudaSupport& cuda,
                                     const CommandEnvironment& environment) {
   std::optional<TerminalLine> line;
-  if (environment.err_is_terminal) {
-    line.emplace(environment.err);
+  if (environment.terminal.stream != nullptr) {
+    line.emplace(environment.terminal);
     options.progress = [&line, runs = options.runs](const bench::ExperimentProgress& progress) {
       // Between long runs the line must say what goes on now; between short ones it may lag.
-      const std::string text = bench::progress_text(progress, runs);
-      progress.run == 0 ? line->draw(text) : line->draw_now_and_then(text);
+      TerminalLine::Pieces pieces = bench::progress_pieces(progress, runs);
+      progress.run == 0 ? line->draw(std::move(pieces)) : line->draw_now_and_then(std::move(pieces));
     };
   }
   return bench::run_experiment(options, cuda);
@@ -160,7 +153,7 @@ bool write_results(const bench::Report& report, const std::vector<std::filesyste
   bool all = true;
   for (const std::filesystem::path& path : paths) {
     if (could_write(path, environment.err, [&] { write_report_text(path, bench_writer_of(path)(report)); })) {
-      environment.out << "report: " << path.string() << '\n' << std::flush;
+      environment.out << "report: " << printable(path.string()) << '\n' << std::flush;
     } else {
       all = false;
     }
@@ -204,17 +197,15 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
   const auto settings = std::make_shared<BenchSettings>();
   bench::ExperimentOptions& options = settings->experiment;
   CLI::App& command = *app.add_subcommand("bench", "Repeat the paper's experiments on this machine");
-  add_parsed_option(
-      command, "--sizes", "N,N,...",
-      "Vertices of the meshes, with K and M for thousands and\nmillions [1K,5K,10K,50K,100K, the paper's]",
-      [&options](const std::string& text) { options.sizes = parse_list(text, &parse_size); });
+  add_parsed_option(command, "--sizes", "N,N,...",
+                    "Vertices of the meshes, with K and M for thousands and millions [1K,5K,10K,50K,100K, the paper's]",
+                    [&options](const std::string& text) { options.sizes = parse_list(text, &parse_size); });
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; single is the paper's");
   add_parsed_option(
       command, "--versions", "V,V,...",
-      "Of " + alternatives<bench::Version>() +
-          ": the paper's\nserial program, the CPU backend, the paper's GPU and\n"
-          "CDP versions, the resident version [all]",
-      [&options](const std::string& text) { options.versions = parse_list(text, &parse_enum<bench::Version>); });
+      "Of " + valid_texts<bench::Version>() +
+          ": the paper's serial program, the CPU backend, the paper's GPU and CDP versions, the resident version [all]",
+      [&options](const std::string& text) { options.versions = parse_list(text, &parse_choice<bench::Version>); });
   add_parsed_option(command, "--runs", "N", "Runs of each, one more to warm up [7]",
                     [&options](const std::string& text) { options.runs = parse_integer(text, 1, most_runs); });
   add_parsed_option(command, "--seconds", "S", "Fewer runs where they would take longer together [20]",
@@ -225,7 +216,7 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
   add_parsed_option(command, "--threads", "N", "Of the optimised CPU version [one a core]",
                     [&options](const std::string& text) { options.threads = parse_integer(text, 0, most_threads()); });
   add_enum_option(command, "--backend", settings->backend,
-                  "auto: the versions for a GPU where there is one; cpu:\nwithout them; cuda: not without them");
+                  "auto: the versions for a GPU where there is one; cpu: without them; cuda: not without them");
   constexpr bool repeatable = true;
   add_parsed_option(
       command, "--report", "FILE", "Write a report: FILE.json, FILE.csv or FILE.html. Repeatable",

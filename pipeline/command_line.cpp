@@ -20,10 +20,13 @@
 #include "trismooth/mesh_io/silence_vtk.h"
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
+#include "trismooth/pipeline/help_formatter.h"
 #include "trismooth/pipeline/interrupt.h"
 #include "trismooth/pipeline/output_attempts.h"
+#include "trismooth/pipeline/printable_stream.h"
 #include "trismooth/pipeline/shell_words.h"
 #include "trismooth/pipeline/subcommands.h"
+#include "trismooth/pipeline/usage_message.h"
 #include "trismooth/pipeline/version.h"
 
 namespace trismooth {
@@ -31,9 +34,9 @@ namespace trismooth {
 namespace {
 
 constexpr const char* description =
-    "trismooth improves planar triangle meshes for finite elements by Smart Laplacian smoothing.\n"
-    "Boundaries and material interfaces do not move, no element gets worse than the worst one touched,\n"
-    "and everything else in the file stays as it is.";
+    "trismooth improves planar triangle meshes for finite elements by Smart Laplacian smoothing. Boundaries and "
+    "material interfaces do not move, no element gets worse than the worst one touched, and everything else in the "
+    "file stays as it is.";
 
 constexpr const char* help_footer =
     "Examples:\n"
@@ -43,46 +46,9 @@ constexpr const char* help_footer =
     "\n"
     "'trismooth COMMAND --help' lists a command's options.\n"
     "\n"
-    "Exit codes: 0 done; 1 a --require failed, or bench found other bits; 2 wrong usage; 3 the input cannot be used;\n"
-    "4 the output cannot be written; 5 CUDA error or no device; 130 cancelled.";
-
-constexpr std::size_t help_column = 34;
-
-/// Help with a blank line between its parts, never two, and a required argument not marked as such: its place among the
-/// others says it.
-class HelpFormatter : public CLI::Formatter {
- public:
-  HelpFormatter() {
-    column_width(help_column);
-    label("SUBCOMMAND", "COMMAND");
-    label("Positionals", "Arguments");
-    label("REQUIRED", "");
-  }
-  std::string make_usage(const CLI::App* app, std::string name) const override {
-    return '\n' + Formatter::make_usage(app, std::move(name));
-  }
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    std::string help = Formatter::make_help(app, std::move(name), mode);
-    for (std::size_t at = help.find("\n\n\n"); at != std::string::npos; at = help.find("\n\n\n", at)) {
-      help.erase(at, 1);
-    }
-    help.erase(help.find_last_not_of('\n') + 1);
-    return help + '\n';
-  }
-};
-
-/// The parser's message, or a better one where it would not help.
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-  std::string message = error.what();
-  if (app.get_subcommands().empty()) {
-    const auto rest = app.remaining();
-    return rest.empty() ? "no command given" : "unknown command '" + rest.front() + "'";
-  }
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
-    return message.substr(0, message.find(':')) + ": expected one value, and to be given once";
-  }
-  return message;
-}
+    "Exit codes: 0 done; 1 a --require failed, or bench found other bits; 2 wrong\n"
+    "usage; 3 the input cannot be used; 4 the output cannot be written; 5 CUDA error\n"
+    "or no device; 130 cancelled.";
 
 std::string help_hint(const CLI::App& app) {
   std::string command = app.get_name();
@@ -147,9 +113,12 @@ void reserve_memory_for_the_end() {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment) {
+int run_command_line(int argc, const char* const* argv, const CommandEnvironment& given) {
+  PrintableStream out(given.out);
+  PrintableStream err(given.err);
+  const CommandEnvironment environment{out, err, given.terminal, given.run, given.cuda};
   CLI::App app(description, "trismooth");
-  app.set_version_flag("--version", "trismooth " + std::string(version()), "Print the version and exit");
+  app.set_version_flag("--version,-V", "trismooth " + std::string(version()), "Print the version and exit");
   app.set_help_flag("--help,-h", "Print this help and exit");
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
@@ -173,7 +142,11 @@ int run_command_line(int argc, const char* const* argv) {
   // A file that gets larger than allowed (ulimit -f) is then an error like a full disk, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   end_on_interrupt();
-  return run_command_line(argc, argv, {std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0});
+  Terminal terminal;
+  if (::isatty(STDERR_FILENO) != 0) {
+    terminal = {&std::cerr, [] { return terminal_columns(STDERR_FILENO); }};
+  }
+  return run_command_line(argc, argv, {std::cout, std::cerr, terminal});
 }
 
 }  // namespace trismooth

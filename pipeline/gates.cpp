@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/number_text.h"
+#include "trismooth/pipeline/suggestion.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {
@@ -119,8 +120,8 @@ double gate_value(std::string_view name, const QualityReport& report) {
   }
   throw std::invalid_argument(
       fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, min_angle, max_angle, and one of {} "
-                  "before one of {}",
-                  name, prefixes, metric_names()));
+                  "before one of {}{}",
+                  name, prefixes, metric_names(), did_you_mean(name, gate_names())));
 }
 
 Gate parse_gate(std::string_view text) {

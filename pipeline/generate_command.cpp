@@ -3,16 +3,20 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/output_file.h"
+#include "trismooth/pipeline/labelled_line.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/random_mesh.h"
 #include "trismooth/pipeline/subcommands.h"
+#include "trismooth/pipeline/terminal_line.h"
 
 namespace trismooth {
 
@@ -45,10 +49,23 @@ void try_output(const std::filesystem::path& output) {
 
 ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
   try_output(settings.output);
+  std::optional<TerminalLine> line;
+  const auto show = [&](std::string_view stage) {
+    if (line) {
+      line->draw({std::string(stage), " ..."});
+    }
+  };
+  if (environment.terminal.stream != nullptr) {
+    line.emplace(environment.terminal);
+  }
+  show("making the mesh");
   const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed);
+  show("writing");
   write_mesh(settings.output, to_document(mesh));
-  environment.out << fmt::format("generated:  {} vertices, {} triangles, seed {}\nwritten:    {}\n", mesh.points.size(),
-                                 mesh.triangles.size(), settings.seed, settings.output.string());
+  line.reset();
+  environment.out << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
+                                                             mesh.triangles.size(), settings.seed))
+                  << labelled_line("written:", settings.output.string());
   return ExitCode::done;
 }
 
@@ -70,9 +87,11 @@ Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environ
   add_parsed_option(command, "OUTPUT", "", "Mesh to write; its extension names the format",
                     [settings](const std::string& text) { settings->output = text; })
       ->required();
-  add_parsed_option(command, "--vertices", "N", "Number of vertices, at least 4; points are uniformly random",
+  add_parsed_option(command, "--vertices", "N",
+                    "Number of vertices, with K and M for thousands and millions, at least 4; points are uniformly "
+                    "random",
                     [settings](const std::string& text) {
-                      settings->vertices = parse_integer(text, std::int64_t{4}, max_random_mesh_vertices);
+                      settings->vertices = parse_count(text, least_random_mesh_vertices, max_random_mesh_vertices);
                     })
       ->required();
   add_parsed_option(command, "--seed", "S", "Another seed gives another mesh, the same seed the same [1]",

@@ -215,7 +215,10 @@ std::string worst_table(std::string_view title, const QualityReport& report) {
   for (const WorstElement& element : report.worst) {
     html += "<tr>" + html_cell(std::to_string(element.triangle)) +
             html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
-            html_cell(fmt::format("{:.7g}, {:.7g}", element.centroid.x, element.centroid.y), "text") + "</tr>\n";
+            html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
+                                  element.all_fixed ? "<small>all corners fixed</small>" : ""),
+                      "text") +
+            "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }

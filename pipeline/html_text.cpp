@@ -1,12 +1,15 @@
 #include "trismooth/pipeline/html_text.h"
 
+#include "trismooth/pipeline/printable_text.h"
+
 namespace trismooth {
 
 std::string escape_html(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
+  while (!text.empty()) {
+    const TextPiece piece = first_piece(text);
+    switch (piece.bytes.front()) {
       case '&':
         escaped += "&amp;";
         break;
@@ -22,13 +25,14 @@ std::string escape_html(std::string_view text) {
       case '\'':
         escaped += "&#39;";
         break;
+      case '\t':
+      case '\n':
+        escaped += ' ';
+        break;
       default:
-        if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f) {
-          escaped += c == '\t' || c == '\n' ? " " : "\xef\xbf\xbd";
-        } else {
-          escaped += c;
-        }
+        escaped += piece.is_harmless ? piece.bytes : std::string_view("\xef\xbf\xbd");
     }
+    text.remove_prefix(piece.bytes.size());
   }
   return escaped;
 }

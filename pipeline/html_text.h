@@ -5,8 +5,8 @@
 
 namespace trismooth {
 
-/// The text as HTML shows it literally, in content and in attribute values alike. Control characters, which no page may
-/// hold, become U+FFFD.
+/// The text as HTML shows it literally, in content and in attribute values alike. What is not harmless (see
+/// printable_text.h) becomes U+FFFD: no page may hold control characters, nor bytes that are no UTF-8.
 std::string escape_html(std::string_view text);
 
 }  // namespace trismooth

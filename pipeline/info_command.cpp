@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -6,6 +8,7 @@
 
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/cuda_support.h"
+#include "trismooth/pipeline/labelled_line.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/version.h"
 
@@ -42,15 +45,26 @@ std::string compiler() {
 #endif
 }
 
+std::string wrapped_lines(const std::string& lines) {
+  std::string text;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = std::min(line.find(':'), line.size() - 1);
+    const std::size_t value = std::min(line.find_first_not_of(' ', colon + 1), line.size());
+    text += labelled_line(line.substr(0, colon + 1), line.substr(value));
+  }
+  return text;
+}
+
 ExitCode run_info(const CommandEnvironment& environment) {
   const CudaSupport cuda = environment.cuda();
   const unsigned threads = std::thread::hardware_concurrency();
   environment.out << "trismooth " << version() << '\n'
-                  << "formats:    " << format_list() << " (all are read and written)\n"
-                  << "compiler:   " << compiler() << '\n'
-                  << "SIMD:       " << simd_level() << '\n'
-                  << "threads:    " << threads << '\n'
-                  << (cuda.backend != nullptr ? cuda.lines() : "CUDA:       not in this build\n");
+                  << labelled_line("formats:", format_list() + " (all are read and written)")
+                  << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
+                  << labelled_line("threads:", std::to_string(threads))
+                  << (cuda.backend != nullptr ? wrapped_lines(cuda.lines())
+                                              : labelled_line("CUDA:", "not in this build"));
   return ExitCode::done;
 }
 

@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/interrupt.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -26,10 +27,11 @@ std::atomic<bool> leaving{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
 
 void leave(std::string_view words) {
-  if (on_terminal) {
-    [[maybe_unused]] const ssize_t cleared = ::write(STDERR_FILENO, clear_line.data(), clear_line.size());
-  }
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
+  // In one piece, or the clock of the progress could come in between.
+  std::array<char, 128> text{};
+  const std::string_view first = on_terminal ? clear_line : std::string_view();
+  std::copy(words.begin(), words.end(), std::copy(first.begin(), first.end(), text.begin()));
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), first.size() + words.size());
   _exit(static_cast<int>(ExitCode::cancelled));
 }
 

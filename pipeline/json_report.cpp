@@ -114,7 +114,8 @@ Json quality_json(const QualityReport& report) {
   for (const WorstElement& element : report.worst) {
     worst.push_back({{"cell", element.triangle},
                      {"shape", number_json(element.shape)},
-                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})}});
+                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
+                     {"all_fixed", element.all_fixed}});
   }
   return {{"triangles", report.triangles},
           {"inverted", report.inverted},

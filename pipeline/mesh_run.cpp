@@ -15,6 +15,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/pipeline/annotations.h"
+#include "trismooth/pipeline/labelled_line.h"
 #include "trismooth/pipeline/messages.h"
 #include "trismooth/pipeline/option_parsing.h"
 #include "trismooth/pipeline/output_attempts.h"
@@ -31,12 +32,12 @@ namespace trismooth {
 namespace {
 
 std::string sweep_line(const SweepRecord& record) {
-  std::string line = fmt::format("sweep {}: {} evaluated, {} moved, largest move {:.3g} of the edge length",
-                                 record.sweep, record.evaluated, record.moved, record.max_relative_move);
+  std::string line = fmt::format("sweep {}: {} evaluated, {} moved, largest move {:.3g} edges", record.sweep,
+                                 record.evaluated, record.moved, record.max_relative_move);
   if (!std::isnan(record.min_shape)) {
     line += fmt::format(", smallest shape {:.6g}", record.min_shape);
   }
-  return line;
+  return wrapped(line, "", "  ");
 }
 
 std::string timings_line(const PipelineTimings& timings) {
@@ -46,7 +47,7 @@ std::string timings_line(const PipelineTimings& timings) {
       line += fmt::format(" {} {},", name, duration_text(milliseconds));
     }
   }
-  return line + fmt::format(" total {}", duration_text(timings.total));
+  return wrapped(line + fmt::format(" total {}", duration_text(timings.total)), "", "  ");
 }
 
 /// What is lost is said in full; of other notes there may be many.
@@ -98,8 +99,8 @@ std::size_t report_bytes(const PipelineResult& result) {
 /// Runs the pipeline while it shows the progress.
 PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
   std::optional<ProgressBar> bar;
-  if (environment.err_is_terminal && verbosity == Verbosity::normal) {
-    bar.emplace(environment.err);
+  if (environment.terminal.stream != nullptr && verbosity == Verbosity::normal) {
+    bar.emplace(environment.terminal, options.smoothing.max_sweeps);
   }
   options.stage_started = [&bar](Stage stage) {
     if (bar) {
@@ -121,7 +122,7 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
       bar->sweep_done(record);
     }
     if (verbosity == Verbosity::verbose) {
-      environment.err << sweep_line(record) + '\n';  // at once: another line must not come in between
+      environment.err << sweep_line(record);  // at once: another line must not come in between
     }
     return Progress::proceed;
   };
@@ -143,14 +144,12 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
   constexpr bool repeatable = true;
   add_parsed_option(
       command, "--region-array", "NAME",
-      "Cell array that gives regions; vertices between two\n"
-      "regions are fixed. Repeatable; none: there are no\n"
-      "regions [arrays known by their name, as region or\n"
-      "gmsh:physical, and those that look like regions]",
+      "Cell array that gives regions; vertices between two regions are fixed. Repeatable; none: there are no regions "
+      "[arrays known by their name, as region or gmsh:physical, and those that look like regions]",
       [&options](const std::string& text) { options.region_arrays.push_back(text); }, repeatable)
       ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-array", "NAME",
-                    "Point array; where it is not 0, the vertex is fixed\n[fixed, if the file has it]",
+                    "Point array; where it is not 0, the vertex is fixed [fixed, if the file has it]",
                     [&options](const std::string& text) { options.fixed_array = text; })
       ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
@@ -175,10 +174,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       ->group(option_group::results);
   add_parsed_option(
       command, "--require", "'NAME>=X'",
-      "Exit with 1 if the result misses this. Compares by\n"
-      ">= <= > < ==; names: min_angle, max_angle, inverted,\n"
-      "degenerate, triangles, and min_, mean_, max_, stddev_\n"
-      "or acceptable_ before a metric: min_shape. Repeatable",
+      "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
+      "degenerate, triangles, and min_, mean_, max_, stddev_ or acceptable_ before a metric: min_shape. Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
       ->group(option_group::results);
   const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
@@ -190,13 +187,14 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
     };
     command.add_flag_callback(name, choose, help)->group(option_group::results);
   };
-  add_verbosity_flag("--quiet", Verbosity::quiet, "Print errors and failed gates only");
-  add_verbosity_flag("--verbose", Verbosity::verbose, "Print every sweep, note and time");
+  add_verbosity_flag("--quiet,-q", Verbosity::quiet, "Print errors and failed gates only");
+  add_verbosity_flag("--verbose,-v", Verbosity::verbose,
+                     "Print all metrics, the worst elements, and every sweep, note and time");
 }
 
 void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(command, "--annotate-metrics", "M,M,...",
-                    "Metrics that --annotate shows: shape, min_angle, ...;\nall names are in README [shape]",
+                    "Metrics that --annotate shows: shape, min_angle, ...; all names are in README [shape]",
                     [&settings](const std::string& text) { settings.pipeline.annotated_metrics = parse_metrics(text); })
       ->needs("--annotate")
       ->group(option_group::results);
@@ -223,12 +221,13 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   });
   std::exception_ptr not_printed;
   if (verbosity != Verbosity::quiet) {
-    std::string text = text_report(options, result);
+    std::string text =
+        text_report(options, result, verbosity == Verbosity::verbose ? TextDetail::all : TextDetail::summary);
     if (verbosity == Verbosity::verbose && (result.smoothing || result.region_names.size() > few_regions)) {
       text += region_table(result);
     }
     for (const std::filesystem::path& report : settings.reports) {
-      text += "report:     " + report.string() + '\n';
+      text += labelled_line("report:", report.string());
     }
     try {
       print_results(environment.out, text);
@@ -238,7 +237,7 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     print_notes(result, verbosity, environment.err);
   }
   if (verbosity == Verbosity::verbose) {
-    environment.err << timings_line(result.timings_ms) << '\n';
+    environment.err << timings_line(result.timings_ms);
   }
   ExitCode code = ExitCode::done;
   for (const GateOutcome& outcome : record.gates) {

@@ -3,17 +3,20 @@
 #include <ostream>
 #include <string_view>
 
+#include "trismooth/pipeline/printable_text.h"
+
 namespace trismooth {
 
-/// The messages of the command line, one a line: "trismooth: error: plate.off:17: expected 3 coordinates".
+/// The messages of the command line, one a line whatever they name: "trismooth: error: plate.off:17: expected 3
+/// coordinates".
 inline void print_error(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: error: " << message << '\n';
+  stream << "trismooth: error: " << printable(message) << '\n';
 }
 inline void print_warning(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: warning: " << message << '\n';
+  stream << "trismooth: warning: " << printable(message) << '\n';
 }
 inline void print_note(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: note: " << message << '\n';
+  stream << "trismooth: note: " << printable(message) << '\n';
 }
 
 }  // namespace trismooth

@@ -45,6 +45,19 @@ template int parse_integer(std::string_view, int, int);
 template std::int64_t parse_integer(std::string_view, std::int64_t, std::int64_t);
 template std::uint64_t parse_integer(std::string_view, std::uint64_t, std::uint64_t);
 
+std::int64_t parse_count(std::string_view text, std::int64_t lowest, std::int64_t highest) {
+  const char last = text.empty() ? '\0' : text.back();
+  const std::int64_t unit = last == 'K' || last == 'k' ? 1'000 : last == 'M' || last == 'm' ? 1'000'000 : 1;
+  const std::string_view digits = unit > 1 ? text.substr(0, text.size() - 1) : text;
+  try {
+    return unit * parse_integer(digits, (lowest + unit - 1) / unit, highest / unit);
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument(
+        fmt::format("expected a whole number from {} to {}, with K or M for thousands or millions, got '{}'", lowest,
+                    highest, text));
+  }
+}
+
 double parse_finite(std::string_view text) {
   const auto value = parse_number<double>(text);
   if (!value || !std::isfinite(*value)) {

@@ -113,6 +113,9 @@ class Run {
     const FixedArray named = find_fixed_array(document_, options_.fixed_array);
     const std::vector<std::int32_t> ids =
         options_.fixed_ids ? read_vertex_ids(*options_.fixed_ids, result_.input.vertices) : std::vector<std::int32_t>{};
+    if (options_.fixed_ids && ids.empty()) {
+      warn(options_.fixed_ids->string() + ": names no vertices, so it holds none");
+    }
     found_ = find_rings(
         {.fixed = named.flags, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions_.of_triangle});
     if (settle_plane(mesh_, document_, found_.fixed, options_.input)) {
@@ -179,6 +182,8 @@ class Run {
     QualityReport report = quality_report(view(), {.threads = options_.smoothing.threads});
     report.degenerate += mesh_.repeating_triangles;
     for (WorstElement& element : report.worst) {
+      const Triangle& corners = mesh_.triangles[static_cast<std::size_t>(element.triangle)];
+      element.all_fixed = std::ranges::all_of(corners, [this](std::int32_t v) { return found_.fixed[v] != 0; });
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
       element.centroid = frame_.leave(element.centroid);
     }
@@ -201,9 +206,12 @@ class Run {
     if (!loss.any()) {
       return;
     }
-    result_.warnings.push_back(describe(loss) +
-                               (options_.smoothing.guard ? "; the guard checks the result in double" : "") +
-                               "; --precision double smooths it as it is");
+    warn(describe(loss) + (options_.smoothing.guard ? "; the guard checks the result in double" : "") +
+         "; --precision double smooths it as it is");
+  }
+
+  void warn(std::string warning) {
+    result_.warnings.push_back(std::move(warning));
     if (options_.warned) {
       options_.warned(result_.warnings.back());
     }

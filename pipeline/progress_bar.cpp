@@ -30,16 +30,20 @@ std::string_view describe(Stage stage) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::ostream& terminal, std::function<Clock::time_point()> now)
-    : line_(terminal, std::move(now)) {}
+ProgressBar::ProgressBar(Terminal terminal, std::int64_t max_sweeps)
+    : line_(std::move(terminal)), max_sweeps_(max_sweeps) {}
+
+ProgressBar::ProgressBar(Terminal terminal, std::int64_t max_sweeps, std::function<Clock::time_point()> now)
+    : line_(std::move(terminal), std::move(now)), max_sweeps_(max_sweeps) {}
 
 void ProgressBar::stage_started(Stage stage) {
-  line_.draw(std::string(describe(stage)) + " ...");
+  line_.draw({std::string(describe(stage)), " ..."});
 }
 
 void ProgressBar::sweep_done(const SweepRecord& record) {
-  line_.draw_now_and_then(fmt::format("{}: sweep {}, {} {} moved", describe(Stage::smooth), record.sweep, record.moved,
-                                      record.moved == 1 ? "vertex" : "vertices"));
+  line_.draw_now_and_then({std::string(describe(Stage::smooth)), fmt::format(": sweep {}", record.sweep),
+                           max_sweeps_ > 0 ? fmt::format(" of at most {}", max_sweeps_) : std::string(),
+                           fmt::format(", {} {} moved", record.moved, record.moved == 1 ? "vertex" : "vertices")});
 }
 
 }  // namespace trismooth

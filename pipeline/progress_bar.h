@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <ostream>
 
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/terminal_line.h"
@@ -11,15 +11,17 @@ namespace trismooth {
 
 /// One line that says what a run is doing, redrawn in place on a terminal:
 ///
-///     smoothing: sweep 12, 3456 vertices moved, 0.8 s
+///     smoothing: sweep 12 of at most 1000, 3456 vertices moved, 0.8 s
 ///
-/// A stage is drawn when it starts, its sweeps at most ten times a second. The destructor erases the line.
+/// A stage is drawn when it starts, its sweeps at most ten times a second; the time runs on in between. The destructor
+/// erases the line.
 class ProgressBar {
  public:
   using Clock = TerminalLine::Clock;
 
-  /// Draws on `terminal`, which must outlive it. `now` is asked for the time; tests hand in their own.
-  explicit ProgressBar(std::ostream& terminal, std::function<Clock::time_point()> now = &Clock::now);
+  /// `max_sweeps`: the sweep limit, 0: none. For the other arguments see TerminalLine.
+  ProgressBar(Terminal terminal, std::int64_t max_sweeps);
+  ProgressBar(Terminal terminal, std::int64_t max_sweeps, std::function<Clock::time_point()> now);
 
   void stage_started(Stage stage);
   void sweep_done(const SweepRecord& record);
@@ -28,6 +30,7 @@ class ProgressBar {
 
  private:
   TerminalLine line_;
+  std::int64_t max_sweeps_;
 };
 
 }  // namespace trismooth

@@ -38,8 +38,8 @@ Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environm
   add_mesh_options(command, *settings);
   add_result_options(command, *settings);
   add_parsed_option(command, "--annotate", "OUT",
-                    "Write the mesh with arrays that show what was found:\n"
-                    "trismooth:shape (cells) and trismooth:fixed (points)",
+                    "Write the mesh with arrays that show what was found: trismooth:shape (cells) and trismooth:fixed "
+                    "(points)",
                     [settings](const std::string& text) {
                       require_arrays(text);
                       settings->pipeline.annotated = text;

@@ -15,6 +15,9 @@ struct RandomMesh {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
+/// The fewest vertices that random_delaunay_mesh() makes.
+inline constexpr std::int64_t least_random_mesh_vertices = 4;
+
 /// The most vertices that random_delaunay_mesh() makes. Each takes about six directed edges, which 32 bits must number.
 inline constexpr std::int64_t max_random_mesh_vertices = (std::int64_t{1} << 31) / 7;
 
@@ -28,8 +31,9 @@ inline constexpr std::int64_t max_random_mesh_vertices = (std::int64_t{1} << 31)
 /// which about sqrt(n) lie on each of its sides. The triangles on both sides of a line between tiles need not be
 /// Delaunay to each other. The number of vertices is the nearest to `vertices` that tiles give, at most 4^k / 2 off.
 ///
-/// Throws std::invalid_argument where `vertices` is below 4 or above max_random_mesh_vertices, or `largest_tile` is
-/// below 256 or above 2^26. Complexity: O(n log n) for the n vertices of the tile, and O(vertices).
+/// Throws std::invalid_argument where `vertices` is below least_random_mesh_vertices or above max_random_mesh_vertices,
+/// or `largest_tile` is below 256 or above 2^26. Complexity: O(n log n) for the n vertices of the tile, and
+/// O(vertices).
 RandomMesh random_delaunay_mesh(std::int64_t vertices, std::uint64_t seed, std::int64_t largest_tile = 1 << 22);
 
 /// The mesh as the library takes it: two coordinates a vertex, three indices a triangle. Views of `mesh`.

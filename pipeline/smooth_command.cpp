@@ -34,18 +34,17 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
   const char* const group = "Smoothing";
   add_enum_option(command, "--method", options.method,
-                  "smart: to the mean of the neighbours, where the worst\n"
-                  "triangle around gets better; laplacian: always;\n"
-                  "weighted: to the mean by inverse edge length")
+                  "smart: to the mean of the neighbours, where the worst triangle around gets better; laplacian: "
+                  "always; weighted: to the mean by inverse edge length")
       ->group(group);
   add_enum_option(command, "--form", options.form,
-                  "a: all moves from the positions before the sweep;\n"
-                  "b: moves see the neighbours already moved, faster")
+                  "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
+                  "needs fewer sweeps")
       ->group(group);
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")
       ->group(group);
   add_enum_option(command, "--guard", settings.guard,
-                  "Put back moves that would leave an element invalid or\nbelow the worst of those touched")
+                  "Put back moves that would leave an element invalid or below the worst of those touched")
       ->group(group);
 }
 
@@ -56,7 +55,7 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
       [&options](const std::string& text) { options.max_sweeps = parse_integer(text, std::int64_t{0}, INT64_MAX); })
       ->group(group);
   add_parsed_option(command, "--tolerance", "X",
-                    "Stop when no vertex moves by more than X of its edge\nlength; 0: only when none moves [1e-6]",
+                    "Stop when no vertex moves by more than X of its edge length; 0: only when none moves [1e-6]",
                     [&options](const std::string& text) { options.tolerance = parse_finite(text); })
       ->group(group);
   add_parsed_option(command, "--time-limit", "SECONDS", "Stop sweeping after this time [none]",
@@ -69,23 +68,23 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
 
 void add_device_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
-  add_enum_option(command, "--backend", settings.backend,
-                  fmt::format("Who runs the sweeps; auto: cuda, where this build has it,\n"
-                              "finds a device and {} vertices or more are free;\nelse cpu",
-                              free_vertices_for_cuda))
+  add_enum_option(
+      command, "--backend", settings.backend,
+      fmt::format("Who runs the sweeps; auto: cuda, where this build has it, finds a device and {} vertices "
+                  "or more are free; else cpu",
+                  free_vertices_for_cuda))
       ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except unordered)";
   add_enum_option(command, "--layout", options.layout,
-                  "Points on the device: an array of structures, or an\narray for each coordinate")
+                  "Points on the device: an array of structures, or an array for each coordinate")
       ->group(group);
   add_enum_option(command, "--execution", options.execution,
-                  "resident: one kernel on the whole GPU makes all sweeps;\n"
-                  "single-block, cdp: the paper's versions, by one block\n"
-                  "and by CUDA dynamic parallelism")
+                  "resident: by all of the GPU, the fastest; single-block, cdp: the paper's versions, by one block and "
+                  "by CUDA dynamic parallelism")
       ->group(group);
   add_enum_option(command, "--order", options.order,
-                  "Of form b; unordered, as the threads happen to run: the\n"
-                  "paper's, not reproducible, for single-block and cdp only")
+                  "Of form b; unordered, as the threads happen to run: the paper's, not reproducible, for single-block "
+                  "and cdp only")
       ->group(group);
   add_enum_option(command, "--topology", options.topology, "Who finds the neighbours; the result is the same")
       ->group(group);
@@ -120,9 +119,8 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   add_result_options(command, settings->run);
   command
       .add_flag("--annotate", options.annotate,
-                "Add arrays to VTK output, or PLY made of another\n"
-                "format, in place of earlier ones:\n"
-                "trismooth:shape, trismooth:shape_before (cells),\n"
+                "Add arrays to VTK output, or to PLY made of another format, in place of earlier ones: "
+                "trismooth:shape, trismooth:shape_before (cells), "
                 "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);
   add_annotated_metrics_option(command, settings->run);

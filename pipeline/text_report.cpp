@@ -1,10 +1,12 @@
 #include "trismooth/pipeline/text_report.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/held_text.h"
+#include "trismooth/pipeline/labelled_line.h"
 #include "trismooth/pipeline/region_table.h"
 #include "trismooth/quality/quality_table.h"
 #include "trismooth/smoothing/backend.h"
@@ -17,11 +19,7 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-std::string line(std::string_view label, std::string_view text) {
-  return fmt::format("{:<12}{}\n", label, text);
-}
-
-std::string input_lines(const InputSummary& input) {
+std::string input_lines(const InputSummary& input, TextDetail detail) {
   std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),
                                  counted(input.triangles, "triangle", "triangles"));
   if (input.other_cells > 0) {
@@ -30,21 +28,16 @@ std::string input_lines(const InputSummary& input) {
   if (input.components > 1) {
     what += fmt::format(", {} components", input.components);
   }
-  std::string text = line("input:", what);
-  if (input.reoriented_triangles > 0) {
-    text += line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
-                                 counted(input.reoriented_triangles, "triangle is", "triangles are")));
+  std::string text = labelled_line("input:", what);
+  if (input.reoriented_triangles > 0 && detail == TextDetail::all) {
+    text += labelled_line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
+                                          counted(input.reoriented_triangles, "triangle is", "triangles are")));
   }
-  if (!input.region_array.empty()) {
-    std::string regions = fmt::format("{} by the cell array{} '{}'", input.regions,
-                                      input.region_arrays.size() > 1 ? "s" : "", input.region_array);
-    if (input.regions > 1) {
-      regions += "; vertices between two regions are fixed";
-    }
-    text += line("regions:", regions);
+  if (!input.region_array.empty() && detail == TextDetail::all) {
+    text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
+                                                  input.region_arrays.size() > 1 ? "s" : "", input.region_array));
   }
-  return text + line("vertices:", fmt::format("{} fixed, {} free", input.fixed_vertices, input.free_vertices)) +
-         line("fixed:", held_text(input));
+  return text + labelled_line("fixed:", held_text(input));
 }
 
 /// What a run that moved nothing should say, or nothing.
@@ -71,37 +64,49 @@ std::string who_smoothed(const SmoothingResult& smoothing) {
 }
 
 std::string device_line(const SmoothingOptions& options, const SmoothingResult& smoothing) {
-  return line("device:", fmt::format("{}, {} execution, {} layout; launches: {}; {} of its memory", smoothing.device,
-                                     to_string(options.execution), to_string(options.layout), launches_text(smoothing),
-                                     bytes_text(smoothing.device_memory_bytes)));
+  return labelled_line("device:", fmt::format("{}, {} execution, {} layout; launches: {}; {} of its memory",
+                                              smoothing.device, to_string(options.execution), to_string(options.layout),
+                                              launches_text(smoothing), bytes_text(smoothing.device_memory_bytes)));
 }
 
-std::string smoothing_lines(const SmoothingOptions& options, const PipelineResult& result) {
+/// The method, who ran it, and what else the user must know of that.
+std::string method_lines(const SmoothingOptions& options, const PipelineResult& result, TextDetail detail) {
   const SmoothingResult& smoothing = *result.smoothing;
-  std::string text =
-      line("smoothing:", fmt::format("{}, form {}, {} precision, {}", to_string(options.method),
-                                     to_string(options.form), to_string(options.precision), who_smoothed(smoothing)));
+  const PipelineTimings& timings = result.timings_ms;
+  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.commit;
+  std::string text = labelled_line(
+      "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", to_string(options.method), to_string(options.form),
+                                to_string(options.precision), who_smoothed(smoothing), duration_text(smoothing_time)));
   if (!smoothing.backend_note.empty()) {
-    text += line("", smoothing.backend_note);
+    text += labelled_line("", smoothing.backend_note);
   }
-  if (ran_on_device(smoothing)) {
+  if (detail == TextDetail::all && ran_on_device(smoothing)) {
     text += device_line(options, smoothing);
   }
   if (!smoothing.reproducible) {
-    text += line("order:", fmt::format("{}: {}", to_string(options.order), not_reproducible_text()));
+    text += labelled_line("order:", fmt::format("{}: {}", to_string(options.order), not_reproducible_text()));
   }
-  text += line("stopped:", fmt::format("{} after {}: {}", to_string(smoothing.stop_reason),
-                                       counted(smoothing.sweeps, "sweep", "sweeps"), describe(smoothing.stop_reason)));
-  std::string moved = fmt::format("{} moved", counted(smoothing.moved_vertices, "vertex", "vertices"));
+  return text;
+}
+
+std::string result_lines(const PipelineResult& result, TextDetail detail) {
+  const SmoothingResult& smoothing = *result.smoothing;
+  std::string text = fmt::format("{} moved in {}", counted(smoothing.moved_vertices, "vertex", "vertices"),
+                                 counted(smoothing.sweeps, "sweep", "sweeps"));
   if (smoothing.reverted_vertices > 0) {
-    moved += fmt::format(", {} put back where they had made an element worse (in {})", smoothing.reverted_vertices,
-                         counted(smoothing.guard_rounds, "round", "rounds"));
+    text += fmt::format(", {} put back", smoothing.reverted_vertices);
   }
-  text += line("result:", moved);
-  const PipelineTimings& timings = result.timings_ms;
-  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.commit;
-  return text + line("time:", fmt::format("{} for smoothing, {} in all", duration_text(smoothing_time),
-                                          duration_text(timings.total)));
+  std::string reason(to_string(smoothing.stop_reason));
+  std::ranges::replace(reason, '_', ' ');
+  std::string lines = labelled_line("result:", text + "; stopped by " + reason);
+  if (detail == TextDetail::all) {
+    if (smoothing.reverted_vertices > 0) {
+      lines += labelled_line("", fmt::format("put back where they had made an element worse, in {}",
+                                             counted(smoothing.guard_rounds, "round", "rounds")));
+    }
+    lines += labelled_line("", std::string(describe(smoothing.stop_reason)));
+  }
+  return lines;
 }
 
 std::string inverted_line(const PipelineResult& result) {
@@ -172,12 +177,17 @@ std::string_view not_reproducible_text() {
   return "threads saw each other's moves in no fixed order; another run gives another result";
 }
 
-std::string text_report(const PipelineOptions& options, const PipelineResult& result) {
-  std::string text = input_lines(result.input);
+std::string text_report(const PipelineOptions& options, const PipelineResult& result, TextDetail detail) {
+  std::string text = input_lines(result.input, detail);
   if (result.smoothing) {
-    text += smoothing_lines(options.smoothing, result);
+    text += method_lines(options.smoothing, result, detail);
+    text += result_lines(result, detail);
   }
-  text += '\n' + format_table(result.before, result.after ? &*result.after : nullptr) + '\n';
+  const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
+  text += '\n' +
+          (is_summary ? format_summary(result.before, *result.after)
+                      : format_table(result.before, result.after ? &*result.after : nullptr)) +
+          '\n';
   if (result.smoothing) {
     if (const std::string_view why = why_nothing_moved(result); !why.empty()) {
       text += fmt::format("{}\n", why);
@@ -188,7 +198,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += region_table(result);
   }
   if (const auto& written = options.written()) {
-    text += line("written:", written->string());
+    text += labelled_line("written:", written->string());
   }
   return text;
 }

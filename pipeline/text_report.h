@@ -6,10 +6,17 @@
 
 namespace trismooth {
 
-/// The result of a run for people, as the command line prints it: what was read, what was done, the quality before and
-/// after, and what is left to know (nothing moved, inverted triangles remain, the file that was written). Ends in a
-/// line feed. Of a run without smoothing: what was read and its quality.
-std::string text_report(const PipelineOptions& options, const PipelineResult& result);
+/// How much the text of a smoothing says.
+enum class TextDetail : bool {
+  summary,  ///< a line for each step, and whether it got better
+  all,      ///< also how it was done, every metric, the histogram and the worst elements
+};
+
+/// The result of a run for people, as the command line prints it: what was read, what was held and why, what was done,
+/// the quality before and after, and what is left to know (nothing moved, inverted triangles remain, the file that was
+/// written). Ends in a line feed, and holds nothing that would steer a terminal. Of a run without smoothing: what was
+/// read and its whole quality.
+std::string text_report(const PipelineOptions& options, const PipelineResult& result, TextDetail detail);
 
 /// "0.42 ms", "13 ms", "2.1 s": a time with the digits that matter.
 std::string duration_text(double milliseconds);

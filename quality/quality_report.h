@@ -26,6 +26,7 @@ struct WorstElement {
   std::int64_t triangle = 0;  ///< index in the view
   double shape = 0;           ///< negative where inverted
   Point2<double> centroid{};  ///< in the local frame
+  bool all_fixed = false;     ///< no smoothing can change it; for who knows the fixed vertices, quality_report does not
 };
 
 inline constexpr std::size_t shape_bins = 20;

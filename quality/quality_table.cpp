@@ -18,42 +18,66 @@ namespace {
 
 using Align = TextColumns::Align;
 
-/// ">= 30 degrees": what counts as acceptable.
+constexpr std::size_t line_columns = 80;
+constexpr std::size_t number_columns = 9;
+
+/// number_text() in no more columns than a table has for it.
+std::string cell_text(double value, int digits) {
+  std::string text = number_text(value, digits);
+  return text.size() <= number_columns ? text : fmt::format("{:.1e}", value);
+}
+
+/// ">= 30": what counts as acceptable.
 std::string acceptable_text(const MetricInfo& metric) {
-  const std::string limit = metric.larger_is_better ? fmt::format(">= {}", metric.acceptable_low)
-                                                    : fmt::format("<= {}", metric.acceptable_high);
-  return metric.unit == "degrees" ? limit + " degrees" : limit;
+  return metric.larger_is_better ? fmt::format(">= {}", metric.acceptable_low)
+                                 : fmt::format("<= {}", metric.acceptable_high);
 }
 
 std::string metrics_text(const QualityReport& report) {
-  TextColumns columns({{0, Align::left}, {3}, {3}, {3}, {3}, {3}, {2, Align::left}});
-  columns.add_row({"metric", "min", "mean", "max", "stddev", "acceptable %", "where"});
+  TextColumns columns({{0, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
+  columns.add_row({"metric", "min", "mean", "max", "stddev", "acceptable", "where"});
   for (const MetricInfo& metric : all_metrics()) {
     const MetricSummary& summary = report[metric.metric];
     const int digits = decimals(metric.metric);
-    columns.add_row({std::string(metric.name), number_text(summary.min, digits), number_text(summary.mean, digits),
-                     number_text(summary.max, digits), number_text(summary.stddev, digits),
-                     percent_text(summary.acceptable_fraction), acceptable_text(metric)});
+    columns.add_row({std::string(metric.name), cell_text(summary.min, digits), cell_text(summary.mean, digits),
+                     cell_text(summary.max, digits), cell_text(summary.stddev, digits),
+                     percent_text(summary.acceptable_fraction) + " %", acceptable_text(metric)});
   }
   return columns.text();
 }
 
+/// By how much the value changed, in two digits, so that no change is too small to be seen.
+std::string change_text(double before, double after) {
+  const double change = after - before;
+  if (std::isnan(change) || change == 0) {
+    return "";
+  }
+  std::string text = fmt::format("{:+.2g}", change);
+  return text.size() <= number_columns - 1 ? text : fmt::format("{:+.0e}", change);
+}
+
 std::string metrics_text(const QualityReport& before, const QualityReport& after) {
-  TextColumns columns({{0, Align::left}, {3}, {1}, {3}, {1}, {3}, {1}, {3}, {2}, {2, Align::left}});
-  columns.add_row({"metric", "before", "after", "before", "after", "before", "after", "before", "after"});
+  TextColumns columns({{0, Align::left}, {1, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
+  columns.add_row({"metric", "", "min", "mean", "max", "ok %", "worst by"});
   for (const MetricInfo& metric : all_metrics()) {
+    const int digits = decimals(metric.metric);
+    const auto row = [&](std::string name, std::string_view when, const MetricSummary& summary) {
+      return std::vector<std::string>{std::move(name),
+                                      std::string(when),
+                                      cell_text(summary.min, digits),
+                                      cell_text(summary.mean, digits),
+                                      cell_text(summary.max, digits),
+                                      percent_text(summary.acceptable_fraction)};
+    };
     const MetricSummary& from = before[metric.metric];
     const MetricSummary& to = after[metric.metric];
-    const int digits = decimals(metric.metric);
-    TextPair min{number_text(from.min, digits), number_text(to.min, digits)};
-    TextPair max{number_text(from.max, digits), number_text(to.max, digits)};
-    (metric.larger_is_better ? min : max) =
-        distinct_texts(worst_of(metric.metric, from), worst_of(metric.metric, to), digits);
-    columns.add_row({std::string(metric.name), min.before, min.after, number_text(from.mean, digits),
-                     number_text(to.mean, digits), max.before, max.after, percent_text(from.acceptable_fraction),
-                     percent_text(to.acceptable_fraction), std::string(verdict(metric.metric, from, to))});
+    columns.add_row(row(std::string(metric.name), "before", from));
+    std::vector<std::string> last = row("", "after", to);
+    last.push_back(change_text(worst_of(metric.metric, from), worst_of(metric.metric, to)));
+    last.emplace_back(verdict(metric.metric, from, to));
+    columns.add_row(std::move(last));
   }
-  return columns.text({{1, 2, "min"}, {3, 4, "mean"}, {5, 6, "max"}, {7, 8, "acceptable %"}});
+  return columns.text() + "ok %: of the triangles, in the range that Verdict's manual calls acceptable\n";
 }
 
 /// A bar for `count` out of `largest`; a count that is not 0 shows at least a dot.
@@ -81,7 +105,10 @@ std::string histogram_text(const std::vector<const QualityReport*>& reports) {
     any_inverted = any_inverted || report->inverted > 0;
   }
 
-  const std::size_t bar_width = 60 / reports.size();
+  const std::size_t label_width = std::string_view("0.00 to 0.05").size();
+  const std::size_t count_width = std::max(count_text(largest).size(), std::string_view("before").size());
+  const std::size_t gaps = 4;
+  const std::size_t bar_width = (line_columns - label_width) / reports.size() - gaps - count_width;
   const bool is_single = reports.size() == 1;
   TextColumns columns({{0, Align::left}, {2}, {2, Align::left}, {2}, {2, Align::left}});
   columns.add_row(is_single ? std::vector<std::string>{"shape", "count"}
@@ -105,29 +132,30 @@ std::string histogram_text(const std::vector<const QualityReport*>& reports) {
   return columns.text();
 }
 
+/// The worst elements of one report below `title`.
+std::string worst_text(const QualityReport& report, std::string_view title) {
+  TextColumns columns({{0}, {3}, {2}, {2, Align::left}, {2, Align::left}});
+  columns.add_row({std::string(title), "element", "shape", "centroid"});
+  for (std::size_t rank = 0; rank < report.worst.size(); ++rank) {
+    const WorstElement& element = report.worst[rank];
+    columns.add_row({std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
+                     fmt::format("({:.8g}, {:.8g})", element.centroid.x, element.centroid.y),
+                     element.all_fixed ? "all fixed" : ""});
+  }
+  return columns.text();
+}
+
 std::string worst_text(const std::vector<const QualityReport*>& reports) {
-  TextColumns columns({{0}, {3}, {2}, {2, Align::left}, {4}, {2}, {2, Align::left}});
-  std::vector<std::string> header{"worst"};
-  std::size_t ranks = 0;
-  for (const QualityReport* const report : reports) {
-    header.insert(header.end(), {"element", "shape", "centroid"});
-    ranks = std::max(ranks, report->worst.size());
+  std::string text = reports.size() == 1
+                         ? worst_text(*reports[0], "worst")
+                         : worst_text(*reports[0], "worst before") + '\n' + worst_text(*reports[1], "worst after");
+  const bool any_fixed = std::ranges::any_of(reports, [](const QualityReport* report) {
+    return std::ranges::any_of(report->worst, &WorstElement::all_fixed);
+  });
+  if (any_fixed) {
+    text += "all fixed: none of its corners may move, so no smoothing can change it\n";
   }
-  columns.add_row(std::move(header));
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    std::vector<std::string> cells{std::to_string(rank + 1)};
-    for (const QualityReport* const report : reports) {
-      if (rank < report->worst.size()) {
-        const WorstElement& element = report->worst[rank];
-        cells.insert(cells.end(), {std::to_string(element.triangle), number_text(element.shape, 6),
-                                   fmt::format("({:.8g}, {:.8g})", element.centroid.x, element.centroid.y)});
-      } else {
-        cells.insert(cells.end(), 3, "");
-      }
-    }
-    columns.add_row(std::move(cells));
-  }
-  return reports.size() == 1 ? columns.text() : columns.text({{1, 3, "before"}, {4, 6, "after"}});
+  return text;
 }
 
 std::string counts_text(const std::vector<const QualityReport*>& reports) {
@@ -165,6 +193,28 @@ std::string format_table(const QualityReport& before, const QualityReport* after
     text += '\n' + worst_text(reports);
   }
   return text;
+}
+
+std::string format_summary(const QualityReport& before, const QualityReport& after) {
+  constexpr std::size_t longest_worst = 12;
+  TextColumns columns({{0, Align::left}, {3}, {2}, {4}, {2}, {3, Align::left}});
+  columns.add_row({"", "before", "after", "before", "after"});
+  for (const Metric metric : {Metric::shape, Metric::min_angle, Metric::max_angle}) {
+    const MetricSummary& from = before[metric];
+    const MetricSummary& to = after[metric];
+    const int digits = decimals(metric);
+    TextPair worst = distinct_texts(worst_of(metric, from), worst_of(metric, to), digits);
+    if (std::max(worst.before.size(), worst.after.size()) > longest_worst) {
+      worst = {cell_text(worst_of(metric, from), digits), cell_text(worst_of(metric, to), digits)};
+    }
+    columns.add_row({std::string(info(metric).name), std::move(worst.before), std::move(worst.after),
+                     cell_text(from.mean, digits), cell_text(to.mean, digits), std::string(verdict(metric, from, to))});
+  }
+  columns.add_row({"inverted", count_text(before.inverted), count_text(after.inverted)});
+  if (before.degenerate > 0 || after.degenerate > 0) {
+    columns.add_row({"degenerate", count_text(before.degenerate), count_text(after.degenerate)});
+  }
+  return columns.text({{1, 2, "worst"}, {3, 4, "mean"}});
 }
 
 std::ostream& operator<<(std::ostream& stream, const QualityReport& report) {

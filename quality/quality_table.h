@@ -7,8 +7,12 @@
 namespace trismooth {
 
 /// The reports as a table for people, plain ASCII, ending in a line feed: counts, every metric, the histogram of shape
-/// and the worst elements. With `after`, the two stand side by side, and a metric's worst value is given as many
-/// digits as it takes to see that it changed; lines have 100 columns unless that needs more. `after` may be null.
+/// and the worst elements. With `after`, each metric has a line for both, and by how much its worst value changed,
+/// however little that is. Lines have 80 columns unless coordinates need more. `after` may be null.
 std::string format_table(const QualityReport& before, const QualityReport* after = nullptr);
+
+/// The least that tells whether a smoothing was good, as such a table of a few lines: the worst value and the mean of
+/// shape and angles, before and after, the inverted triangles, and the degenerate ones if there are any.
+std::string format_summary(const QualityReport& before, const QualityReport& after);
 
 }  // namespace trismooth

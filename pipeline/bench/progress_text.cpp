@@ -8,16 +8,13 @@
 
 namespace trismooth::bench {
 
-std::string progress_text(const ExperimentProgress& progress, int runs) {
+std::vector<std::string> progress_pieces(const ExperimentProgress& progress, int runs) {
   constexpr int width = 14;
   const double part = std::clamp(progress.part, 0.0, 1.0);
   const auto done = static_cast<std::size_t>(part * width);
-  std::string text = fmt::format("[{}{}] {:.0f} %  {}: {}", std::string(done, '#'), std::string(width - done, '-'),
-                                 100 * part, size_text(progress.vertices), progress.what);
-  if (progress.run > 0) {
-    text += fmt::format(", run {} of {}", progress.run, runs);
-  }
-  return text;
+  return {fmt::format("[{}{}] {:.0f} %", std::string(done, '#'), std::string(width - done, '-'), 100 * part),
+          fmt::format("  {}: {}", size_text(progress.vertices), progress.what),
+          progress.run > 0 ? fmt::format(", run {} of {}", progress.run, runs) : std::string()};
 }
 
 }  // namespace trismooth::bench

@@ -1,14 +1,17 @@
 #include "trismooth/quality/report_text.h"
 
-#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/bench/report.h"
 #include "trismooth/pipeline/bench/wording.h"
+#include "trismooth/pipeline/labelled_line.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/quality/text_columns.h"
 
@@ -18,31 +21,7 @@ namespace {
 
 using Align = TextColumns::Align;
 
-constexpr std::size_t gap = 3;
-constexpr std::size_t line_width = 100;
-
-/// The text in lines of at most line_width, the second and later ones indented.
-std::string wrapped(std::string_view text, std::string_view first_indent, std::string_view indent) {
-  std::string lines;
-  std::string line(first_indent);
-  bool is_empty = true;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(text.size(), word.size() + 1));
-    if (!is_empty && line.size() + 1 + word.size() > line_width) {
-      lines += line + '\n';
-      line = indent;
-      is_empty = true;
-    }
-    line.append(is_empty ? "" : " ").append(word);
-    is_empty = false;
-  }
-  return lines + line + '\n';
-}
-
-std::string text_or_dash(const std::optional<Spread>& spread) {
-  return spread ? spread->text() : "-";
-}
+constexpr std::size_t gap = 2;
 
 std::string median_or_dash(const std::optional<Spread>& spread) {
   return spread ? three_digits(spread->median) : "-";
@@ -51,11 +30,13 @@ std::string median_or_dash(const std::optional<Spread>& spread) {
 std::string heading(const Report& report) {
   const ExperimentOptions& options = report.result.options;
   const Setting& setting = report.setting;
-  std::string text = fmt::format("trismooth {}: the experiments of the paper, {} precision, up to {} each, {}\n",
-                                 version(), to_string(options.precision), runs_text(options.runs), setting.date);
-  text += fmt::format("CPU:  {}{}\n", setting.cpu,
-                      setting.threads > 0 ? fmt::format(", {} threads", setting.threads) : std::string{});
-  return text + fmt::format("GPU:  {}\n", setting.gpu.empty() ? "none used" : setting.gpu);
+  std::string text =
+      wrapped(fmt::format("trismooth {}: the experiments of the paper, {} precision, up to {} each, {}", version(),
+                          to_string(options.precision), runs_text(options.runs), setting.date),
+              "", "  ");
+  const std::string threads = setting.threads > 0 ? fmt::format(", {} threads", setting.threads) : std::string{};
+  text += labelled_line("CPU:", setting.cpu + threads);
+  return text + labelled_line("GPU:", setting.gpu.empty() ? "none used" : setting.gpu);
 }
 
 /// All cases of one mesh that were measured.
@@ -65,29 +46,49 @@ std::string mesh_text(const ExperimentResult& result, const MeshCounts& mesh) {
   if (!any_measured_on(result, mesh)) {
     return title + "nothing was measured\n";
   }
-  TextColumns columns({{0, Align::left}, {gap, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}, {gap}});
-  columns.add_row({"", "form", "topology", "transfer", "smoothing", "together", "sweeps", "smoothing", "together"});
+  TextColumns times({{0, Align::left}, {1, Align::left}, {gap}, {gap}});
+  times.add_row({"", "form", "smoothing", "together"});
+  TextColumns rest({{0, Align::left}, {1, Align::left}, {gap}, {1}, {1}, {gap}, {gap}});
+  rest.add_row({"", "form", "sweeps", "topology", "transfer", "smoothing", "together"});
   for (const Row& row : result.rows) {
     if (row.vertices == mesh.asked && row.measured) {
       const Measurement& measured = *row.measured;
-      columns.add_row({name_of(row.what), form_of(row.what), three_digits(measured.topology.median),
-                       runs_on_device(row.what.version) ? three_digits(measured.transfer.median) : "-",
-                       measured.smoothing.text(), measured.together.text(), sweeps_text(measured.sweeps),
-                       median_or_dash(result.speedup(row.vertices, row.what)),
-                       median_or_dash(result.speedup_together(row.vertices, row.what))});
+      times.add_row({name_of(row.what), form_of(row.what), measured.smoothing.text(), measured.together.text()});
+      rest.add_row({name_of(row.what), form_of(row.what), sweeps_text(measured.sweeps),
+                    three_digits(measured.topology.median),
+                    runs_on_device(row.what.version) ? three_digits(measured.transfer.median) : "-",
+                    median_or_dash(result.speedup(row.vertices, row.what)),
+                    median_or_dash(result.speedup_together(row.vertices, row.what))});
     }
   }
-  return title + columns.text({{2, 5, "milliseconds, median (least-most)"}, {7, 8, "times faster"}});
+  return title + times.text({{2, 3, "milliseconds, median (least-most)"}}) + '\n' +
+         rest.text({{3, 4, "milliseconds"}, {5, 6, "times faster"}});
+}
+
+/// A row for the medians and, where anything was measured, one for the spreads.
+void add_rows_here(TextColumns& columns, const TableRow& row, std::string label) {
+  const std::array<const std::optional<Spread>*, 5> cells{&row.serial_ms, &row.aos_ms, &row.soa_ms, &row.aos_speedup,
+                                                          &row.soa_speedup};
+  std::vector<std::string> medians{size_text(row.vertices), std::move(label)};
+  std::vector<std::string> spreads{"", "spread"};
+  bool any = false;
+  for (const std::optional<Spread>* const cell : cells) {
+    medians.push_back(median_or_dash(*cell));
+    spreads.push_back(*cell ? (*cell)->range_text() : "-");
+    any = any || cell->has_value();
+  }
+  columns.add_row(std::move(medians));
+  if (any) {
+    columns.add_row(std::move(spreads));
+  }
 }
 
 std::string table_text(const Table& table) {
-  TextColumns columns({{0, Align::left}, {gap, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}});
+  TextColumns columns({{0, Align::left}, {1, Align::left}, {gap}, {gap}, {gap}, {gap}, {gap}});
   const bool is_of_paper = table.number > 0;
-  columns.add_row({"size", "", "serial CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"});
+  columns.add_row({"size", "", "serial CPU", "AoS", "SoA", "AoS", "SoA"});
   for (const TableRow& row : table.rows) {
-    columns.add_row({size_text(row.vertices), is_of_paper ? "here" : "", text_or_dash(row.serial_ms),
-                     text_or_dash(row.aos_ms), text_or_dash(row.soa_ms), text_or_dash(row.aos_speedup),
-                     text_or_dash(row.soa_speedup)});
+    add_rows_here(columns, row, is_of_paper ? "here" : "");
     if (row.published != nullptr) {
       columns.add_row({"", "paper", fmt::format("{}", row.published->cpu_ms),
                        fmt::format("{:.1f}", row.published->aos_ms), fmt::format("{:.1f}", row.published->soa_ms),
@@ -95,7 +96,7 @@ std::string table_text(const Table& table) {
                        fmt::format("{:.2f}", row.published->soa_speedup)});
     }
   }
-  return "\n" + table.title + "\n" + columns.text();
+  return "\n" + table.title + "\n" + columns.text({{2, 4, "milliseconds"}, {5, 6, "speedup"}});
 }
 
 /// The paper's tables, all of them; of the others those in which something was measured.
@@ -111,9 +112,12 @@ std::string tables_text(const Report& report) {
   }
   std::string text;
   if (!of_paper.empty()) {
-    text += fmt::format("\nThe paper's tables: milliseconds of smoothing here, running time in the paper ({}; {})\n",
-                        published_gpu, published_cpu) +
-            of_paper;
+    text +=
+        '\n' +
+        wrapped(fmt::format("The paper's tables: milliseconds of smoothing here, running time in the paper ({}; {})",
+                            published_gpu, published_cpu),
+                "", "  ") +
+        of_paper;
   }
   return beyond.empty() ? text : text + "\nBeyond the paper\n" + beyond;
 }

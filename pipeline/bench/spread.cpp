@@ -31,8 +31,12 @@ Spread::Spread(std::vector<double> values) {
 }
 
 std::string Spread::text() const {
+  return fmt::format("{} ({})", three_digits(median), range_text());
+}
+
+std::string Spread::range_text() const {
   const int decimals = decimals_of(median);
-  return fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", median, decimals, least, decimals, most, decimals);
+  return fmt::format("{:.{}f}-{:.{}f}", least, decimals, most, decimals);
 }
 
 Spread ratio(const Spread& one, const Spread& other) {

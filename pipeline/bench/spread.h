@@ -19,6 +19,8 @@ struct Spread {
 
   /// "3.42 (3.41-3.50)", in the digits that a time in milliseconds deserves.
   std::string text() const;
+  /// "3.41-3.50", the least and the most in the same digits.
+  std::string range_text() const;
 };
 
 /// How many times `one` is `other`. The bounds are the widest that the spreads of both allow.

@@ -1,9 +1,23 @@
 #include "trismooth/pipeline/bench/progress_text.h"
 
+#include <string>
+
 #include "catch.h"
 
 using trismooth::bench::ExperimentProgress;
-using trismooth::bench::progress_text;
+using trismooth::bench::progress_pieces;
+
+namespace {
+
+std::string progress_text(const ExperimentProgress& progress, int runs) {
+  std::string text;
+  for (const std::string& piece : progress_pieces(progress, runs)) {
+    text += piece;
+  }
+  return text;
+}
+
+}  // namespace
 
 TEST_CASE("the progress is a bar with the part done, the mesh, the case and the run") {
   CHECK(progress_text({0.4, 100'000, "GPU-AoS, Form A", 3}, 7) ==

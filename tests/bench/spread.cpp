@@ -50,4 +50,5 @@ TEST_CASE("numbers are written in about three digits") {
 TEST_CASE("all numbers of a spread have the decimals of its median") {
   CHECK(Spread(3.4219, 3.414, 13.5).text() == "3.42 (3.41-13.50)");
   CHECK(Spread(120.4, 99.6, 130).text() == "120 (100-130)");
+  CHECK(Spread(3.4219, 3.414, 13.5).range_text() == "3.41-13.50");
 }

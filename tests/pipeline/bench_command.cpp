@@ -53,7 +53,7 @@ Outcome bench(std::vector<std::string> words, const CudaSupport& cuda = {}, bool
   std::ostringstream err;
   Outcome outcome;
   outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(),
-                                             {out, err, terminal, {}, [&] { return cuda; }});
+                                             {out, err, {terminal ? &err : nullptr}, {}, [&] { return cuda; }});
   outcome.out = out.str();
   outcome.err = err.str();
   return outcome;

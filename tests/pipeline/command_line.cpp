@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/command_line.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -57,7 +58,7 @@ Outcome call(Words words, const Run& run, bool terminal = false, const CudaSuppo
     return run(options);
   };
   outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(),
-                                             {out, err, terminal, recorded, [&] { return cuda; }});
+                                             {out, err, {terminal ? &err : nullptr}, recorded, [&] { return cuda; }});
   outcome.out = out.str();
   outcome.err = err.str();
   return outcome;
@@ -162,12 +163,22 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
   };
   const std::vector<Case> cases{
       {{}, "no command given"},
-      {{"smoothe"}, "unknown command 'smoothe'"},
+      {{"smoothe"}, "unknown command 'smoothe' (did you mean 'smooth'?); 'trismooth --help'"},
+      {{"plate.off", "--quiet"}, "unknown command 'plate.off'; "},
+      {{"--vresion"}, "unknown option '--vresion' (did you mean '--version'?)"},
       {{"bench", "--sizes", "1Q"}, "--sizes"},
       {{"smooth"}, "INPUT is required"},
       {{"smooth", "a.off"}, "OUTPUT is required"},
       {{"smooth", "a.off", "b.off", "c.off"}, "c.off"},
-      {{"smooth", "a.off", "b.off", "--frm", "a"}, "--frm"},
+      {{"smooth", "a.off", "b.off", "--frm", "a"}, "unknown option '--frm' (did you mean '--form'?)"},
+      {{"smooth", "--frm=a", "a.off", "b.off"}, "unknown option '--frm=a' (did you mean '--form'?)"},
+      {{"smooth", "a.off", "--max-sweep", "9", "b.off"}, "'--max-sweep' (did you mean '--max-sweeps'?)"},
+      {{"smooth", "a.off", "--wibble"}, "unknown option '--wibble'; "},
+      {{"smooth", "a.off", "b.off", "c", "d", "e"}, "unexpected arguments 'c', 'd', 'e'; "},
+      {{"smooth", "a.off", "b.off", "c"}, "unexpected argument 'c'; "},
+      {{"smooth", "a.off", "b.off", "--method", "laplcian"}, "weighted (did you mean 'laplacian'?)"},
+      {{"smooth", "a.off", "b.off", "--require", "min_shap>=1"}, "(did you mean 'min_shape'?)"},
+      {{"bench", "--versions", "cpu,serail"}, "(did you mean 'serial'?)"},
       {{"smooth", "a.off", "b.off", "--form"}, "--form"},
       {{"smooth", "a.off", "b.off", "--form", "a", "--form", "b"}, "--form: expected one value, and to be given once"},
       {{"smooth", "a.off", "b.off", "--form", "c"}, "unknown form 'c'; valid are a, b"},
@@ -198,7 +209,9 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"quality"}, "INPUT is required"},
       {{"quality", "a.off", "--form", "a"}, "--form"},
       {{"generate", "a.off"}, "--vertices is required"},
+      {{"generate", "a.off", "--vertces", "3"}, "unknown option '--vertces' (did you mean '--vertices'?)"},
       {{"generate", "a.off", "--vertices", "3"}, "from 4 to"},
+      {{"generate", "a.off", "--vertices", "1Q"}, "with K or M for thousands or millions, got '1Q'"},
       {{"generate", "a.off", "--vertices", "1e3"}, "'1e3'"},
       {{"generate", "a.off", "--vertices", "10", "--seed", "-1"}, "--seed"},
       {{"info", "x"}, "x"},
@@ -384,7 +397,7 @@ TEST_CASE("verbose records the smallest shape and prints every sweep and the tim
     CHECK(options.smoothing.progress({7, 100, 50, 0.125, 0.25}) == Progress::proceed);
     return sample::result();
   });
-  CHECK(outcome.says("sweep 7: 100 evaluated, 50 moved, largest move 0.125 of the edge length, smallest shape 0.25\n"));
+  CHECK(outcome.says("sweep 7: 100 evaluated, 50 moved, largest move 0.125 edges, smallest shape 0.25\n"));
   CHECK(outcome.says("times: read 1.50 ms"));
   CHECK(outcome.says("total 50 ms"));
 }
@@ -428,7 +441,7 @@ TEST_CASE("help and version go to standard output and run nothing") {
   CHECK(version.out == "trismooth " + std::string(trismooth::version()) + "\n");
 }
 
-TEST_CASE("help of a command describes each of its options, within 100 columns") {
+TEST_CASE("help of a command describes each of its options, within 80 columns") {
   const Outcome help = call({"smooth", "--help"});
   CHECK(help.code == 0);
   for (const char* option :
@@ -437,16 +450,80 @@ TEST_CASE("help of a command describes each of its options, within 100 columns")
         "--target-quality", "--threads", "--region-array", "--fixed-array", "--fixed-ids", "--report",
         "--annotate",       "--require", "--quiet",        "--verbose"}) {
     CAPTURE(option);
-    CHECK(help.shows("  " + std::string(option)));
+    CHECK((help.shows("  " + std::string(option)) || help.shows(", " + std::string(option))));
   }
   CHECK(help.out.find("\n\n\n") == std::string::npos);
-  for (const char* command : {"smooth", "quality", "generate", "info"}) {
-    std::istringstream lines(call({command, "--help"}).out);
+  for (const Words& words : {Words{"--help"}, Words{"smooth", "--help"}, Words{"quality", "--help"},
+                             Words{"generate", "--help"}, Words{"bench", "--help"}, Words{"info", "--help"}}) {
+    std::istringstream lines(call(words).out);
     for (std::string line; std::getline(lines, line);) {
       CAPTURE(line);
-      CHECK(line.size() <= 100);
+      CHECK(line.size() <= 80);
     }
   }
+}
+
+TEST_CASE("short forms do the same as the long ones") {
+  CHECK(call({"-V"}).out == call({"--version"}).out);
+  CHECK(smooth({"-q"}).out.empty());
+  CHECK(smooth({"-v"}).out == smooth({"--verbose"}).out);
+  CHECK(smooth({"-q", "-v"}).code == 2);
+}
+
+TEST_CASE("smooth says in a few lines whether the mesh got better, and with --verbose everything") {
+  const Outcome brief = smooth({});
+  const Outcome verbose = smooth({"--verbose"});
+  CHECK(std::ranges::count(brief.out, '\n') < 20);
+  for (const char* word :
+       {"input:", "smoothing:", "result:", "shape", "min_angle", "max_angle", "inverted", "written:"}) {
+    CAPTURE(word);
+    CHECK(brief.shows(word));
+    CHECK(verbose.shows(word));
+  }
+  for (const char* word : {"aspect_ratio", "equiangle_skew", "centroid", "0.95 to 1.00", "stopped"}) {
+    CAPTURE(word);
+    CHECK(brief.shows(word) == (word == std::string("stopped")));
+    CHECK(verbose.shows(word));
+  }
+}
+
+TEST_CASE("nothing that comes from outside steers the terminal, whatever says it") {
+  const std::string evil = "e\x1b[2J\nwritten: \r\xc2\x9b\xe2\x80\xae\xff";
+  const auto check = [](const Outcome& outcome) {
+    CAPTURE(outcome.out, outcome.err);
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      CHECK(std::ranges::none_of(text, [](unsigned char c) { return (c < 0x20 && c != '\n') || c >= 0x7f; }));
+      CHECK(text.find("\nwritten: \\") == std::string::npos);
+    }
+    CHECK((outcome.out + outcome.err).find("e\\x1b[2J\\x0awritten: \\x0d\\u009b\\u202e\\xff") != std::string::npos);
+  };
+  const Run run = [&](const PipelineOptions& options) {
+    PipelineResult result = sample::result();
+    result.input.path = options.input;
+    result.input.region_array = evil;
+    result.notes = {evil};
+    result.warnings = {evil};
+    options.warned(evil);
+    result.smoothing->backend_note = evil;
+    return result;
+  };
+  check(call({"smooth", evil, evil}, run));
+  check(call({"smooth", evil, evil, "--verbose", "--fixed-array", evil, "--fixed-ids", evil}, run));
+  check(call({evil}));
+  check(call({"--" + evil}));
+  check(call({"smooth", "a", "b", evil}));
+  check(call({"smooth", "a", "b", "--" + evil}));
+  for (const char* option : {"--method", "--threads", "--tolerance", "--report", "--require"}) {
+    check(call({"smooth", "a", "b", option, evil}));
+  }
+  check(call({"bench", "--sizes", evil}));
+  check(call({"generate", "x.off", "--vertices", evil}));
+  check(call_failing_with(trismooth::ReadError(evil, 17, evil)));
+  check(call_failing_with(trismooth::MeshError(evil)));
+  check(call_failing_with(trismooth::WriteError(evil, evil)));
+  check(call_failing_with(trismooth::DeviceError(evil)));
+  check(call_failing_with(std::invalid_argument(evil)));
+  check(call_failing_with(std::runtime_error(evil)));
 }
 
 TEST_CASE("info names version, formats, instructions and devices") {
@@ -493,6 +570,26 @@ TEST_CASE("the same seed makes the same file, another seed another") {
   REQUIRE(call({"generate", (folder / "again.off").string(), "--vertices", "300"}).code == 0);
   CHECK(bytes_of(folder / "again.off") == first);
   CHECK(made_with("18446744073709551615") != first);
+}
+
+TEST_CASE("the number of vertices may have a unit, as the sizes of bench") {
+  const ScratchFolder folder;
+  const auto made = [&](const std::string& count) {
+    REQUIRE(call({"generate", (folder / (count + ".off")).string(), "--vertices", count}).code == 0);
+    return bytes_of(folder / (count + ".off"));
+  };
+  CHECK(made("1K") == made("1000"));
+  CHECK(made("2k") == made("2000"));
+}
+
+TEST_CASE("a file of vertex numbers that names none is a warning, for it holds nothing") {
+  const ScratchFolder folder;
+  const std::string mesh = (folder / "mesh.off").string();
+  REQUIRE(call({"generate", mesh, "--vertices", "50"}).code == 0);
+  const std::string ids = folder.write("ids.txt", "# none yet\n").string();
+  const std::string warning = "trismooth: warning: " + ids + ": names no vertices, so it holds none\n";
+  CHECK(call({"smooth", mesh, mesh, "--fixed-ids", ids}, &trismooth::run_pipeline).err == warning);
+  CHECK(call({"quality", mesh, "--fixed-ids", ids}, &trismooth::run_pipeline).err == warning);
 }
 
 TEST_CASE("generate cannot write where there is no folder or no format") {

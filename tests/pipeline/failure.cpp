@@ -71,7 +71,7 @@ class Files {
     std::ostringstream err;
     Outcome outcome;
     outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(),
-                                               {out, err, false, run, [&] { return cuda; }});
+                                               {out, err, {}, run, [&] { return cuda; }});
     outcome.out = out.str();
     outcome.err = err.str();
     outcome.output = bytes_of(output);

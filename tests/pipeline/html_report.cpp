@@ -30,6 +30,26 @@ TEST_CASE("text is escaped for content and for attributes") {
   CHECK(escape_html(std::string("a\0b\x1b", 4)) ==
         "a\xef\xbf\xbd"
         "b\xef\xbf\xbd");
+  // Control characters of two bytes, what turns the direction of the text around it, and bytes that are no UTF-8.
+  for (const std::string bad : {"\xc2\x85", "\xe2\x80\xae", "\xe2\x81\xa6", "\xff", "\x7f", "\r"}) {
+    CHECK(escape_html("a" + bad + "b") ==
+          "a\xef\xbf\xbd"
+          "b");
+  }
+}
+
+TEST_CASE("the list of the worst elements says which of them no smoothing can change") {
+  const auto count = [](const std::string& page) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = page.find("all corners fixed", at)) != std::string::npos; ++at) {
+      ++found;
+    }
+    return found;
+  };
+  trismooth::PipelineResult result = sample::result();
+  CHECK(count(html_report(sample::options(), result)) == 2);
+  result.before.worst[1].all_fixed = result.after->worst[1].all_fixed = false;
+  CHECK(count(html_report(sample::options(), result)) == 0);
 }
 
 TEST_CASE("the report of a smoothing is well-formed and has all its parts") {

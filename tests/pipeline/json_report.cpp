@@ -51,7 +51,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                                    "equiangle_skew"});
     CHECK(keys_of(report[side]["metrics"]["shape"]) == Keys{"min", "mean", "max", "stddev", "acceptable_fraction"});
     CHECK(report[side]["histogram"]["shape"].size() == 20);
-    CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid"});
+    CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid", "all_fixed"});
   }
   CHECK(keys_of(report["smoothing"]) ==
         Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device", "backend_note",
@@ -86,6 +86,8 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["after"]["histogram"]["shape"][19] == 20);
   CHECK(report["after"]["worst"][0]["cell"] == 17);
   CHECK(report["after"]["worst"][0]["centroid"] == Json::array({1.5, -2.5}));
+  CHECK(report["after"]["worst"][0]["all_fixed"] == false);
+  CHECK(report["after"]["worst"][1]["all_fixed"] == true);
   CHECK(report["smoothing"]["stop_reason"] == "fixed_point");
   CHECK(report["smoothing"]["backend_note"].is_null());
   CHECK(report["smoothing"]["reproducible"] == true);

@@ -16,7 +16,7 @@ namespace {
 struct Scene {
   std::ostringstream terminal;
   ProgressBar::Clock::time_point now{};
-  ProgressBar bar{terminal, [this] { return now; }};
+  ProgressBar bar{{&terminal}, 1000, [this] { return now; }};
 
   /// What was drawn since the last call.
   std::string drawn() {
@@ -43,10 +43,17 @@ TEST_CASE("a sweep is drawn with its number, its moves and the time") {
   Scene scene;
   scene.now += 200ms;
   scene.bar.sweep_done({12, 9000, 3456, 0.1});
-  CHECK(scene.drawn() == erased + "smoothing: sweep 12, 3456 vertices moved, 0.2 s");
+  CHECK(scene.drawn() == erased + "smoothing: sweep 12 of at most 1000, 3456 vertices moved, 0.2 s");
   scene.now += 200ms;
   scene.bar.sweep_done({13, 9, 1, 0.1});
-  CHECK(scene.drawn() == erased + "smoothing: sweep 13, 1 vertex moved, 0.4 s");
+  CHECK(scene.drawn() == erased + "smoothing: sweep 13 of at most 1000, 1 vertex moved, 0.4 s");
+}
+
+TEST_CASE("without a sweep limit the number of the sweep stands alone") {
+  std::ostringstream terminal;
+  ProgressBar bar({&terminal}, 0, [] { return ProgressBar::Clock::time_point{}; });
+  bar.sweep_done({12, 9000, 3456, 0.1});
+  CHECK(terminal.str() == erased + "smoothing: sweep 12, 3456 vertices moved, 0.0 s");
 }
 
 TEST_CASE("sweeps are drawn ten times a second at most") {
@@ -62,10 +69,10 @@ TEST_CASE("sweeps are drawn ten times a second at most") {
 
 TEST_CASE("the line is erased at the end, and only if one was drawn") {
   std::ostringstream terminal;
-  { const ProgressBar bar(terminal); }
+  { const ProgressBar bar({&terminal}, 0); }
   CHECK(terminal.str().empty());
   {
-    ProgressBar bar(terminal);
+    ProgressBar bar({&terminal}, 0, [] { return ProgressBar::Clock::time_point{}; });
     bar.stage_started(Stage::topology);
     terminal.str("");
   }

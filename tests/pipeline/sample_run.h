@@ -19,7 +19,7 @@ inline trismooth::QualityReport quality(double offset) {
   for (std::size_t bin = 0; bin < report.shape_histogram.size(); ++bin) {
     report.shape_histogram[bin] = static_cast<std::int64_t>(bin) + 1;
   }
-  report.worst = {{17, offset + 0.1, {1.5, -2.5}}, {4, offset + 0.2, {3.25, 4.0}}};
+  report.worst = {{17, offset + 0.1, {1.5, -2.5}}, {4, offset + 0.2, {3.25, 4.0}, true}};
   return report;
 }
 

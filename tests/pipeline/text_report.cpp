@@ -1,14 +1,26 @@
 #include "trismooth/pipeline/text_report.h"
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 
 #include "catch.h"
 #include "sample_run.h"
 
 using trismooth::duration_text;
-using trismooth::text_report;
+using trismooth::PipelineOptions;
+using trismooth::PipelineResult;
+using trismooth::TextDetail;
 
 namespace {
+
+std::string text_report(const PipelineOptions& options, const PipelineResult& result) {
+  return trismooth::text_report(options, result, TextDetail::summary);
+}
+
+std::string full_report(const PipelineOptions& options, const PipelineResult& result) {
+  return trismooth::text_report(options, result, TextDetail::all);
+}
 
 bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
@@ -19,31 +31,77 @@ bool says(const std::string& text, const std::string& words) {
 TEST_CASE("the result of a smoothing says what was read, done and written") {
   const std::string text = text_report(sample::options(), sample::result());
   CAPTURE(text);
-  CHECK(says(text, "plate.vtk: 120 vertices, 210 triangles, 5 other cells, 2 components"));
-  CHECK(says(text, "3 by the cell array 'mat_id'"));
-  CHECK(says(text, "40 fixed, 80 free"));
-  CHECK(says(text, "smart, form b, double precision, cpu with 2 threads"));
-  CHECK(says(text, "fixed_point after 3 sweeps"));
-  CHECK(says(text, "61 vertices moved, 2 put back"));
+  CHECK(says(text, "input:      plate.vtk: 120 vertices, 210 triangles, 5 other cells, 2 components\n"));
+  CHECK(says(text, "fixed:      40 of 120: 27 boundary, 11 interface ('mat_id'), 9 of other cells, 7 of\n"));
+  CHECK(says(text, "smoothing:  smart, form b, double precision, cpu with 2 threads: 24 ms\n"));
+  CHECK(says(text, "result:     61 vertices moved in 3 sweeps, 2 put back; stopped by fixed point\n"));
   CHECK(says(text, "written:    out.vtk"));
   CHECK(text.back() == '\n');
 }
 
+TEST_CASE("the summary is a line for each step and a table of what decides, all else is in the full text") {
+  const std::string text = text_report(sample::options(), sample::result());
+  const std::string full = full_report(sample::options(), sample::result());
+  CAPTURE(text, full);
+  CHECK(std::ranges::count(text, '\n') <= 15);
+  for (const char* words : {"shape ", "min_angle ", "max_angle ", "inverted "}) {
+    CHECK(says(text, words));
+    CHECK(says(full, words));
+  }
+  for (const char* words : {"aspect_ratio", "0.95 to 1.00", "centroid", "put back where", "no vertex moved any more"}) {
+    CAPTURE(words);
+    CHECK_FALSE(says(text, words));
+    CHECK(says(full, words));
+  }
+  CHECK(says(full_report(sample::options(), sample::result()), "7 triangles are listed clockwise"));
+}
+
+TEST_CASE("no line of a report is wider than 80 columns, however large its numbers, but where a name is") {
+  auto options = sample::cuda_options();
+  auto result = sample::cuda_result();
+  result.input.vertices = result.input.triangles = result.input.other_cells = 2'147'483'647;
+  result.input.components = 1'000'000;
+  result.input.reoriented_triangles = 1'000'000'000;
+  result.input.fixed_vertices = result.input.free_vertices = 1'000'000'000;
+  result.smoothing->moved_vertices = result.smoothing->reverted_vertices = result.smoothing->sweeps = 2'000'000'000;
+  result.smoothing->device = "A GPU with a name that is as long as the names of GPUs with much memory are";
+  result.smoothing->backend_note = "cudaErrorInsufficientDriver (CUDA driver version is insufficient for CUDA runtime)";
+  result.before.inverted = result.after->inverted = 700'000'000;
+  for (auto* const report : {&result.before, &*result.after}) {
+    report->triangles = 715'827'882;
+    report->shape_histogram.fill(715'827'882);
+    report->worst = {{715'827'881, -1.2345678e-300, {-1.2345678e-300, -1.2345678e-300}, true}};
+    for (auto& metric : report->metrics) {
+      metric = {-1.2345678e-300, 1.2345678e+300, 1.2345678e+300, 1.2345678e+300, 0.12345};
+    }
+  }
+  result.after->metrics[0].min = 5e-324;
+  for (const std::string& text : {text_report(options, result), full_report(options, result)}) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      CAPTURE(line);
+      CHECK(line.size() <= 80);
+    }
+  }
+}
+
 TEST_CASE("the result of a run on a device says how it ran, and whether another run gives the same") {
   auto result = sample::cuda_result();
-  const std::string text = text_report(sample::cuda_options(), result);
+  const std::string text = full_report(sample::cuda_options(), result);
   CAPTURE(text);
-  CHECK(says(text, "smart, form b, double precision, cuda\n"));
+  CHECK(says(text, "smart, form b, double precision, cuda: 24 ms\n"));
   CHECK(says(text,
-             "device:     A <fast> GPU, cdp execution, soa layout; launches: 14 by the host, 120 by the device; "
-             "1.50 MiB of its memory\n"));
-  CHECK(says(text, "order:      unordered: "));
-  CHECK(says(text, "another run gives another result"));
+             "device:     A <fast> GPU, cdp execution, soa layout; launches: 14 by the host,\n"
+             "            120 by the device; 1.50 MiB of its memory\n"));
+  for (const std::string& any : {text, text_report(sample::cuda_options(), result)}) {
+    CHECK(says(any, "order:      unordered: "));
+    CHECK(says(any, "another run gives\n            another result"));
+  }
   result.smoothing->reproducible = true;
   result.smoothing->child_launches = 0;
-  const std::string ordered = text_report(sample::options(), result);
+  const std::string ordered = full_report(sample::options(), result);
   CAPTURE(ordered);
-  CHECK(says(ordered, "resident execution, aos layout; launches: 14 by the host; "));
+  CHECK(says(ordered, "resident execution, aos layout; launches: 14 by the\n            host; "));
   CHECK_FALSE(says(ordered, "another run"));
 }
 
@@ -52,7 +110,7 @@ TEST_CASE("why the CPU smoothed stands below who smoothed, where there is someth
   CHECK_FALSE(says(text_report(sample::options(), result), "device:"));
   result.smoothing->backend_note = "no CUDA device: cudaErrorNoDevice";
   CHECK(says(text_report(sample::options(), result),
-             "cpu with 2 threads\n            no CUDA device: cudaErrorNoDevice\nstopped: "));
+             "cpu with 2 threads: 24 ms\n            no CUDA device: cudaErrorNoDevice\nresult: "));
 }
 
 TEST_CASE("the result of a check speaks of no smoothing") {
@@ -67,13 +125,18 @@ TEST_CASE("the result of a check speaks of no smoothing") {
 }
 
 TEST_CASE("what holds vertices is named") {
-  auto options = sample::options();
-  options.fixed_array = "anchors";
-  CHECK(says(text_report(options, sample::result()), "40 fixed, 80 free; fixed by the point array 'anchors'\n"));
-  options.fixed_ids = "ids.txt";
-  CHECK(says(text_report(options, sample::result()), "the point array 'anchors' and the file ids.txt\n"));
-  options.fixed_array.reset();
-  CHECK(says(text_report(options, sample::result()), "40 fixed, 80 free; fixed by the file ids.txt\n"));
+  auto result = sample::result();
+  result.input.fixed_array = "anchors";
+  result.input.fixed_array_vertices = 13;
+  result.input.fixed_ids = "ids.txt";
+  result.input.fixed_ids_vertices = 2;
+  for (const std::string& text : {text_report(sample::options(), result), full_report(sample::options(), result)}) {
+    for (const char* words : {"fixed:      40 of 120: ", "27 boundary", "11 interface ('mat_id')", "13 by the array",
+                              "'anchors'", "2 by the file ids.txt"}) {
+      CAPTURE(words);
+      CHECK(says(text, words));
+    }
+  }
 }
 
 TEST_CASE("a mesh that cannot be improved is told plainly, with the reason") {

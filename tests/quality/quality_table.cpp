@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "catch.h"
 
 using trismooth::all_metrics;
+using trismooth::format_summary;
 using trismooth::format_table;
 using trismooth::Metric;
 using trismooth::MetricInfo;
@@ -59,13 +61,20 @@ std::vector<std::string> words_after(const std::string& text, const std::string&
   return {};
 }
 
+/// The words of the line behind the first one that begins with `label`.
+std::vector<std::string> words_below(const std::string& text, const std::string& label) {
+  const std::size_t begin = text.find('\n', text.find("\n" + label + " ") + 1) + 1;
+  std::istringstream stream(text.substr(begin, text.find('\n', begin) - begin));
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
 }  // namespace
 
-TEST_CASE("a table shows every metric once, in plain ASCII within 100 columns") {
+TEST_CASE("a table shows every metric once, in plain ASCII within 80 columns") {
   const QualityReport before = strip_report(2.5);
   const QualityReport after = strip_report(0.4);
   for (const std::string& table : {format_table(before), format_table(before, &after)}) {
@@ -77,7 +86,7 @@ TEST_CASE("a table shows every metric once, in plain ASCII within 100 columns") 
     CHECK(std::all_of(table.begin(), table.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
     for (const std::string& line : lines_of(table)) {
       CAPTURE(line);
-      CHECK(line.size() <= 100);
+      CHECK(line.size() <= 80);
       CHECK((line.empty() || line.back() != ' '));
     }
   }
@@ -94,7 +103,8 @@ TEST_CASE("values stand as they are in the report") {
   CHECK(words_after(table, "inverted") == std::vector<std::string>{"12"});
   CHECK(words_after(table, "shape").front() == "-0.25000");
   CHECK(words_after(table, "shape")[4] == "50.00");
-  CHECK(words_after(table, "area") == std::vector<std::string>{"1.25e-08", "2.50e+12", "inf", "-", "100", ">=", "0"});
+  CHECK(words_after(table, "area") ==
+        std::vector<std::string>{"1.25e-08", "2.50e+12", "inf", "-", "100", "%", ">=", "0"});
 }
 
 TEST_CASE("a change of the worst element is never hidden by rounding") {
@@ -105,12 +115,16 @@ TEST_CASE("a change of the worst element is never hidden by rounding") {
     after[Metric::shape].min = before[Metric::shape].min + step;
     after[Metric::max_angle].max = before[Metric::max_angle].max + 1000 * step;
     const std::string table = format_table(before, &after);
-    const std::vector<std::string> shape_words = words_after(table, "shape");
-    CHECK(shape_words[0] != shape_words[1]);
-    CHECK(shape_words.back() == "better");
-    const std::vector<std::string> angle_words = words_after(table, "max_angle");
-    CHECK(angle_words[4] != angle_words[5]);
-    CHECK(angle_words.back() == "worse");
+    const auto changed_by = [&](const std::string& metric) {
+      const std::vector<std::string> words = words_below(table, metric);
+      return std::stod(words[words.size() - 2]);
+    };
+    CHECK(changed_by("shape") == Approx(after[Metric::shape].min - before[Metric::shape].min).epsilon(0.06));
+    CHECK(changed_by("max_angle") ==
+          Approx(after[Metric::max_angle].max - before[Metric::max_angle].max).epsilon(0.06));
+    CHECK(words_below(table, "shape").back() == "better");
+    CHECK(words_below(table, "max_angle").back() == "worse");
+    CHECK(words_after(format_summary(before, after), "shape").back() == "better");
   }
 }
 
@@ -121,7 +135,7 @@ TEST_CASE("the verdict compares the worst value and the mean") {
     after[metric].min = before[metric].min + min;
     after[metric].mean = before[metric].mean + mean;
     after[metric].max = before[metric].max + max;
-    return words_after(format_table(before, &after), name).back();
+    return words_below(format_table(before, &after), name).back();
   };
   CHECK(verdict(Metric::min_angle, "min_angle", 0, 0, 0) == "same");
   CHECK(verdict(Metric::min_angle, "min_angle", 1, 0, 0) == "better");
@@ -153,11 +167,11 @@ TEST_CASE("the histogram shows every triangle, and a mark where there is at leas
   const std::string table = format_table(report);
   CHECK(words_after(table, "0.15 to 0.20") == std::vector<std::string>{"1", "."});
   CHECK(words_after(table, "0.50 to 0.55") == std::vector<std::string>{"0"});
-  CHECK(words_after(table, "0.95 to 1.00") == std::vector<std::string>{"1,000,000", std::string(60, '#')});
+  CHECK(words_after(table, "0.95 to 1.00") == std::vector<std::string>{"1,000,000", std::string(55, '#')});
   CHECK_FALSE(contains(table, "0.10 to 0.15"));
   CHECK_FALSE(contains(table, "below 0"));
   report.inverted = 500000;
-  CHECK(words_after(format_table(report), "below 0") == std::vector<std::string>{"500,000", std::string(30, '#')});
+  CHECK(words_after(format_table(report), "below 0") == std::vector<std::string>{"500,000", std::string(28, '#')});
 }
 
 TEST_CASE("reports with inverted triangles only, and with none at all") {
@@ -170,18 +184,48 @@ TEST_CASE("reports with inverted triangles only, and with none at all") {
   CHECK(contains(format_table(empty, &empty), "before"));
 }
 
-TEST_CASE("the worst elements stand side by side") {
+TEST_CASE("the worst elements are listed, and which of them no smoothing can change") {
   QualityReport before = strip_report(0.4);
   QualityReport after = before;
   before.worst = {{7, -0.5, {1, 2}}, {8, 0.25, {3, 4}}};
   after.worst = {{9, 0.125, {5, 6.5}}};
   const std::string table = format_table(before, &after);
-  CHECK(contains(table, "7  -0.50000  (1, 2)"));
-  CHECK(contains(table, "9  0.12500  (5, 6.5)"));
-  CHECK(contains(table, "8   0.25000  (3, 4)"));
+  CHECK(contains(table, "7  -0.50000  (1, 2)\n"));
+  CHECK(contains(table, "9  0.12500  (5, 6.5)\n"));
+  CHECK(contains(table, "8   0.25000  (3, 4)\n"));
+  CHECK_FALSE(contains(table, "all fixed"));
+  after.worst[0].all_fixed = true;
+  for (const std::string& marked : {format_table(before, &after), format_table(after)}) {
+    CHECK(contains(marked, "9  0.12500  (5, 6.5)  all fixed\n"));
+    CHECK(contains(marked, "all fixed: none of its corners may move, so no smoothing can change it\n"));
+  }
+  CHECK(contains(format_table(before, &after), "7  -0.50000  (1, 2)\n"));
   before.worst.clear();
   after.worst.clear();
   CHECK_FALSE(contains(format_table(before, &after), "worst"));
+}
+
+TEST_CASE("the summary has the worst value and the mean of shape and angles, and the inverted triangles") {
+  QualityReport before = strip_report(2.5);
+  QualityReport after = strip_report(0.4);
+  before[Metric::shape].min = -0.25;
+  after[Metric::shape].min = 0.125;
+  before[Metric::shape].mean = 0.5;
+  after[Metric::shape].mean = 0.75;
+  before[Metric::max_angle] = {60, 70, 170, 1, 0.5};
+  after[Metric::max_angle] = {60, 65, 160, 1, 0.5};
+  before.inverted = 1234;
+  const std::string summary = format_summary(before, after);
+  using Words = std::vector<std::string>;
+  CHECK(words_after(summary, "shape") == Words{"-0.25000", "0.12500", "0.50000", "0.75000", "better"});
+  CHECK(words_after(summary, "max_angle") == Words{"170.000", "160.000", "70.000", "65.000", "better"});
+  CHECK(words_after(summary, "inverted") == Words{"1,234", "0"});
+  CHECK(lines_of(summary).size() == 6);
+  before.degenerate = 5;
+  CHECK(words_after(format_summary(before, after), "degenerate") == Words{"5", "0"});
+  after[Metric::shape].min = before[Metric::shape].min + 1e-7;
+  CHECK(words_after(format_summary(before, after), "shape")[0] !=
+        words_after(format_summary(before, after), "shape")[1]);
 }
 
 TEST_CASE("a report prints itself as its table") {
