@@ -205,19 +205,19 @@ class Output(CommandLineTest):
                 output = "out" + os.path.splitext(name)[1]
                 report = self.report("smooth", name, output, "--annotate")
                 before, after = mesh_reader.read(self.path(name)), mesh_reader.read(self.path(output))
-                self.assertEqual({*after.cell_arrays} - {*before.cell_arrays}, {"shape"})
-                self.assertEqual({*after.point_arrays} - {*before.point_arrays}, {"fixed", "displacement"})
+                self.assertEqual({*after.cell_arrays} - {*before.cell_arrays}, {"trismooth:shape"})
+                self.assertEqual({*after.point_arrays} - {*before.point_arrays}, {"trismooth:fixed", "trismooth:displacement"})
                 for table in ("cell_arrays", "point_arrays"):
                     for key, rows in getattr(before, table).items():
                         self.assertEqual(getattr(after, table)[key], rows)
                 fixed = planar_geometry.fixed_vertices(before)
-                self.assertEqual([flag for flag, in after.point_arrays["fixed"]],
+                self.assertEqual([flag for flag, in after.point_arrays["trismooth:fixed"]],
                                  [int(v in fixed) for v in range(len(before.points))])
-                for p, q, d in zip(before.points, after.points, after.point_arrays["displacement"]):
+                for p, q, d in zip(before.points, after.points, after.point_arrays["trismooth:displacement"]):
                     self.assertEqual(d, tuple(b - a for a, b in zip(p, q)))
-                shapes = [after.cell_arrays["shape"][cell][0] for cell, _ in after.triangles()]
+                shapes = [after.cell_arrays["trismooth:shape"][cell][0] for cell, _ in after.triangles()]
                 self.assertAlmostEqual(min(shapes), report["after"]["metrics"]["shape"]["min"], places=12)
-                # The annotated file can be read and smoothed again: it holds the same vertices, by its own array.
+                # The annotated file can be read and smoothed again: it holds the same vertices, for the same reasons.
                 again = self.report("smooth", output, "again" + os.path.splitext(name)[1], "--annotate")
                 self.assertEqual(again["input"]["fixed_vertices"], len(fixed))
 
@@ -250,8 +250,9 @@ class Constraints(CommandLineTest):
         self.write("plate.vtk", sample_meshes.legacy_vtk(sample_meshes.Grid()))
         self.run_tool("smooth", "plate.vtk", "annotated.vtk", "--annotate")
         region = self.report("quality", "plate.vtk", "--region-array", "region")["input"]
+        region["region_arrays"][0]["reason"] = "known_name"
         self.assertEqual(region, self.report("quality", "plate.vtk")["input"])
-        displaced = self.report("quality", "annotated.vtk", "--fixed-array", "displacement")["input"]
+        displaced = self.report("quality", "annotated.vtk", "--fixed-array", "trismooth:displacement")["input"]
         self.assertGreater(displaced["fixed_vertices"], region["fixed_vertices"])
         outcome = self.run_tool("smooth", "plate.vtk", "out.vtk", "--region-array", "load", expect=WRONG_USAGE)
         self.assertRegex(outcome.err, "load.*2 components")

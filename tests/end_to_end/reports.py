@@ -18,7 +18,8 @@ REPORT_KEYS = {
     "": {"trismooth", "input", "options", "before", "after", "smoothing", "coordinates_hash", "uncommitted_hash",
          "warnings", "timings_ms", "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
-              "free_vertices", "reoriented_triangles"},
+              "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
+              "fixed_ids_vertices", "held"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
                 "max_sweeps", "tolerance"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
@@ -29,7 +30,7 @@ REPORT_KEYS = {
 }
 # What a report may hold beyond the keys that are promised.
 MORE_KEYS = {"input": {"region_array"},
-             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "fixed_array", "fixed_ids",
+             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array", "fixed_ids",
                          "annotate"}}
 
 
@@ -44,7 +45,7 @@ class Reports(tool.ToolTest):
         self.assertEqual({*part} - REPORT_KEYS[name] - MORE_KEYS.get(name, set()), set(), name)
 
     def assert_quality(self, quality):
-        self.assertEqual({*quality}, {"triangles", "inverted", "metrics", "histogram", "worst"})
+        self.assertEqual({*quality}, {"triangles", "inverted", "metrics", "histogram", "worst", "regions"})
         self.assertEqual({*quality["metrics"]}, METRICS)
         for metric in quality["metrics"].values():
             self.assertEqual({*metric}, {"min", "mean", "max", "stddev", "acceptable_fraction"})

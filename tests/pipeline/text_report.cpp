@@ -67,13 +67,21 @@ TEST_CASE("the result of a check speaks of no smoothing") {
 }
 
 TEST_CASE("what holds vertices is named") {
-  auto options = sample::options();
-  options.fixed_array = "anchors";
-  CHECK(says(text_report(options, sample::result()), "40 fixed, 80 free; fixed by the point array 'anchors'\n"));
-  options.fixed_ids = "ids.txt";
-  CHECK(says(text_report(options, sample::result()), "the point array 'anchors' and the file ids.txt\n"));
-  options.fixed_array.reset();
-  CHECK(says(text_report(options, sample::result()), "40 fixed, 80 free; fixed by the file ids.txt\n"));
+  auto result = sample::result();
+  CHECK(says(text_report(sample::options(), result), "40 of 120: 27 boundary, 11 interface ('mat_id')"));
+  result.input.fixed_array = "anchors";
+  result.input.fixed_array_vertices = 3;
+  CHECK(says(text_report(sample::options(), result), "3 by the array 'anchors'"));
+}
+
+TEST_CASE("a check shows the quality of a few regions, and leaves many to --verbose") {
+  auto result = sample::quality_result();
+  result.region_names.assign(2, "7");
+  result.regions_before.assign(2, {105, 0, 0.25, 0.5, 30});
+  CHECK(says(text_report(sample::options(), result), "mean shape"));
+  result.region_names.assign(200, "7");
+  result.regions_before.assign(200, {105, 0, 0.25, 0.5, 30});
+  CHECK_FALSE(says(text_report(sample::options(), result), "mean shape"));
 }
 
 TEST_CASE("a mesh that cannot be improved is told plainly, with the reason") {
