@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 #include "trismooth/mesh_io/array_names.h"
@@ -10,171 +11,50 @@ namespace trismooth {
 
 namespace {
 
-/// As plain_name() writes them. No name that is often an id of each cell, a part of a parallel run or a result.
-constexpr std::array region_names = std::to_array<std::string_view>({
-    // plain words, with what is hung on them
-    "region",
-    "regions",
-    "regionid",
-    "regionids",
-    "regionnumber",
-    "regionindex",
-    "regiontag",
-    "regionmarker",
-    "regionmarkers",
-    "regionattribute",
-    "regionlabel",
-    "regionref",
-    "regionname",
-    "cellregion",
-    "domain",
-    "domains",
-    "domainid",
-    "domainids",
-    "domainnumber",
-    "domainindex",
-    "domaintag",
-    "domainmarker",
-    "subdomain",
-    "subdomains",
-    "subdomainid",
-    "subdomainids",
-    "subdomainname",
-    "subdomaindata",
-    "subdomainmarkers",
-    "celldomain",
-    "celldomains",
-    "meshdomains",
-    "zone",
-    "zones",
-    "zoneid",
-    "zoneids",
-    "zonenumber",
-    "cellzone",
-    "cellzones",
-    "cellzoneid",
-    "material",
-    "materials",
-    "materialid",
-    "materialids",
-    "materialnumber",
-    "materialindex",
-    "materialtag",
-    "materialtype",
-    "materialname",
-    "materialref",
-    "mat",
-    "mats",
-    "matid",
-    "matids",
-    "matno",
-    "matnum",
-    "matnumber",
-    "matindex",
-    "mattype",
-    "imat",
-    "medium",
+// All names are written as by plain_name(). None of them is often an id of each cell, a part of a parallel run or a
+// result.
+
+/// Words for regions, of all programs. With one of the beginnings and one of the endings they are names of regions.
+constexpr std::array words = std::to_array<std::string_view>(
+    {"region",    "domain",    "subdomain", "zone",     "material",    "mat",         "medium",   "block",
+     "attribute", "marker",    "tag",       "label",    "ref",         "physical",    "property", "prop",
+     "section",   "component", "entity",    "family",   "geometrical", "geometry",    "elset",    "elementary",
+     "reference", "lithology", "facies",    "rocktype", "soiltype",    "realconstant"});
+
+constexpr std::array beginnings =
+    std::to_array<std::string_view>({"", "cell", "element", "elem", "face", "triangle", "mesh"});
+
+constexpr std::array endings = std::to_array<std::string_view>(
+    {"",        "s",     "id",        "ids",    "no",       "num",   "number", "numbers", "index",
+     "indices", "tag",   "tags",      "marker", "markers",  "label", "labels", "ref",     "type",
+     "name",    "names", "attribute", "entity", "entities", "group", "groups"});
+
+/// Names as they are.
+constexpr std::array whole_names = std::to_array<std::string_view>({
     "media",
-    "mediumid",
-    "block",
-    "blocks",
-    "blockid",
-    "blockids",
-    "blocknumber",
-    "blockindex",
-    "blockname",
-    "property",
-    "propertyid",
-    "propertyids",
-    "propid",
+    "properties",
+    "families",
+    "subdomaindata",
+    "imat",
     "partid",
     "partids",
-    "partname",
-    "section",
-    "sections",
-    "sectionid",
-    "sectionids",
-    "sectionname",
-    "component",
-    "componentid",
-    "attribute",
-    "attributes",
-    "attributeid",
-    "elementattribute",
-    "elementattributes",
-    "cellattribute",
-    "cellattributes",
-    "marker",
-    "markers",
-    "markerid",
-    "markertag",
-    "cellmarker",
-    "cellmarkers",
-    "elementmarker",
-    "elementmarkers",
-    "tag",
-    "tags",
-    "tagid",
-    "celltag",
-    "celltags",
-    "elementtag",
-    "elementtags",
-    "facetag",
-    "facetags",
-    "label",
-    "labels",
-    "labelid",
-    "celllabel",
-    "celllabels",
-    "elementlabel",
-    "ref",
-    "refs",
-    "reference",
-    "references",
-    "cellref",
-    "elementref",
-    "elset",
-    "elsets",
+    "groupid",
+    "stratigraphy",
     "elementset",
     "elementsets",
+    "elementgroup",
     "cellset",
     "cellsets",
-    "elementgroup",
     "cellgroup",
-    "groupid",
-    "entity",
-    "entities",
-    "entityid",
-    "entityids",
-    "lithology",
-    "lithologyid",
-    "rocktype",
-    "soiltype",
-    "stratigraphy",
-    "facies",
     // Gmsh, and what is made from its files
-    "physical",
-    "physicals",
-    "physicalid",
-    "physicalids",
-    "physicaltag",
-    "physicaltags",
-    "physicalgroup",
-    "physicalgroups",
-    "physicalentity",
+    "gmshphysical",
+    "gmshgeometrical",
+    "gmshphysicalids",
+    "gmshgeometricalids",
     "physicalregion",
     "physicalregions",
     "physicalsurface",
-    "gmshphysical",
-    "gmshphysicalids",
-    "gmshgeometrical",
-    "gmshgeometricalids",
-    "geometrical",
-    "geometricalid",
-    "geometricalentity",
-    "elementary",
-    "elementarytag",
-    "elementaryentity",
+    "physicalsurfaces",
     "elementaryentities",
     "elementaryids",
     // meshio: format:name
@@ -191,54 +71,34 @@ constexpr std::array region_names = std::to_array<std::string_view>({
     "nametoread",
     // FEniCS and dolfinx: MeshFunction, MeshTags
     "f",
-    "meshtags",
-    "meshtag",
-    "meshtagsvalues",
     "meshfunction",
     "cellfunction",
+    "meshtagsvalues",
+    "celltagsvalues",
     "cellmarkersvalues",
-    // MOOSE, libMesh, Exodus, Cubit, ParaView's readers of these
+    // MOOSE, libMesh, Exodus, Cubit, and ParaView's readers of these
     "objectid",
     "objectids",
-    "elementblock",
-    "elementblocks",
-    "elementblockid",
-    "elementblockids",
-    "elemblock",
-    "elemblockid",
     "exodusblock",
     "exodusblockid",
-    // Elmer, COMSOL
-    "geometryid",
-    "geometryids",
+    // COMSOL
     "geometricentity",
     "geometricentityid",
     "geometricentityids",
     "geometricentityindex",
     "geometricentityindices",
-    "domainentity",
-    // Ansys, LS-DYNA, Abaqus
+    // Ansys
     "ansysmaterialtype",
     "ansysrealconstant",
     "ansyscomponent",
-    "realconstant",
-    "realconstantid",
     "materialset",
     // Salome (MED)
-    "familyid",
-    "familyids",
     "familyidcell",
     "familyidelement",
-    "family",
-    "families",
     "medfamily",
-    // VMTK, SimVascular, Triangle, PyGIMLi, Netgen
-    "cellentityids",
-    "cellentityid",
+    // VMTK, SimVascular, PyGIMLi, Netgen
     "modelregionid",
     "modelfaceid",
-    "triangleattribute",
-    "triangleattributes",
     "pygimlimarker",
     "netgenmaterial",
     // VTK and ParaView
@@ -257,15 +117,30 @@ constexpr std::array bookkeeping_parts = std::to_array<std::string_view>(
 /// ... and those that are one of these.
 constexpr std::array bookkeeping_names = std::to_array<std::string_view>({"pid", "owner", "thread", "threadid"});
 
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// Whether the name is a beginning, a word and an ending.
+bool is_made_of_words(std::string_view name) {
+  return std::ranges::any_of(beginnings, [&](std::string_view beginning) {
+    return name.starts_with(beginning) && std::ranges::any_of(endings, [&](std::string_view ending) {
+             const std::string_view rest = name.substr(beginning.size());
+             return rest.ends_with(ending) && contains(words, rest.substr(0, rest.size() - ending.size()));
+           });
+  });
+}
+
 }  // namespace
 
 bool is_region_name(std::string_view name) {
-  return std::ranges::find(region_names, plain_name(name)) != region_names.end();
+  const std::string plain = plain_name(name);
+  return contains(whole_names, plain) || is_made_of_words(plain);
 }
 
 bool is_bookkeeping_name(std::string_view name) {
   const std::string plain = plain_name(name);
-  return std::ranges::find(bookkeeping_names, plain) != bookkeeping_names.end() ||
+  return contains(bookkeeping_names, plain) ||
          std::ranges::any_of(bookkeeping_parts, [&](std::string_view part) { return plain.find(part) != plain.npos; });
 }
 

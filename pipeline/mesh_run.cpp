@@ -93,7 +93,9 @@ void try_outputs(const MeshRunSettings& settings) {
 std::size_t report_bytes(const PipelineResult& result) {
   constexpr std::size_t of_all = std::size_t{4} << 20;
   constexpr std::size_t of_a_sweep = 4096;
-  return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0);
+  constexpr std::size_t of_a_region = 8192;
+  return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
+         result.regions_before.size() * of_a_region;
 }
 
 /// Runs the pipeline while it shows the progress.

@@ -5,7 +5,8 @@ import struct
 
 from mesh_reader import Mesh  # noqa: F401  (the type that the functions take)
 
-REGION_NAMES = ("region", "mat_id", "material", "MaterialIds", "CellEntityIds", "gmsh:physical", "medit:ref")
+REGION_NAMES = ("region", "mat_id", "material", "materialids", "cellentityids", "gmsh:physical", "medit:ref",
+                "gmsh:geometrical", "attribute")
 
 
 def edges_of(triangles):
@@ -18,14 +19,11 @@ def edges_of(triangles):
 
 
 def region_values(mesh, cells):
-    """The region of each triangle, by the first array that names regions; None where there is none."""
-    for name in REGION_NAMES:
-        rows = mesh.cell_arrays.get(name)
-        if rows and len(rows[0]) == 1:
-            values = [rows[cell][0] for cell in cells]
-            if len(cells) <= 1 or len(set(values)) < len(cells):
-                return values
-    return None
+    """The region of each triangle, by all arrays that name regions; None where there is none."""
+    arrays = [rows for name, rows in mesh.cell_arrays.items()
+              if name.lower() in REGION_NAMES and rows and len(rows[0]) == 1
+              and (len(cells) <= 1 or len({rows[cell] for cell in cells}) < len(cells))]
+    return [tuple(rows[cell] for rows in arrays) for cell in cells] if arrays else None
 
 
 def interface_vertices(mesh):

@@ -1,11 +1,7 @@
 #include "trismooth/mesh_io/planar_mesh.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,13 +11,10 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::find_regions;
-using trismooth::make_data_array;
 using trismooth::MeshDocument;
 using trismooth::planar_mesh;
 using trismooth::PlanarMesh;
 using trismooth::ReadError;
-using trismooth::Regions;
 using trismooth::Triangle;
 
 namespace cell_type = trismooth::cell_type;
@@ -57,10 +50,6 @@ MeshDocument two_squares() {
 
 bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != text.npos;
-}
-
-Regions regions_of(const MeshDocument& document, const std::optional<std::string>& name = std::nullopt) {
-  return find_regions(document, planar_mesh(document, "mesh.vtu"), name);
 }
 
 std::string failure_of(const MeshDocument& document) {
@@ -172,115 +161,6 @@ TEST_CASE("a mesh whose coordinates along its tilted plane no double can hold is
   CHECK(std::isfinite(planar_mesh(document, "mesh.off").points[0].x));
 }
 
-TEST_CASE("regions are numbered from 0 by ascending value, for the triangles alone") {
-  MeshDocument document = two_squares();
-  // The line's value is no region.
-  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{70, -4, 1, 70, 70}));
-  for (const auto& name : {std::optional<std::string>(), std::optional<std::string>("region")}) {
-    const Regions regions = regions_of(document, name);
-    CHECK(regions.array == "region");
-    CHECK(regions.of_triangle == Numbers{1, 0, 1, 1});
-    CHECK(regions.count == 2);
-  }
-}
-
-TEST_CASE("the first region array of the list wins, whatever the file's order") {
-  const std::array<std::string, 7> names{"region",        "mat_id",        "material", "MaterialIds",
-                                         "CellEntityIds", "gmsh:physical", "medit:ref"};
-  for (std::size_t first = 0; first < names.size(); ++first) {
-    MeshDocument document = two_squares();
-    document.cell_arrays.push_back(make_data_array("depth", 1, std::vector<float>{1, 1, 2, 2, 2}));
-    for (std::size_t i = names.size(); i-- > first;) {
-      document.cell_arrays.push_back(make_data_array(names[i], 1, Numbers{1, 1, 2, 2, 2}));
-    }
-    CHECK(regions_of(document).array == names[first]);
-  }
-}
-
-TEST_CASE("without any of the names there are no regions") {
-  MeshDocument document = two_squares();
-  document.cell_arrays.push_back(make_data_array("Region", 1, Numbers{1, 1, 2, 2, 2}));
-  document.point_arrays.push_back(make_data_array("region", 1, Numbers{1, 1, 2, 2, 2, 2}));
-  const Regions regions = regions_of(document);
-  CHECK(regions.array.empty());
-  CHECK(regions.of_triangle.empty());
-  CHECK(regions.count == 0);
-}
-
-TEST_CASE("an array that numbers the triangles, or has several components, is passed over for the next") {
-  MeshDocument document = two_squares();
-  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{4, 3, 3, 2, 1}));
-  CHECK(regions_of(document).array.empty());
-  document.cell_arrays.push_back(make_data_array("mat_id", 2, Numbers(10, 1)));
-  CHECK(regions_of(document).array.empty());
-  document.cell_arrays.push_back(make_data_array("medit:ref", 1, Numbers{1, 1, 1, 1, 1}));
-  CHECK(regions_of(document).array == "medit:ref");
-  CHECK(regions_of(document).count == 1);
-}
-
-TEST_CASE("an array that is named counts even if it numbers the triangles") {
-  MeshDocument document = two_squares();
-  document.cell_arrays.push_back(make_data_array("region", 1, Numbers{1, 1, 1, 1, 1}));
-  document.cell_arrays.push_back(make_data_array("mine", 1, std::vector<double>{0.5, 0.25, 9, 0.75, 1}));
-  const Regions regions = regions_of(document, "mine");
-  CHECK(regions.array == "mine");
-  CHECK(regions.of_triangle == Numbers{1, 0, 2, 3});
-  CHECK(regions.count == 4);
-}
-
-TEST_CASE("a named region array that is missing or of several components is refused, with what there is") {
-  MeshDocument document = two_squares();
-  const auto refusal = [&](const std::string& name) {
-    return message_of<std::invalid_argument>([&] { regions_of(document, name); });
-  };
-  CHECK(contains(refusal("mine"), "'mine'"));
-  CHECK(contains(refusal("mine"), "it has: none"));
-  document.cell_arrays.push_back(make_data_array("region", 1, Numbers(5, 1)));
-  document.cell_arrays.push_back(make_data_array("flux", 3, std::vector<float>(15, 1)));
-  CHECK(contains(refusal("mine"), "it has: region, flux"));
-  CHECK(contains(refusal("flux"), "3 components"));
-}
-
-TEST_CASE("regions may be of any type of number, not-a-number included") {
-  MeshDocument document = two_squares();
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  document.cell_arrays.push_back(make_data_array("region", 1, std::vector<float>{nan, 1.5F, 0, nan, 1.5F}));
-  const Regions regions = regions_of(document);
-  CHECK(regions.count == 2);
-  CHECK(regions.of_triangle == Numbers{1, 0, 1, 0});
-}
-
-TEST_CASE("regions that differ beyond the digits of a double are two regions") {
-  MeshDocument document = two_squares();
-  const std::int64_t large = std::int64_t{1} << 53U;
-  document.cell_arrays.push_back(
-      make_data_array("region", 1, std::vector<std::int64_t>{large, large, 0, large + 1, large + 1}));
-  CHECK(regions_of(document).of_triangle == Numbers{0, 0, 1, 1});
-}
-<<<<<<< HEAD
-=======
-
-TEST_CASE("a point array fixes the vertices where any of its components is not zero") {
-  MeshDocument document = two_squares();
-  document.point_arrays.push_back(make_data_array("fixed", 1, std::vector<double>{0, 1, -0.0, -1, 1e-300, 0}));
-  document.point_arrays.push_back(
-      make_data_array("two", 2, std::vector<std::uint8_t>{0, 0, 0, 1, 2, 0, 0, 0, 3, 3, 0, 0}));
-  for (const bool required : {false, true}) {
-    CHECK(fixed_by_array(document, "fixed", required) == Bytes{0, 1, 0, 1, 1, 0});
-    CHECK(fixed_by_array(document, "two", required) == Bytes{0, 1, 1, 0, 1, 0});
-  }
-}
-
-TEST_CASE("a missing point array fixes nothing, unless it is required") {
-  MeshDocument document = two_squares();
-  document.point_arrays.push_back(make_data_array("depth", 1, std::vector<float>(6, 1)));
-  document.cell_arrays.push_back(make_data_array("fixed", 1, std::vector<float>(5, 1)));
-  CHECK(fixed_by_array(document, "fixed", false).empty());
-  const std::string message = message_of<std::invalid_argument>([&] { fixed_by_array(document, "fixed", true); });
-  CHECK(contains(message, "'fixed'"));
-  CHECK(contains(message, "it has: depth"));
-}
-
 TEST_CASE("documents of more points or cells than 32 bits number are refused by name") {
   constexpr std::size_t most = 2147483647;
   CHECK_NOTHROW(trismooth::check_document_size(most, most, "large.vtu"));
@@ -289,4 +169,3 @@ TEST_CASE("documents of more points or cells than 32 bits number are refused by 
   CHECK(message_of<ReadError>([&] { trismooth::check_document_size(1, std::size_t{1} << 33U, "large.vtu"); }) ==
         "large.vtu: holds more than 2147483647 cells");
 }
->>>>>>> 92126c7 (wip2)

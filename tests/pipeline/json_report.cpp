@@ -37,7 +37,11 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
                                          "region_array", "components", "fixed_vertices", "free_vertices",
-                                         "reoriented_triangles"});
+                                         "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
+                                         "fixed_ids_vertices", "held"});
+  CHECK(keys_of(report["input"]["held"]) ==
+        Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells", "unused", "named", "several"});
+  CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
   for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
                           "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard"}) {
@@ -45,7 +49,8 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
   for (const char* side : {"before", "after"}) {
-    CHECK(keys_of(report[side]) == Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst"});
+    CHECK(keys_of(report[side]) ==
+          Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions"});
     CHECK(keys_of(report[side]["metrics"]) == Keys{"shape", "area", "min_angle", "max_angle", "aspect_ratio",
                                                    "radius_ratio", "edge_ratio", "condition", "scaled_jacobian",
                                                    "equiangle_skew"});
@@ -72,6 +77,11 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["input"]["other_cells"] == 5);
   CHECK(report["input"]["regions"] == 3);
   CHECK(report["input"]["region_array"] == "mat_id");
+  CHECK(report["input"]["region_arrays"][0]["reason"] == "known_name");
+  CHECK(report["input"]["region_arrays"][0]["held_vertices"] == 11);
+  CHECK(report["input"]["held"]["boundary"] == 27);
+  CHECK(report["input"]["held"]["several"] == 7);
+  CHECK(report["input"]["fixed_array"].is_null());
   CHECK(report["input"]["components"] == 2);
   CHECK(report["input"]["fixed_vertices"] == 40);
   CHECK(report["input"]["free_vertices"] == 80);
@@ -118,6 +128,19 @@ TEST_CASE("the JSON report holds when and by what command, and how the gates wen
   CHECK(report["gates"][1]["passed"] == true);
   CHECK(report["gates"][2]["value"].is_null());
   CHECK(report["before"]["degenerate"] == 6);
+}
+
+TEST_CASE("the JSON report has the quality of every region, by its value in the file") {
+  auto result = sample::result();
+  CHECK(Json::parse(json_report(sample::options(), result, sample::record()))["before"]["regions"].empty());
+  result.region_names = {"3", "steel"};
+  result.regions_before = {{100, 2, -0.25, 0.5, 12}, {110, 0, 0.125, 0.75, 20}};
+  result.regions_after = {{100, 0, 0.25, 0.625, 22}, {110, 0, 0.375, 0.875, 30}};
+  const Json report = Json::parse(json_report(sample::options(), result, sample::record()));
+  CHECK(report["before"]["regions"][0] == Json::parse(R"({"region": "3", "triangles": 100, "inverted": 2,
+      "shape": {"min": -0.25, "mean": 0.5}, "min_angle": {"min": 12.0}})"));
+  CHECK(report["after"]["regions"][1] == Json::parse(R"({"region": "steel", "triangles": 110, "inverted": 0,
+      "shape": {"min": 0.375, "mean": 0.875}, "min_angle": {"min": 30.0}})"));
 }
 
 TEST_CASE("the JSON report of a run on a device says how it ran") {

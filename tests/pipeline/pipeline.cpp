@@ -13,6 +13,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/held_text.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -97,6 +98,11 @@ TEST_CASE("with --topology device the backend finds the rings, and the file is t
   CHECK(found.input.components == expected.input.components);
   CHECK(found.input.free_vertices == expected.input.free_vertices);
   CHECK(found.input.fixed_vertices == expected.input.fixed_vertices);
+  CHECK(held_text(found.input) == held_text(expected.input));
+  CHECK(expected.input.held.boundary > 0);
+  CHECK(expected.input.held.non_manifold > 0);
+  CHECK(expected.input.held.bow_tie > 0);
+  CHECK(expected.input.held.unused == 1);
   CHECK(found.input.reoriented_triangles == expected.input.reoriented_triangles);
   CHECK(found.after->metrics[0].min == expected.after->metrics[0].min);
 }

@@ -139,6 +139,16 @@ TEST_CASE("what holds vertices is named") {
   }
 }
 
+TEST_CASE("a check shows the quality of a few regions, and leaves many to --verbose") {
+  auto result = sample::quality_result();
+  result.region_names.assign(2, "7");
+  result.regions_before.assign(2, {105, 0, 0.25, 0.5, 30});
+  CHECK(says(text_report(sample::options(), result), "mean shape"));
+  result.region_names.assign(200, "7");
+  result.regions_before.assign(200, {105, 0, 0.25, 0.5, 30});
+  CHECK_FALSE(says(text_report(sample::options(), result), "mean shape"));
+}
+
 TEST_CASE("a mesh that cannot be improved is told plainly, with the reason") {
   auto result = sample::result();
   result.smoothing->moved_vertices = 0;

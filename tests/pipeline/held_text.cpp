@@ -1,0 +1,76 @@
+#include "trismooth/pipeline/held_text.h"
+
+#include <string>
+
+#include "trismooth/pipeline/held_html.h"
+
+#include "catch.h"
+
+using trismooth::held_html;
+using trismooth::held_text;
+using trismooth::InputSummary;
+using trismooth::RegionReason;
+
+namespace {
+
+InputSummary machine() {
+  InputSummary input;
+  input.vertices = 3207;
+  input.fixed_vertices = 804;
+  input.region_arrays = {{"region", RegionReason::known_name, 10, 672}};
+  input.held = {.boundary = 140, .interface = 672, .several = 8};
+  return input;
+}
+
+bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("one line says how many vertices are held, by reason and by array") {
+  CHECK(held_text(machine()) == "804 of 3207: 140 boundary, 672 interface ('region'), 8 of them both");
+  InputSummary input = machine();
+  input.region_arrays.push_back({"gmsh:physical", RegionReason::named, 2, 0});
+  input.fixed_array = "anchors";
+  input.fixed_array_vertices = 12;
+  input.fixed_ids = "ids.txt";
+  input.held.unused = 3;
+  input.held.bow_tie = 2;
+  CHECK(held_text(input) ==
+        "804 of 3207: 140 boundary, 672 interface ('region', 'gmsh:physical'), 2 bow tie, 3 unused, 12 by the array "
+        "'anchors', 0 by the file ids.txt, 8 of them for several reasons");
+}
+
+TEST_CASE("a mesh of which nothing is held has no reasons") {
+  InputSummary input;
+  input.vertices = 7;
+  CHECK(held_text(input) == "0 of 7");
+}
+
+TEST_CASE("an array that was obeyed is named even where it holds nothing") {
+  InputSummary input;
+  input.vertices = 7;
+  input.fixed_array = "fixed";
+  input.region_arrays = {{"region", RegionReason::known_name, 1, 0}};
+  CHECK(held_text(input) == "0 of 7: 0 interface ('region'), 0 by the array 'fixed'");
+}
+
+TEST_CASE("a page says the same, with why each array counts, and shows names literally") {
+  InputSummary input = machine();
+  input.region_arrays.push_back({"<b>", RegionReason::looks_like_regions, 1, 33});
+  input.fixed_array = "a & b";
+  input.fixed_array_vertices = 12345;
+  input.fixed_ids = "ids.txt";
+  input.fixed_ids_vertices = 4;
+  const std::string html = held_html(input);
+  CAPTURE(html);
+  for (const char* const words :
+       {">804<", ">140<", ">672<", "'region'<small>10 values; by its name</small>",
+        "'&lt;b&gt;'<small>1 value; looks like regions</small>", "'a &amp; b'", ">12,345<", "ids.txt", ">4<"}) {
+    CAPTURE(words);
+    CHECK(says(html, words));
+  }
+  CHECK_FALSE(says(html, "<b>"));
+  CHECK_FALSE(says(html, "no cell"));
+}
