@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "trismooth/mesh_io/buffered_writer.h"
 #include "trismooth/mesh_io/number_text.h"
@@ -26,8 +27,8 @@ class SitePatcher {
   /// The bytes that the coordinate at `offset` takes; fills `text` with new ones where `value` differs from it.
   std::size_t patch(std::size_t offset, std::size_t axis, double value, std::string& text) const {
     const ScalarType type = sites_.axis_types.empty() ? sites_.type : sites_.axis_types[axis];
-    return type == ScalarType::float32 ? patch_as(offset, static_cast<float>(value), text)
-                                       : patch_as(offset, value, text);
+    return visit_scalar_type(type,
+                             [&](auto zero) { return patch_as(offset, static_cast<decltype(zero)>(value), text); });
   }
 
  private:
@@ -37,9 +38,13 @@ class SitePatcher {
     if (sites_.encoding == CoordinateEncoding::text) {
       const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
       const std::string_view token = bytes_.substr(offset, end - offset);
-      const std::optional<T> stored = parse_number<T>(token);
-      if (!stored || differs(*stored, value)) {
-        append_number(text, value);
+      if constexpr (std::is_floating_point_v<T>) {
+        const std::optional<T> stored = parse_number<T>(token);
+        if (!stored || differs(*stored, value)) {
+          append_number(text, value);
+        }
+      } else if (parse_integer_as<T>(token) != value) {
+        text = std::to_string(value);
       }
       return token.size();
     }
@@ -64,7 +69,11 @@ class SitePatcher {
   /// found equal with whatever sign each has.
   template <class T>
   bool differs(T stored, T value) const {
-    return stored != value || (sites_.vertices.empty() && std::signbit(stored) != std::signbit(value));
+    if constexpr (std::is_floating_point_v<T>) {
+      return stored != value || (sites_.vertices.empty() && std::signbit(stored) != std::signbit(value));
+    } else {
+      return stored != value;
+    }
   }
 
   std::string_view bytes_;

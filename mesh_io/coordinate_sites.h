@@ -16,7 +16,7 @@ enum class CoordinateEncoding : std::uint8_t { text, little_endian, big_endian }
 /// Where in a file's bytes the coordinates of each vertex stand.
 struct CoordinateSites {
   CoordinateEncoding encoding = CoordinateEncoding::text;
-  ScalarType type = ScalarType::float64;  ///< float32 or float64; for text, what a reader rounds to
+  ScalarType type = ScalarType::float64;  ///< for text of floating point, what a reader rounds to
   std::vector<ScalarType> axis_types;     ///< of x, y and z where they differ; empty where all are of `type`
   std::vector<std::uint64_t> offsets;     ///< byte offsets of x, y, z: three a site; sites in the file's order
   std::vector<std::int32_t> vertices;     ///< the vertex at each site; empty where site i is vertex i

@@ -48,6 +48,25 @@ decltype(auto) visit_scalar_type(ScalarType type, Function&& function) {
   return std::forward<Function>(function)(double{});
 }
 
+/// What VTK's formats say of an array under a name, as text: units, a time and the like.
+struct ArrayInformation {
+  std::string name;                 ///< "UNITS_LABEL"
+  std::string location;             ///< the class that the name is from: "vtkDataArray"
+  std::vector<std::string> values;  ///< one, or those of a list
+
+  bool operator==(const ArrayInformation&) const = default;
+};
+
+/// What a file says of an array beside its name and numbers.
+struct ArrayDescription {
+  std::vector<std::string> component_names;   ///< one a component, empty for those without; none where no one has one
+  std::vector<ArrayInformation> information;  ///< in the file's order
+  std::vector<std::string> roles;             ///< in which it is the active one of its kind: "Scalars", "Vectors", ...
+
+  bool empty() const { return component_names.empty() && information.empty() && roles.empty(); }
+  bool operator==(const ArrayDescription&) const = default;
+};
+
 /// A named array of numbers of a mesh file, a row of `components` numbers for every point, cell or otherwise. The
 /// numbers are in this machine's byte order, rows one after the other. `bytes` views memory that `owner` keeps alive,
 /// so a copy is cheap and shares the numbers.
@@ -57,6 +76,7 @@ struct DataArray {
   std::size_t components = 1;
   std::span<const std::byte> bytes;
   std::shared_ptr<const void> owner;
+  std::shared_ptr<const ArrayDescription> description = nullptr;  ///< null where there is nothing to say
 
   /// Rows in the array.
   std::size_t rows() const { return components == 0 ? 0 : bytes.size() / (components * size_of(type)); }

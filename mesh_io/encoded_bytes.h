@@ -24,6 +24,9 @@ class EncodedBytes {
   /// The next `count` bytes where they stand, for raw bytes only.
   std::string_view view(std::size_t count);
 
+  /// True where all bytes of a run of base64 were read that ended with '=': what follows was encoded by itself.
+  bool is_behind_padding() const { return padded_ && carried_begin_ == carried_end_; }
+
   /// Ends a run of base64: what follows was encoded by itself. False where bytes of the run are left over.
   bool end_run();
 

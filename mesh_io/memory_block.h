@@ -34,6 +34,9 @@ class MemoryBlock {
     }
   }
 
+  /// Drops what is behind the first `size` bytes, if there is more.
+  void truncate(std::size_t size) { size_ = std::min(size_, size); }
+
   void shrink_to_fit() {
     if (size_ != 0 && size_ != capacity_) {
       reallocate(size_);

@@ -74,6 +74,7 @@ struct MeshDocument {
   std::vector<double> points;                   ///< x, y, z of every point; exact, also where the file holds float32
   ScalarType point_type = ScalarType::float64;  ///< float32 or float64: holds every coordinate as the file stores it
   bool has_float32_axis = false;                ///< some of x, y, z are stored as float32, though point_type is float64
+  std::shared_ptr<const ArrayDescription> points_description;  ///< of the coordinates as an array; may be null
   CellList cells;
   std::vector<DataArray> point_arrays;  ///< a row for every point
   std::vector<DataArray> cell_arrays;   ///< a row for every cell

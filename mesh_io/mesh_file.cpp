@@ -1,7 +1,9 @@
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/codec.h"
@@ -10,6 +12,7 @@
 #include "trismooth/mesh_io/file_bytes.h"
 #include "trismooth/mesh_io/output_file.h"
 #include "trismooth/mesh_io/strip_triangles.h"
+#include "trismooth/mesh_io/text_scanner.h"
 
 namespace trismooth {
 
@@ -37,6 +40,17 @@ const Codec& codec_of(FileFormat format) {
 
 std::string unknown_extension(const std::filesystem::path& path) {
   return "the extension '" + path.extension().string() + "' names no format; known are " + format_list();
+}
+
+/// Formats state the rows of arrays by the counts of points and cells.
+void require_rows(const std::filesystem::path& path, std::span<const DataArray> arrays, std::size_t rows,
+                  std::string_view of) {
+  for (const DataArray& array : arrays) {
+    if (array.bytes.size() != rows * array.components * size_of(array.type)) {
+      throw WriteError(path, "the array " + trismooth::quoted(array.name) + " has " + std::to_string(array.rows()) +
+                                 " rows, the mesh to write has " + std::to_string(rows) + " " + std::string(of));
+    }
+  }
 }
 
 bool is_written_back(const MeshDocument& document, FileFormat target) {
@@ -119,6 +133,12 @@ FileFormat output_format(const std::filesystem::path& path) {
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
   const FileFormat format = output_format(path);
+  for (const auto& arrays : {std::span(document.point_arrays), std::span(added.point_arrays)}) {
+    require_rows(path, arrays, document.point_count(), "points");
+  }
+  for (const auto& arrays : {std::span(document.cell_arrays), std::span(added.cell_arrays)}) {
+    require_rows(path, arrays, document.cells.size(), "cells");
+  }
   OutputFile output(path);
   try {
     write_plain(output.path(), format, document, added);

@@ -25,7 +25,7 @@ struct AddedArrays {
 /// is the input with the coordinates that changed and nothing else; in another, all that the target can hold (see
 /// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
-/// Throws WriteError, also for an unknown extension.
+/// Throws WriteError, also for an unknown extension, and where an array has not a row for every point or cell.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
 
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as

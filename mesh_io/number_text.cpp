@@ -42,14 +42,6 @@ const char* begin_of_number(std::string_view token) {
   return token.data() + (plus ? 1 : 0);
 }
 
-template <class T>
-std::optional<T> parse_whole(std::string_view token) {
-  T value = 0;
-  const char* const end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(begin_of_number(token), end, value);
-  return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
-}
-
 }  // namespace
 
 template <class T>
@@ -72,12 +64,29 @@ std::optional<T> parse_number(std::string_view token) {
 template std::optional<float> parse_number(std::string_view);
 template std::optional<double> parse_number(std::string_view);
 
+template <class T>
+std::optional<T> parse_integer_as(std::string_view token) {
+  T value{};
+  const char* const end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(begin_of_number(token), end, value);
+  return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+template std::optional<std::int8_t> parse_integer_as(std::string_view);
+template std::optional<std::uint8_t> parse_integer_as(std::string_view);
+template std::optional<std::int16_t> parse_integer_as(std::string_view);
+template std::optional<std::uint16_t> parse_integer_as(std::string_view);
+template std::optional<std::int32_t> parse_integer_as(std::string_view);
+template std::optional<std::uint32_t> parse_integer_as(std::string_view);
+template std::optional<std::int64_t> parse_integer_as(std::string_view);
+template std::optional<std::uint64_t> parse_integer_as(std::string_view);
+
 std::optional<std::int64_t> parse_integer(std::string_view token) {
-  return parse_whole<std::int64_t>(token);
+  return parse_integer_as<std::int64_t>(token);
 }
 
 std::optional<std::uint64_t> parse_unsigned(std::string_view token) {
-  return parse_whole<std::uint64_t>(token);
+  return parse_integer_as<std::uint64_t>(token);
 }
 
 void append_number(std::string& text, float value) {

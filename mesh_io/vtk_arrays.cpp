@@ -10,6 +10,8 @@
 #include <vtkIdTypeArray.h>
 #include <vtkType.h>
 
+#include "trismooth/mesh_io/vtk_array_description.h"
+
 namespace trismooth {
 
 int vtk_type_of(ScalarType type) {
@@ -87,8 +89,13 @@ vtkSmartPointer<vtkDataArray> make_vtk_array(ScalarType type, std::size_t compon
 }
 
 vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array) {
+  std::vector<std::string> losses;  // said by what_is_lost()
+  return view_as_vtk_array(array, losses);
+}
+
+vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array, std::vector<std::string>& losses) {
   vtkSmartPointer<vtkDataArray> view;
-  view.TakeReference(vtkDataArray::CreateDataArray(vtk_type_of(array.type)));
+  view.TakeReference(vtkDataArray::CreateDataArray(has_id_role(array) ? VTK_ID_TYPE : vtk_type_of(array.type)));
   view->SetName(array.name.c_str());
   view->SetNumberOfComponents(static_cast<int>(array.components));
   if (!array.bytes.empty()) {
@@ -96,6 +103,7 @@ vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array) {
     auto* const numbers = const_cast<std::byte*>(array.bytes.data());
     view->SetVoidArray(numbers, static_cast<vtkIdType>(array.bytes.size() / size_of(array.type)), 1);
   }
+  describe(*view, array.description.get(), losses);
   return view;
 }
 
@@ -107,9 +115,10 @@ std::optional<DataArray> view_as_data_array(vtkAbstractArray* array) {
   const vtkSmartPointer<vtkAbstractArray> owner = array;
   const auto count = static_cast<std::size_t>(array->GetNumberOfValues());
   const auto* const numbers = count == 0 ? nullptr : static_cast<const std::byte*>(array->GetVoidPointer(0));
-  return DataArray{array->GetName() == nullptr ? "" : array->GetName(), *type,
-                   static_cast<std::size_t>(array->GetNumberOfComponents()), std::span(numbers, count * size_of(*type)),
-                   std::shared_ptr<const void>(numbers, [owner](const void*) {})};
+  return DataArray{
+      array->GetName() == nullptr ? "" : array->GetName(),           *type,
+      static_cast<std::size_t>(array->GetNumberOfComponents()),      std::span(numbers, count * size_of(*type)),
+      std::shared_ptr<const void>(numbers, [owner](const void*) {}), description_of(*array)};
 }
 
 bool holds_non_finite(const DataArray& array) {

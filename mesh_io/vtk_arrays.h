@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <vtkAbstractArray.h>
 #include <vtkDataArray.h>
@@ -25,11 +26,13 @@ std::optional<ScalarType> scalar_type_of(vtkAbstractArray* array);
 vtkSmartPointer<vtkDataArray> make_vtk_array(ScalarType type, std::size_t components, MemoryBlock numbers,
                                              bool ids = false);
 
-/// A VTK array of the same name that views the numbers of `array`, which must outlive it. No copy.
+/// A VTK array of the same name and description that views the numbers of `array`, which must outlive it. No copy.
 vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array);
+/// The same; what VTK cannot take of the description gives a sentence in `losses`.
+vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array, std::vector<std::string>& losses);
 
-/// A view of a VTK array's numbers, which keeps that array alive; nothing for an array that does not hold numbers row
-/// by row in one piece of memory.
+/// A view of a VTK array's numbers with its description, which keeps that array alive; nothing for an array that does
+/// not hold numbers row by row in one piece of memory.
 std::optional<DataArray> view_as_data_array(vtkAbstractArray* array);
 
 /// True where the array holds a NaN or an infinity.

@@ -1,12 +1,16 @@
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/coordinate_sites.h"
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/vtk_legacy_annotations.h"
 #include "trismooth/mesh_io/vtk_legacy_layout.h"
+#include "trismooth/mesh_io/vtk_legacy_promotion.h"
 #include "trismooth/mesh_io/vtk_legacy_reader.h"
+#include "trismooth/mesh_io/vtk_legacy_roles.h"
 #include "trismooth/mesh_io/vtk_legacy_writer.h"
 
 namespace trismooth {
@@ -24,13 +28,28 @@ class VtkLegacyFile : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays,
              std::span<const DataArray> added_cell_arrays) const override {
+    if (document.points.size() != layout_.coordinates.offsets.size() || document.cells.size() != layout_.cell_count) {
+      throw WriteError(path, "the file that was read has " + std::to_string(layout_.coordinates.offsets.size() / 3) +
+                                 " points and " + std::to_string(layout_.cell_count) +
+                                 " cells, the mesh to write has " + std::to_string(document.point_count()) + " and " +
+                                 std::to_string(document.cells.size()));
+    }
+    std::string_view bytes = bytes_;
+    const CoordinateSites* sites = &layout_.coordinates;
+    VtkLegacyPromotion promotion;
+    if (!holds_coordinates(layout_, document.points)) {
+      promotion = promote_coordinates(bytes_, layout_);
+      bytes = promotion.bytes;
+      sites = &promotion.coordinates;
+    }
     if (added_point_arrays.empty() && added_cell_arrays.empty()) {
-      write_patched(path, bytes_, layout_.coordinates, document.points);
+      write_patched(path, bytes, *sites, document.points);
       return;
     }
+    // All that is edited stands behind the coordinates.
     const auto& edits = layout_.without_annotations;
     const std::size_t unedited = edits.empty() ? bytes_.size() : edits.front().begin;
-    write_patched(path, std::string_view(bytes_).substr(0, unedited), layout_.coordinates, document.points,
+    write_patched(path, bytes.substr(0, bytes.size() - (bytes_.size() - unedited)), *sites, document.points,
                   edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays));
   }
 
@@ -82,13 +101,8 @@ MeshDocument read(const std::filesystem::path& path, std::string bytes) {
   return document;
 }
 
-/// Legacy VTK files hold everything that a document does.
-std::vector<std::string> what_is_lost(const MeshDocument&) {
-  return {};
-}
-
 }  // namespace
 
-const Codec vtk_legacy_codec{&read, &write_vtk_legacy, &what_is_lost};
+const Codec vtk_legacy_codec{&read, &write_vtk_legacy, &lost_in_vtk_legacy};
 
 }  // namespace trismooth

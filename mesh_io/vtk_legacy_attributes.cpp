@@ -1,19 +1,37 @@
 #include "trismooth/mesh_io/vtk_legacy_attributes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/vtk_array_description.h"
 #include "trismooth/mesh_io/vtk_legacy_annotations.h"
 
 namespace trismooth {
 
 namespace {
+
+/// The roles of arrays, by keyword.
+constexpr auto roles = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"scalars", "Scalars"},
+    {"color_scalars", "Scalars"},
+    {"vectors", "Vectors"},
+    {"normals", "Normals"},
+    {"texture_coordinates", "TCoords"},
+    {"tensors", "Tensors"},
+    {"tensors6", "Tensors"},
+    {"global_ids", "GlobalIds"},
+    {"pedigree_ids", "PedigreeIds"},
+    {"edge_flags", "EdgeFlag"},
+});
 
 /// Where the arrays of a section go.
 struct ArrayTarget {
@@ -36,6 +54,7 @@ class ArrayReader {
   bool read_attribute(const std::string& keyword) {
     sites_ = {};
     array_begin_ = input_.offset();
+    const std::size_t first_array = target_.arrays.size();
     if (keyword == "scalars") {
       read_scalars();
     } else if (keyword == "color_scalars") {
@@ -59,6 +78,7 @@ class ArrayReader {
     } else {
       return false;
     }
+    make_active(keyword, first_array);
     return true;
   }
 
@@ -80,6 +100,7 @@ class ArrayReader {
     sites_.declared_arrays = array_count;
     sites_.count_begin = input_.value_offset();
     sites_.count_end = input_.offset();
+    input_.pass_comment();
     for (std::uint64_t i = 0; i < array_count; ++i) {
       array_begin_ = input_.offset();
       std::string encoded(input_.next_token("the name of an array"));
@@ -112,12 +133,31 @@ class ArrayReader {
     read_values(std::move(name), input_.next_type(), components, target_.rows);
   }
 
+  /// VTK makes the first array of every kind of attribute the active one.
+  void make_active(const std::string& keyword, std::size_t first_array) {
+    const auto* const role = std::ranges::find(roles, keyword, &std::pair<std::string_view, std::string_view>::first);
+    if (role == roles.end() || target_.arrays.size() == first_array ||
+        std::ranges::find(roles_given_, role->second) != roles_given_.end()) {
+      return;
+    }
+    roles_given_.push_back(role->second);
+    DataArray& array = target_.arrays.back();
+    array.description = with_role(array.description.get(), std::string(role->second));
+  }
+
+  /// Both the number of components and the lookup table may be left out.
   void read_scalars() {
     std::string name = next_array_name();
     const VtkLegacyType type = input_.next_type();
-    const std::uint64_t components = input_.peek_keyword() == "lookup_table" ? 1 : next_component_count();
-    input_.expect_keyword("lookup_table");
-    input_.next_token("the name of a lookup table");
+    std::uint64_t components = 1;
+    // In another line, a number is the first value, unless the table follows.
+    if (!input_.is_next("lookup_table") && (!input_.at_end_of_line() || input_.is_after_next("lookup_table"))) {
+      components = next_component_count();
+    }
+    if (input_.is_next("lookup_table")) {
+      input_.expect_keyword("lookup_table");
+      input_.next_token("the name of a lookup table");
+    }
     read_values(std::move(name), type, components, target_.rows);
   }
 
@@ -139,7 +179,7 @@ class ArrayReader {
       }
     }
     add(make_data_array(std::move(name), components, std::move(colors)));
-    input_.skip_metadata(components);
+    target_.arrays.back().description = input_.read_metadata(components);
   }
 
   void skip_lookup_table() {
@@ -161,6 +201,7 @@ class ArrayReader {
   void read_values(std::string name, VtkLegacyType type, std::uint64_t components, std::uint64_t rows) {
     const std::string what = "values of " + std::string(target_.kind) + " array " + trismooth::quoted(name);
     const std::uint64_t count = input_.value_count(components, rows, what);
+    const std::size_t first_array = target_.arrays.size();
     switch (type.kind) {
       case VtkLegacyType::Kind::numbers:
         add(visit_scalar_type(type.scalar, [&](auto zero) {
@@ -179,7 +220,13 @@ class ArrayReader {
         note_skipped(std::move(name), "variants");
         break;
     }
-    input_.skip_metadata(components);
+    if (!input_.is_binary()) {
+      input_.pass_comment();
+    }
+    auto description = input_.read_metadata(components);
+    if (target_.arrays.size() > first_array) {
+      target_.arrays.back().description = std::move(description);
+    }
     sites_.arrays.back().end = input_.offset();
   }
 
@@ -224,6 +271,7 @@ class ArrayReader {
   ArrayTarget target_;
   VtkLegacyAnnotations::Attribute sites_;
   std::size_t array_begin_ = 0;
+  std::vector<std::string_view> roles_given_;
 };
 
 }  // namespace
@@ -241,8 +289,12 @@ void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, V
   ArrayReader cells(input, document.notes,
                     {document.cell_arrays, layout.cell_names, "cell", document.cells.size(), &document.cell_labels});
   VtkLegacyAnnotations annotations(input.bytes());
-  for (std::size_t begin = input.offset(); !input.at_end(); begin = input.offset()) {
-    const std::string token(input.next_token("a keyword"));
+  const auto begin_of_next = [&input] {
+    input.pass_comments();
+    return input.offset();
+  };
+  for (std::size_t begin = begin_of_next(); !input.at_end(); begin = begin_of_next()) {
+    const std::string token(input.next_keyword("a keyword"));
     const std::string keyword = lower_case(token);
     if (keyword == "point_data" || keyword == "cell_data") {
       layout.last_section = keyword == "point_data" ? Section::point_data : Section::cell_data;

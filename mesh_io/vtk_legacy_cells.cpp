@@ -24,7 +24,7 @@ class CellsReader {
       return {};
     }
     // No cell of the old form can be mistaken for this word: it would have 1.3e9 vertices.
-    if (input_.peek_keyword() == "offsets") {
+    if (input_.is_next("offsets")) {
       read_offsets(first, second);
       read_connectivity(second);
     } else {
@@ -80,7 +80,7 @@ class CellsReader {
       input_.fail("the offsets of " + std::string(section_) + " end at " + std::to_string(previous) + ", but " +
                   std::to_string(connectivity_count) + " vertices are declared");
     }
-    input_.skip_metadata(1);
+    input_.read_metadata(1);
   }
 
   void read_connectivity(std::uint64_t connectivity_count) {
@@ -91,7 +91,7 @@ class CellsReader {
     for (std::size_t cell = 0; cell + 1 < cells_.offsets.size(); ++cell) {
       read_vertices(cell, cells_.offsets[cell + 1] - cells_.offsets[cell], type);
     }
-    input_.skip_metadata(1);
+    input_.read_metadata(1);
   }
 
   void read_vertices(std::uint64_t cell, std::int64_t degree, ScalarType type) {

@@ -3,32 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
+#include "trismooth/mesh_io/vtk_information.h"
 
 namespace trismooth {
 
 namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
-
-/// The whole number that all of `token` states, if T holds it.
-template <class T>
-std::optional<T> parse_integer(std::string_view token) {
-  const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-';
-  T value{};
-  const auto [stop, error] = std::from_chars(token.data() + (plus ? 1 : 0), token.data() + token.size(), value);
-  if (stop != token.data() + token.size() || error != std::errc{}) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 template <class T>
 T load_big_endian(const char* bytes) {
@@ -40,6 +29,21 @@ T load_big_endian(const char* bytes) {
   return std::bit_cast<T>(stored);
 }
 
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
+  return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
+}
+
 }  // namespace
 
 VtkLegacyInput::VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path) : scanner_(bytes, path) {
@@ -49,13 +53,16 @@ VtkLegacyInput::VtkLegacyInput(std::string_view bytes, const std::filesystem::pa
 void VtkLegacyInput::read_header() {
   constexpr std::string_view magic = "# vtk datafile version";
   constexpr int newest_major_version = 5;
+  if (scanner_.text().starts_with(byte_order_mark)) {
+    scanner_.seek(byte_order_mark.size());
+  }
   const std::string_view first_line = scanner_.next_line();
   if (lower_case(first_line.substr(0, magic.size())) != magic) {
     fail("expected '# vtk DataFile Version', got " + quoted(first_line));
   }
   TextScanner rest(first_line, scanner_.path(), TextScanner::Comments::none, magic.size());
   const std::string_view version = rest.peek_token();
-  const auto major = parse_integer<int>(version.substr(0, version.find('.')));
+  const auto major = parse_integer_as<std::int32_t>(version.substr(0, version.find('.')));
   if (!major || *major < 1 || *major > newest_major_version) {
     fail("file version " + quoted(version) + " is not supported; versions 1.0 to 5.1 are");
   }
@@ -68,17 +75,73 @@ void VtkLegacyInput::read_header() {
   binary_ = keyword == "binary";
 }
 
-std::string VtkLegacyInput::peek_keyword() {
+void VtkLegacyInput::pass_comments() {
+  std::size_t behind = scanner_.offset();
+  while (!scanner_.at_end() && scanner_.text()[scanner_.offset()] == '#') {
+    scanner_.next_line();
+    behind = scanner_.offset();
+  }
+  scanner_.seek(behind);
+}
+
+void VtkLegacyInput::pass_comment() {
+  const std::size_t offset = scanner_.offset();
+  if (!scanner_.at_end_of_line() && scanner_.text()[scanner_.offset()] == '#') {
+    scanner_.next_line();
+  } else {
+    scanner_.seek(offset);
+  }
+}
+
+bool VtkLegacyInput::at_end() {
+  pass_comments();
+  return scanner_.at_end();
+}
+
+bool VtkLegacyInput::at_end_of_line() {
+  return scanner_.at_end_of_line() || scanner_.text()[scanner_.offset()] == '#';
+}
+
+std::string VtkLegacyInput::peek_word() {
   // What looks like a token may be megabytes of binary data.
   constexpr std::size_t longer_than_any_keyword = 32;
+  return lower_case(scanner_.peek_token().substr(0, longer_than_any_keyword));
+}
+
+std::string VtkLegacyInput::peek_keyword() {
   const std::size_t offset = scanner_.offset();
-  std::string keyword = lower_case(scanner_.peek_token().substr(0, longer_than_any_keyword));
+  pass_comments();
+  std::string keyword = peek_word();
   scanner_.seek(offset);
   return keyword;
 }
 
+bool VtkLegacyInput::is_next(std::string_view keyword) {
+  const std::size_t offset = scanner_.offset();
+  if (binary_ && at_end_of_line()) {
+    scanner_.next_line();
+  }
+  const bool is = (binary_ ? peek_word() : peek_keyword()) == keyword;
+  scanner_.seek(offset);
+  return is;
+}
+
+bool VtkLegacyInput::is_after_next(std::string_view keyword) {
+  const std::size_t offset = scanner_.offset();
+  const std::size_t length = scanner_.peek_token().size();
+  scanner_.seek(scanner_.offset() + length);
+  const bool is = peek_word() == keyword;
+  scanner_.seek(offset);
+  return is;
+}
+
+std::string_view VtkLegacyInput::next_keyword(std::string_view what) {
+  pass_comments();
+  return next_token(what);
+}
+
 std::string_view VtkLegacyInput::next_token(std::string_view what) {
-  if (binary_ && at_end()) {
+  if (binary_ && scanner_.at_end()) {
     place_ = scanner_.offset();
     fail("expected " + std::string(what) + ", got the end of the file");
   }
@@ -98,7 +161,7 @@ VtkLegacyType VtkLegacyInput::next_type() {
 
 std::uint64_t VtkLegacyInput::next_count(std::string_view what) {
   const std::string_view token = next_token(what);
-  const std::optional<std::int64_t> count = parse_integer<std::int64_t>(token);
+  const std::optional<std::int64_t> count = parse_integer_as<std::int64_t>(token);
   if (!count || *count < 0) {
     fail("expected " + std::string(what) + " (a whole number from 0), got " + quoted(token));
   }
@@ -107,7 +170,7 @@ std::uint64_t VtkLegacyInput::next_count(std::string_view what) {
 
 void VtkLegacyInput::expect_keyword(std::string_view keyword) {
   const std::string upper = upper_case(keyword);
-  const std::string_view token = next_token(upper);
+  const std::string_view token = next_keyword(upper);
   if (lower_case(token) != keyword) {
     fail("expected " + upper + ", got " + quoted(token));
   }
@@ -131,6 +194,9 @@ void VtkLegacyInput::require_values(std::uint64_t count, std::uint64_t room, std
 void VtkLegacyInput::pass_header_line() {
   const std::string_view text = scanner_.text();
   std::size_t end = std::min(text.find_first_not_of(blanks, scanner_.offset()), text.size());
+  if (end < text.size() && text[end] == '#') {
+    end = std::min(text.find_first_of("\r\n", end), text.size());
+  }
   if (text.substr(end, 2) == "\r\n") {
     ++end;
   }
@@ -154,14 +220,18 @@ void VtkLegacyInput::begin_values(std::uint64_t count, std::size_t bytes_each, s
 
 template <class T>
 T VtkLegacyInput::next_text_value(std::string_view what) {
-  const std::string_view token = scanner_.next_token(what);
+  std::string_view token = scanner_.next_token(what);
+  while (token.front() == '#') {
+    scanner_.next_line();
+    token = scanner_.next_token(what);
+  }
   if constexpr (std::is_floating_point_v<T>) {
     if (const std::optional<T> value = parse_number<T>(token)) {
       return *value;
     }
     fail("expected " + std::string(what) + " (a number), got " + quoted(token));
   } else {
-    if (const std::optional<T> value = parse_integer<T>(token)) {
+    if (const std::optional<T> value = parse_integer_as<T>(token)) {
       return *value;
     }
     fail("expected " + std::string(what) + " (a whole number from " + std::to_string(std::numeric_limits<T>::lowest()) +
@@ -266,18 +336,21 @@ void VtkLegacyInput::skip_variants(std::uint64_t count, std::string_view what) {
   }
 }
 
-void VtkLegacyInput::skip_metadata(std::uint64_t components) {
+std::shared_ptr<const ArrayDescription> VtkLegacyInput::read_metadata(std::uint64_t components) {
   if (peek_keyword() != "metadata") {
-    return;
+    return nullptr;
   }
-  next_token("METADATA");
+  next_keyword("METADATA");
   scanner_.next_line();
+  ArrayDescription description;
   while (bytes_left() > 0) {
     const std::string_view line = scanner_.next_line();
-    if (line.find_first_not_of(blanks) == std::string_view::npos) {
-      return;
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.empty()) {
+      break;
     }
-    if (lower_case(line.substr(0, line.find_first_of(blanks))) == "component_names") {
+    const std::string keyword = lower_case(words.front());
+    if (keyword == "component_names") {
       // A component without a name is an empty line that ends nothing. Where lines are missing, arrays that are added
       // behind the file's last byte would be taken for names.
       for (std::uint64_t i = 0; i < components; ++i) {
@@ -285,9 +358,44 @@ void VtkLegacyInput::skip_metadata(std::uint64_t components) {
           fail("COMPONENT_NAMES: expected " + std::to_string(components) + " lines, got " + std::to_string(i) +
                ": the file is cut off");
         }
-        scanner_.next_line();
+        description.component_names.push_back(decode_vtk_name(trimmed(scanner_.next_line())));
       }
+    } else if (keyword == "name") {
+      read_information(words, description.information);
     }
+  }
+  if (std::ranges::all_of(description.component_names, &std::string::empty)) {
+    description.component_names.clear();
+  }
+  return description.empty() ? nullptr : std::make_shared<const ArrayDescription>(std::move(description));
+}
+
+void VtkLegacyInput::read_information(const std::vector<std::string_view>& header,
+                                      std::vector<ArrayInformation>& information) {
+  if (header.size() < 4 || lower_case(header[2]) != "location") {
+    return;
+  }
+  ArrayInformation entry{std::string(header[1]), std::string(header[3]), {}};
+  const std::size_t behind_header = scanner_.offset();
+  const std::vector<std::string_view> data = words_of(scanner_.next_line());
+  if (data.empty() || lower_case(data[0]) != "data") {
+    scanner_.seek(behind_header);
+    return;
+  }
+  const auto kind = information_kind(entry.name, entry.location);
+  const bool is_list = kind == InformationKind::numbers || kind == InformationKind::texts;
+  for (std::size_t i = is_list ? 2 : 1; i < data.size(); ++i) {
+    entry.values.push_back(decode_vtk_name(data[i]));
+  }
+  if (kind == InformationKind::texts && data.size() > 1) {
+    // One a line, which may be empty.
+    const std::uint64_t count = parse_integer_as<std::uint64_t>(data[1]).value_or(0);
+    for (std::uint64_t i = 0; i < count && bytes_left() > 0; ++i) {
+      entry.values.push_back(decode_vtk_name(trimmed(scanner_.next_line())));
+    }
+  }
+  if (!is_range_information(entry.name, entry.location)) {
+    information.push_back(std::move(entry));
   }
 }
 

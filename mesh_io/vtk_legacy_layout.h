@@ -22,6 +22,9 @@ struct VtkLegacyLayout {
 
   bool binary = false;
   CoordinateSites coordinates;
+  std::size_t type_offset = 0;  ///< of the word in the file that names the type of the coordinates
+  std::size_t type_length = 0;
+  std::size_t cell_count = 0;
   Section last_section = Section::geometry;   ///< the one that the file ends in, but for annotations
   std::vector<std::string> point_names;       ///< of every point array, those that a document cannot hold included,
   std::vector<std::string> cell_names;        ///< but for annotations

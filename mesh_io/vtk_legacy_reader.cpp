@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/cell_size.h"
+#include "trismooth/mesh_io/exact_integers.h"
 #include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy_attributes.h"
 #include "trismooth/mesh_io/vtk_legacy_cells.h"
@@ -51,8 +53,8 @@ void append_cells(CellList& cells, CellList&& more) {
 /// Reads the sections before the point and cell data.
 class GeometryReader {
  public:
-  GeometryReader(VtkLegacyInput& input, MeshDocument& document, CoordinateSites& sites)
-      : input_(input), document_(document), sites_(sites) {}
+  GeometryReader(VtkLegacyInput& input, MeshDocument& document, VtkLegacyLayout& layout)
+      : input_(input), document_(document), layout_(layout) {}
 
   void read() {
     read_dataset();
@@ -68,6 +70,7 @@ class GeometryReader {
       require("cells");
       require("cell_types");
     }
+    layout_.cell_count = document_.cells.size();
   }
 
  private:
@@ -83,7 +86,7 @@ class GeometryReader {
   }
 
   void read_section(const std::string& keyword) {
-    const std::string token(input_.next_token("a keyword"));
+    const std::string token(input_.next_keyword("a keyword"));
     if (keyword == "field") {
       read_vtk_legacy_field(input_, document_);
       return;
@@ -113,36 +116,45 @@ class GeometryReader {
   void read_points() {
     const std::uint64_t point_count = input_.next_count("the number of points");
     const VtkLegacyType type = input_.next_type();
-    if (type.kind != VtkLegacyType::Kind::numbers ||
-        (type.scalar != ScalarType::float32 && type.scalar != ScalarType::float64)) {
-      input_.fail("coordinates must be float or double");
+    if (type.kind != VtkLegacyType::Kind::numbers) {
+      input_.fail("coordinates must be numbers (float, double, int, ...)");
     }
     if (point_count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max())) {
       input_.fail("declares " + std::to_string(point_count) + " points; at most 2147483647 are supported");
     }
-    document_.point_type = type.scalar;
-    sites_.type = type.scalar;
-    sites_.encoding = input_.is_binary() ? CoordinateEncoding::big_endian : CoordinateEncoding::text;
-    if (type.scalar == ScalarType::float32) {
-      read_coordinates<float>(3 * point_count);
+    layout_.type_offset = input_.value_offset();
+    layout_.type_length = input_.offset() - input_.value_offset();
+    CoordinateSites& sites = layout_.coordinates;
+    sites.type = type.scalar;
+    sites.encoding = input_.is_binary() ? CoordinateEncoding::big_endian : CoordinateEncoding::text;
+    visit_scalar_type(type.scalar, [&](auto zero) { read_coordinates<decltype(zero)>(3 * point_count); });
+    if (type.scalar == ScalarType::float32 || type.scalar == ScalarType::float64) {
+      document_.point_type = type.scalar;
     } else {
-      read_coordinates<double>(3 * point_count);
+      document_.notes.push_back("the coordinates are of type " + std::string(to_string(type.scalar)) +
+                                ": where a moved one is no such number, the file that is written says double");
     }
-    input_.skip_metadata(3);
+    document_.points_description = input_.read_metadata(3);
   }
 
   template <class T>
   void read_coordinates(std::uint64_t count) {
     input_.begin_values(count, sizeof(T), "coordinates");
     document_.points.reserve(count);
-    sites_.offsets.reserve(count);
+    layout_.coordinates.offsets.reserve(count);
     for (std::uint64_t i = 0; i < count; ++i) {
       const T value = input_.next_value<T>("a coordinate");
-      if (!std::isfinite(value)) {
-        input_.fail("a coordinate of point " + std::to_string(i / 3) + " is not a finite number");
+      const auto coordinate = static_cast<double>(value);
+      if constexpr (std::is_floating_point_v<T>) {
+        if (!std::isfinite(value)) {
+          input_.fail("a coordinate of point " + std::to_string(i / 3) + " is not a finite number");
+        }
+      } else if (!holds_exactly<T>(coordinate) || static_cast<T>(coordinate) != value) {
+        input_.fail("a coordinate of point " + std::to_string(i / 3) + " is " + std::to_string(value) +
+                    ", which double precision does not hold");
       }
-      document_.points.push_back(value);
-      sites_.offsets.push_back(input_.value_offset());
+      document_.points.push_back(coordinate);
+      layout_.coordinates.offsets.push_back(input_.value_offset());
     }
   }
 
@@ -181,7 +193,7 @@ class GeometryReader {
 
   VtkLegacyInput& input_;
   MeshDocument& document_;
-  CoordinateSites& sites_;
+  VtkLegacyLayout& layout_;
   bool poly_data_ = false;
   std::vector<std::string> sections_read_;
   std::array<CellList, poly_data_sections.size()> poly_data_cells_;
@@ -194,7 +206,7 @@ MeshDocument read_vtk_legacy(const std::filesystem::path& path, std::string_view
   document.format = FileFormat::vtk;
   VtkLegacyInput input(bytes, path);
   layout.binary = input.is_binary();
-  GeometryReader(input, document, layout.coordinates).read();
+  GeometryReader(input, document, layout).read();
   read_vtk_legacy_attributes(input, document, layout);
   return document;
 }

@@ -14,6 +14,7 @@
 #include "trismooth/mesh_io/free_names.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_legacy_names.h"
+#include "trismooth/mesh_io/vtk_legacy_roles.h"
 
 namespace trismooth {
 
@@ -52,6 +53,7 @@ void write_points(VtkLegacyOutput& output, const MeshDocument& document) {
   } else {
     write_points_as<double>(output, document.points);
   }
+  output.text(vtk_legacy_metadata(document.points_description.get()));
 }
 
 void write_cells(VtkLegacyOutput& output, const CellList& cells) {
@@ -72,12 +74,34 @@ void write_cells(VtkLegacyOutput& output, const CellList& cells) {
   output.end_numbers();
 }
 
-void write_section(VtkLegacyOutput& output, std::string_view keyword, std::size_t rows,
-                   std::span<const DataArray> arrays) {
-  if (!arrays.empty()) {
-    output.text(std::string(keyword) + " " + std::to_string(rows) + "\n");
-    output.field(arrays, {});
+/// The arrays under names of which no two are the same.
+std::vector<DataArray> with_free_names(std::span<const DataArray> arrays) {
+  std::vector<DataArray> named(arrays.begin(), arrays.end());
+  FreeNames names;
+  for (DataArray& array : named) {
+    array.name = names.claim(array.name.empty() ? "unnamed" : array.name);
   }
+  return named;
+}
+
+/// The arrays in their order: those with a role by themselves, those between them in a FIELD each.
+void write_section(VtkLegacyOutput& output, VtkLegacyData data, std::size_t rows, std::span<const DataArray> arrays) {
+  if (arrays.empty()) {
+    return;
+  }
+  output.text((data == VtkLegacyData::points ? "POINT_DATA " : "CELL_DATA ") + std::to_string(rows) + "\n");
+  const std::vector<DataArray> named = with_free_names(arrays);
+  const std::span<const DataArray> all(named);
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto header = vtk_legacy_role_header(all[i], encode_vtk_name(all[i].name), data)) {
+      output.field(all.subspan(written, i - written), {});
+      output.text(*header);
+      output.values(all[i]);
+      written = i + 1;
+    }
+  }
+  output.field(all.subspan(written), {});
 }
 
 }  // namespace
@@ -130,14 +154,19 @@ void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::span<const s
     text(encode_vtk_name(names.claim(array.name.empty() ? "unnamed" : array.name)) + " " +
          std::to_string(array.components) + " " + std::to_string(array.rows()) + " " +
          std::string(vtk_legacy_type_name(array.type)) + "\n");
-    visit_scalar_type(array.type, [&](auto zero) {
-      const auto values = array.as<decltype(zero)>();
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        number(values[i], (i + 1) % array.components == 0 ? '\n' : ' ');
-      }
-    });
-    end_numbers();
+    values(array);
   }
+}
+
+void VtkLegacyOutput::values(const DataArray& array) {
+  visit_scalar_type(array.type, [&](auto zero) {
+    const auto numbers = array.as<decltype(zero)>();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      number(numbers[i], (i + 1) % array.components == 0 ? '\n' : ' ');
+    }
+  });
+  end_numbers();
+  text(vtk_legacy_metadata(array.description.get()));
 }
 
 void VtkLegacyOutput::flush() {
@@ -156,8 +185,8 @@ void write_vtk_legacy(const std::filesystem::path& path, const MeshDocument& doc
   output.field(document.field_arrays, {});
   write_points(output, document);
   write_cells(output, document.cells);
-  write_section(output, "POINT_DATA", document.point_count(), document.point_arrays);
-  write_section(output, "CELL_DATA", document.cells.size(), document.cell_arrays);
+  write_section(output, VtkLegacyData::points, document.point_count(), document.point_arrays);
+  write_section(output, VtkLegacyData::cells, document.cells.size(), document.cell_arrays);
   output.flush();
   writer.close();
 }

@@ -29,6 +29,8 @@ class VtkLegacyOutput {
   /// A FIELD of the arrays, if there are any. Names that are empty, among `taken_names` or there twice give way to free
   /// ones.
   void field(std::span<const DataArray> arrays, std::span<const std::string> taken_names);
+  /// The numbers of the array, and what its description says of it.
+  void values(const DataArray& array);
   /// Hands on what is left.
   void flush();
 
@@ -39,8 +41,9 @@ class VtkLegacyOutput {
 };
 
 /// Writes the document to the plain path `path` as an UNSTRUCTURED_GRID of version 3.0 with every point, cell and
-/// array: in ASCII, or in BINARY if an array holds NaN or an infinity, which VTK cannot read from text. VTK's own
-/// reader gives back the same values bit for bit. Throws WriteError.
+/// array, those with a role (SCALARS, VECTORS, ...) under its keyword: in ASCII, or in BINARY if an array holds NaN or
+/// an infinity, which VTK cannot read from text. VTK's own reader gives back the same values bit for bit. Throws
+/// WriteError.
 void write_vtk_legacy(const std::filesystem::path& path, const MeshDocument& document);
 
 }  // namespace trismooth

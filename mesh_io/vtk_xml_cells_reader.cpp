@@ -74,15 +74,16 @@ VtkXmlCellsReader::Arrays VtkXmlCellsReader::arrays_of(const VtkXmlPiece& piece,
 }
 
 template <class Index>
-void VtkXmlCellsReader::append_integers(const XmlElement& array, std::uint64_t count, MemoryBlock& integers) {
+void VtkXmlCellsReader::append_integers(const XmlElement& array, std::uint64_t count, MemoryBlock& integers,
+                                        VtkXmlDecoder::Surplus surplus) {
   const ScalarType type = vtk_xml_array_type_of(path_, array).type;
   visit_scalar_type(type, [&](auto zero) {
     using Stored = decltype(zero);
     if constexpr (std::is_same_v<Stored, Index>) {
-      decoder_.read_numbers(array, type, count, integers);
+      decoder_.read_numbers(array, type, count, integers, surplus);
     } else if constexpr (std::is_integral_v<Stored>) {
       MemoryBlock stored;
-      decoder_.read_numbers(array, type, count, stored);
+      decoder_.read_numbers(array, type, count, stored, surplus);
       integers.reserve_more(count * sizeof(Index));
       for (const Stored value : values_from<Stored>(stored, 0)) {
         if (!std::in_range<Index>(value)) {
@@ -109,7 +110,8 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::join_cells(const std::string& s
       const Arrays arrays = arrays_of(pieces_[i], section);
       const std::size_t first_offset = offsets.size() / sizeof(Index);
       const std::size_t first_index = connectivity.size() / sizeof(Index);
-      append_integers<Index>(*arrays.offsets, counts[i], offsets);
+      // Offsets and types behind those of the declared cells would be more cells: a part of the mesh.
+      append_integers<Index>(*arrays.offsets, counts[i], offsets, VtkXmlDecoder::Surplus::refused);
       Index last = 0;
       std::size_t cell = 0;
       for (Index& offset : values_from<Index>(offsets, first_offset)) {
@@ -126,7 +128,8 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::join_cells(const std::string& s
         offset = static_cast<Index>(offset + static_cast<Index>(first_index));
         ++cell;
       }
-      append_integers<Index>(*arrays.connectivity, static_cast<std::uint64_t>(last), connectivity);
+      append_integers<Index>(*arrays.connectivity, static_cast<std::uint64_t>(last), connectivity,
+                             VtkXmlDecoder::Surplus::noted);
       for (Index& vertex : values_from<Index>(connectivity, first_index)) {
         if (std::cmp_less(vertex, 0) || std::cmp_greater_equal(vertex, pieces_[i].points)) {
           throw ReadError(path_, arrays.connectivity->line,
@@ -199,7 +202,7 @@ vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray
         throw ReadError(path_, section->line, "<Cells> has no array 'types'");
       }
       all_uint8 = all_uint8 && vtk_xml_array_type_of(path_, *array).type == ScalarType::uint8;
-      append_integers<std::uint8_t>(*array, piece.cells, types);
+      append_integers<std::uint8_t>(*array, piece.cells, types, VtkXmlDecoder::Surplus::refused);
     }
     for (const XmlElement* const array : vtk_xml_arrays_of(section)) {
       const std::string name = vtk_xml_array_type_of(path_, *array).name;

@@ -43,7 +43,8 @@ class VtkXmlCellsReader {
   template <class Index>
   vtkSmartPointer<vtkCellArray> join_cells(const std::string& section, std::span<const std::uint64_t> counts);
   template <class Index>
-  void append_integers(const XmlElement& array, std::uint64_t count, MemoryBlock& integers);
+  void append_integers(const XmlElement& array, std::uint64_t count, MemoryBlock& integers,
+                       VtkXmlDecoder::Surplus surplus);
 
   const std::filesystem::path& path_;
   std::span<const VtkXmlPiece> pieces_;

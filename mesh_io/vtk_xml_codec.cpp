@@ -14,6 +14,9 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -27,6 +30,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/free_names.h"
 #include "trismooth/mesh_io/memory_block.h"
+#include "trismooth/mesh_io/vtk_array_description.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_cells.h"
 #include "trismooth/mesh_io/vtk_data_sets.h"
@@ -77,6 +81,20 @@ void remove_annotations(vtkFieldData& fields) {
   }
 }
 
+/// Points and arrays of a document from elsewhere; `cell_arrays` in the order of the cells of `data`.
+void set_points_and_arrays(vtkPointSet& data, const MeshDocument& document, std::span<const DataArray> cell_arrays) {
+  std::vector<std::string> losses;  // said by lost_descriptions()
+  const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
+  points->SetName("Points");
+  describe(*points, document.points_description.get(), losses);
+  set_points(data, *points);
+  add_arrays(document.point_arrays, *data.GetPointData());
+  add_arrays(cell_arrays, *data.GetCellData());
+  add_arrays(document.field_arrays, *data.GetFieldData());
+  set_roles(document.point_arrays, *data.GetPointData(), losses);
+  set_roles(cell_arrays, *data.GetCellData(), losses);
+}
+
 class VtkXmlOriginal : public OriginalFile {
  public:
   explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {}
@@ -104,7 +122,7 @@ class VtkXmlOriginal : public OriginalFile {
     }
     add_arrays(added_point_arrays, *copy->GetPointData());
     add_arrays(added_cell_arrays, *copy->GetCellData());
-    write_vtk_xml(path, *copy, file_.encoding);
+    write_vtk_xml(path, *copy, file_.encoding, file_.attributes);
   }
 
  private:
@@ -115,6 +133,7 @@ void copy_points(const std::filesystem::path& path, vtkPointSet& data, MeshDocum
   vtkDataArray* const array = data.GetPoints()->GetData();
   const std::optional<DataArray> view = view_as_data_array(array);
   document.point_type = view->type;
+  document.points_description = view->description;
   document.points.resize(view->bytes.size() / size_of(view->type));
   if (view->type == ScalarType::float64) {
     std::ranges::copy(view->as<double>(), document.points.begin());
@@ -141,6 +160,34 @@ void copy_cells(vtkPointSet& data, CellList& cells) {
   append_cells(*poly_data.GetStrips(), PolyDataGroup::strips, cells);
 }
 
+/// What of the descriptions a data set does not get, found by giving them to arrays without numbers of their own.
+std::vector<std::string> lost_descriptions(const MeshDocument& document) {
+  std::vector<std::string> losses;
+  std::vector<DataArray> with_roles;
+  const auto try_all = [&](std::span<const DataArray> arrays) {
+    with_roles.clear();
+    for (const DataArray& array : arrays) {
+      if (array.description != nullptr) {
+        view_as_vtk_array(array, losses);
+        if (!array.description->roles.empty()) {
+          with_roles.push_back(array);
+        }
+      }
+    }
+  };
+  const auto try_roles = [&](vtkDataSetAttributes& attributes) {
+    add_arrays(with_roles, attributes);
+    set_roles(with_roles, attributes, losses);
+  };
+  try_all(document.point_arrays);
+  try_roles(*vtkNew<vtkPointData>());
+  try_all(document.cell_arrays);
+  try_roles(*vtkNew<vtkCellData>());
+  try_all(document.field_arrays);
+  view_as_vtk_array({"Points", ScalarType::float64, 3, {}, nullptr, document.points_description}, losses);
+  return losses;
+}
+
 std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, VtkXmlMode mode,
                                 std::vector<std::string>& notes) {
   std::vector<DataArray> views;
@@ -156,6 +203,9 @@ std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, Vt
       notes.push_back("the " + std::string(where) + " array " + array->GetName() +
                       " does not hold numbers; no other format gets it");
     }
+  }
+  if (auto* const attributes = vtkDataSetAttributes::SafeDownCast(&fields)) {
+    add_roles(*attributes, views);
   }
   return views;
 }
@@ -185,6 +235,7 @@ MeshDocument read(const std::filesystem::path& path, std::string bytes) {
     std::string().swap(bytes);
     MeshDocument document;
     document.losses = std::move(file.losses);
+    document.notes = std::move(file.notes);
     copy_points(path, *file.data, document);
     copy_cells(*file.data, document.cells);
     document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);
@@ -230,11 +281,7 @@ void write_unstructured_grid(const std::filesystem::path& path, const MeshDocume
   std::ranges::copy(document.cells.types, types->GetPointer(0));
   const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
   grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells)));
-  set_points(*grid, *make_points_array(document));
-  grid->GetPoints()->GetData()->SetName("Points");
-  add_arrays(document.point_arrays, *grid->GetPointData());
-  add_arrays(document.cell_arrays, *grid->GetCellData());
-  add_arrays(document.field_arrays, *grid->GetFieldData());
+  set_points_and_arrays(*grid, document, document.cell_arrays);
   write_vtk_xml(path, *grid, {});
 }
 
@@ -265,7 +312,7 @@ DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
     const auto from = array.bytes.subspan(row * row_size, row_size);
     bytes->insert(bytes->end(), from.begin(), from.end());
   }
-  return {array.name, array.type, array.components, *bytes, bytes};
+  return {array.name, array.type, array.components, *bytes, bytes, array.description};
 }
 
 void write_poly_data(const std::filesystem::path& path, const MeshDocument& document) {
@@ -275,22 +322,18 @@ void write_poly_data(const std::filesystem::path& path, const MeshDocument& docu
   data->SetLines(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::lines)]));
   data->SetPolys(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::polys)]));
   data->SetStrips(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::strips)]));
-  set_points(*data, *make_points_array(document));
-  data->GetPoints()->GetData()->SetName("Points");
   std::vector<DataArray> cell_arrays = document.cell_arrays;
   const std::vector<std::size_t> order = joined(groups);
   if (order.size() != document.cells.size() || !std::ranges::is_sorted(order)) {
     std::ranges::transform(document.cell_arrays, cell_arrays.begin(),
                            [&order](const DataArray& array) { return with_rows(array, order); });
   }
-  add_arrays(document.point_arrays, *data->GetPointData());
-  add_arrays(cell_arrays, *data->GetCellData());
-  add_arrays(document.field_arrays, *data->GetFieldData());
+  set_points_and_arrays(*data, document, cell_arrays);
   write_vtk_xml(path, *data, {});
 }
 
-std::vector<std::string> lost_in_unstructured_grid(const MeshDocument&) {
-  return {};
+std::vector<std::string> lost_in_unstructured_grid(const MeshDocument& document) {
+  return lost_descriptions(document);
 }
 
 std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
@@ -300,8 +343,7 @@ std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
       ++dropped[type];
     }
   }
-  std::vector<std::string> sentences;
-  sentences.reserve(dropped.size() + 1);
+  std::vector<std::string> sentences = lost_descriptions(document);
   for (const auto& [type, count] : dropped) {
     sentences.push_back("VTP holds no cells of type " + std::to_string(type) + ": " + std::to_string(count) +
                         (count == 1 ? " cell is" : " cells are") + " not written");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -89,10 +88,7 @@ std::optional<T> parse(std::string_view token) {
         value && std::isinf(*value) && token.find_first_of("0123456789") != std::string_view::npos;
     return beyond_range ? std::nullopt : value;
   } else {
-    T value{};
-    const char* const end = token.data() + token.size();
-    const auto [stop, error] = std::from_chars(token.data() + (token.starts_with('+') ? 1 : 0), end, value);
-    return stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
+    return parse_integer_as<T>(token);
   }
 }
 
@@ -108,10 +104,12 @@ std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
 
 }  // namespace
 
-VtkXmlDecoder::VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header)
+VtkXmlDecoder::VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header,
+                             std::vector<std::string>& losses)
     : path_(std::move(path)),
       bytes_(bytes),
       header_(header),
+      losses_(losses),
       compressor_(make_vtk_compressor(header.encoding.compressor)) {
   if (compressor_ != nullptr) {
     messages_.watch(compressor_);
@@ -185,7 +183,7 @@ std::vector<std::uint64_t> VtkXmlDecoder::read_header_words(const XmlElement& ar
 
 void VtkXmlDecoder::check_size(const XmlElement& array, std::uint64_t size, std::size_t word_size,
                                std::optional<std::uint64_t> expected) const {
-  if (expected && size != *expected) {
+  if (expected && size < *expected) {
     fail(array, "declares " + counted(size) + " bytes of data, expected " + counted(*expected));
   }
   if (size % word_size != 0) {
@@ -193,10 +191,27 @@ void VtkXmlDecoder::check_size(const XmlElement& array, std::uint64_t size, std:
   }
 }
 
-void VtkXmlDecoder::read_plain(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
+void VtkXmlDecoder::take_surplus(const XmlElement& array, const char* place, Surplus surplus, std::string_view what) {
+  const std::string message = "holds more than the " + std::string(what);
+  if (surplus == Surplus::refused) {
+    fail_at(array, place, message + " expected");
+  }
+  const std::string* const name = array.attribute("Name");
+  losses_.push_back("the array " + (name == nullptr ? std::string() : trismooth::quoted(*name) + " ") + "in line " +
+                    counted(array.line) + " " + message + " that the file asks for; the rest is not kept");
+}
+
+bool VtkXmlDecoder::read_plain(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
                                std::optional<std::uint64_t> expected, MemoryBlock& bytes) {
   const std::uint64_t size = read_header_words(array, source, 1)[0];
   check_size(array, size, word_size, expected);
+  if (size > 0 && vtk_xml_mode_of(path_, array) != VtkXmlMode::ascii) {
+    const bool apart = source.is_behind_padding();
+    sizes_apart_ = sizes_apart_.value_or(apart);
+    if (apart) {
+      source.end_run();
+    }
+  }
   if (size > source.most_available()) {
     fail(array,
          "declares " + counted(size) + " bytes of data, but has " + counted(source.most_available()) + " at most");
@@ -205,14 +220,27 @@ void VtkXmlDecoder::read_plain(const XmlElement& array, EncodedBytes& source, st
   if (!source.read(bytes.extend(size), size) || !source.end_run()) {
     fail(array, "is not base64 of its " + counted(size) + " bytes");
   }
+  return expected && size > *expected;
 }
 
-void VtkXmlDecoder::uncompress_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size,
-                                     std::uint64_t size, MemoryBlock& bytes) {
+const unsigned char* VtkXmlDecoder::compressed_block(const XmlElement& array, EncodedBytes& source,
+                                                     std::uint64_t compressed_size) {
   if (compressed_size > source.most_available()) {
     fail(array, "declares a compressed block of " + counted(compressed_size) + " bytes, but has " +
                     counted(source.most_available()) + " at most");
   }
+  if (vtk_xml_mode_of(path_, array) == VtkXmlMode::appended && !header_.encoding.appended_base64) {
+    return reinterpret_cast<const unsigned char*>(source.view(compressed_size).data());
+  }
+  compressed_block_.resize(compressed_size);
+  if (!source.read(reinterpret_cast<std::byte*>(compressed_block_.data()), compressed_size)) {
+    fail(array, "is cut off or not base64");
+  }
+  return compressed_block_.data();
+}
+
+void VtkXmlDecoder::uncompress_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size,
+                                     std::uint64_t size, MemoryBlock& bytes) {
   // VTK's compressors take some sizes as int.
   constexpr std::uint64_t most = std::numeric_limits<int>::max();
   if (size > most || compressed_size > most) {
@@ -221,16 +249,7 @@ void VtkXmlDecoder::uncompress_block(const XmlElement& array, EncodedBytes& sour
   if (size > saturating_product(compressed_size, most_expansion(header_.encoding.compressor)) + 64) {
     fail(array, "declares " + counted(size) + " bytes in a compressed block of " + counted(compressed_size));
   }
-  const unsigned char* compressed = nullptr;
-  if (vtk_xml_mode_of(path_, array) == VtkXmlMode::appended && !header_.encoding.appended_base64) {
-    compressed = reinterpret_cast<const unsigned char*>(source.view(compressed_size).data());
-  } else {
-    compressed_block_.resize(compressed_size);
-    if (!source.read(reinterpret_cast<std::byte*>(compressed_block_.data()), compressed_size)) {
-      fail(array, "is cut off or not base64");
-    }
-    compressed = compressed_block_.data();
-  }
+  const unsigned char* const compressed = compressed_block(array, source, compressed_size);
   auto* const target = reinterpret_cast<unsigned char*>(bytes.extend(size));
   messages_.clear();
   if (size != 0 && (compressor_->Uncompress(compressed, compressed_size, target, size) != size ||
@@ -239,7 +258,7 @@ void VtkXmlDecoder::uncompress_block(const XmlElement& array, EncodedBytes& sour
   }
 }
 
-void VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
+bool VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
                                     std::optional<std::uint64_t> expected, MemoryBlock& bytes) {
   const std::vector<std::uint64_t> header = read_header_words(array, source, 3);
   const std::uint64_t blocks = header[0];
@@ -255,22 +274,29 @@ void VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& sourc
   const std::uint64_t whole_blocks = blocks == 0 ? 0 : saturating_product(blocks - 1, block_size);
   const std::uint64_t total = blocks == 0 ? 0 : whole_blocks + std::min(last_size, ~whole_blocks);
   check_size(array, total, word_size, expected);
+  const std::size_t begin = bytes.size();
   for (std::size_t block = 0; block < blocks; ++block) {
+    if (expected && bytes.size() - begin >= *expected) {
+      compressed_block(array, source, compressed_sizes[block]);  // of what nobody asked for
+      continue;
+    }
     uncompress_block(array, source, compressed_sizes[block], block + 1 == blocks ? last_size : block_size, bytes);
   }
   if (!source.end_run()) {
     fail(array, "has more compressed data than it declares");
   }
+  return expected && total > *expected;
 }
 
 void VtkXmlDecoder::read_bytes(const XmlElement& array, std::size_t word_size, std::optional<std::uint64_t> expected,
-                               MemoryBlock& bytes) {
+                               MemoryBlock& bytes, Surplus surplus) {
   const std::size_t begin = bytes.size();
   EncodedBytes source = source_of(array);
-  if (compressor_ == nullptr) {
-    read_plain(array, source, word_size, expected, bytes);
-  } else {
-    read_compressed(array, source, word_size, expected, bytes);
+  const bool more = compressor_ == nullptr ? read_plain(array, source, word_size, expected, bytes)
+                                           : read_compressed(array, source, word_size, expected, bytes);
+  if (more) {
+    take_surplus(array, text_of(array).data(), surplus, counted(*expected / word_size) + " numbers");
+    bytes.truncate(begin + *expected);
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::appended) {
     // Arrays that share appended data could make a small file fill the memory.
@@ -326,8 +352,8 @@ void VtkXmlDecoder::check_empty_arrays() {
 }
 
 template <class T>
-void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count,
-                                      MemoryBlock& numbers) const {
+void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers,
+                                      Surplus surplus) {
   std::string_view text = text_of(array);
   const std::uint64_t most = text.size() / 2 + 1;
   if (count && *count > most) {
@@ -342,28 +368,33 @@ void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std
     if (!value) {
       fail_at(array, token.data(), "expected a number of its type, got " + trismooth::quoted(token));
     }
-    if (count && read == *count) {
-      fail_at(array, token.data(), "holds more than the " + counted(read) + " numbers expected");
+    if (count && read >= *count) {
+      if (read == *count) {
+        take_surplus(array, token.data(), surplus, counted(read) + " numbers");
+      }
+      ++read;
+      continue;
     }
     std::memcpy(numbers.extend(sizeof(T)), &*value, sizeof(T));
     ++read;
   }
-  if (count && read != *count) {
+  if (count && read < *count) {
     fail(array, "holds " + counted(read) + " numbers, expected " + counted(*count));
   }
 }
 
 void VtkXmlDecoder::read_numbers(const XmlElement& array, ScalarType type, std::optional<std::uint64_t> count,
-                                 MemoryBlock& numbers) {
+                                 MemoryBlock& numbers, Surplus surplus) {
   if (count == 0) {
     return expect_empty(array);
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {
-    visit_scalar_type(type, [&](auto zero) { read_text_numbers<decltype(zero)>(array, count, numbers); });
+    visit_scalar_type(type, [&](auto zero) { read_text_numbers<decltype(zero)>(array, count, numbers, surplus); });
     return;
   }
   const std::size_t word_size = size_of(type);
-  read_bytes(array, word_size, count ? std::optional(saturating_product(*count, word_size)) : std::nullopt, numbers);
+  read_bytes(array, word_size, count ? std::optional(saturating_product(*count, word_size)) : std::nullopt, numbers,
+             surplus);
 }
 
 void VtkXmlDecoder::read_bits(const XmlElement& array, std::uint64_t count, MemoryBlock& bits) {
@@ -372,7 +403,7 @@ void VtkXmlDecoder::read_bits(const XmlElement& array, std::uint64_t count, Memo
   }
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {
     const std::size_t begin = bits.size();
-    read_text_numbers<std::uint8_t>(array, count, bits);
+    read_text_numbers<std::uint8_t>(array, count, bits, Surplus::noted);
     if (std::any_of(bits.data() + begin, bits.data() + bits.size(), [](std::byte bit) { return bit > std::byte{1}; })) {
       fail(array, "holds a number that is not a bit");
     }
@@ -393,7 +424,7 @@ void VtkXmlDecoder::read_strings(const XmlElement& array, std::uint64_t count, s
   MemoryBlock characters;
   if (vtk_xml_mode_of(path_, array) == VtkXmlMode::ascii) {
     MemoryBlock codes;
-    read_text_numbers<std::int16_t>(array, std::nullopt, codes);
+    read_text_numbers<std::int16_t>(array, std::nullopt, codes, Surplus::noted);
     const std::size_t length = codes.size() / sizeof(std::int16_t);
     std::byte* const target = characters.extend(length);
     for (std::size_t i = 0; i < length; ++i) {
@@ -409,10 +440,14 @@ void VtkXmlDecoder::read_strings(const XmlElement& array, std::uint64_t count, s
   }
   const std::string_view all(reinterpret_cast<const char*>(characters.data()), characters.size());
   const auto found = static_cast<std::uint64_t>(std::ranges::count(all, '\0'));
-  if (found != count || all.back() != '\0') {
+  const std::size_t wanted = strings.size() + count;
+  if (found < count || all.back() != '\0') {
     fail(array, "holds " + counted(found) + " strings, expected " + counted(count));
   }
-  for (std::size_t begin = 0; begin < all.size();) {
+  if (found > count) {
+    take_surplus(array, text_of(array).data(), Surplus::noted, counted(count) + " strings");
+  }
+  for (std::size_t begin = 0; strings.size() < wanted;) {
     const std::size_t end = all.find('\0', begin);
     strings.emplace_back(all.substr(begin, end - begin));
     begin = end + 1;

@@ -64,8 +64,9 @@ const XmlElement* first_points_array(const XmlElement& element) {
   return nullptr;
 }
 
-void find_appended_section(const std::filesystem::path& path, std::string_view bytes, const XmlElement& element,
+void find_appended_section(const std::filesystem::path& path, std::string_view bytes, const XmlElement& root,
                            VtkXmlHeader& header) {
+  const XmlElement& element = root.children.back();
   const std::size_t mark = bytes.find_first_not_of(" \t\r\n", element.content_begin);
   if (mark == std::string_view::npos || bytes[mark] != '_') {
     throw ReadError(path, element.line, "<AppendedData> does not start with '_'");
@@ -75,6 +76,7 @@ void find_appended_section(const std::filesystem::path& path, std::string_view b
   if (header.appended_end == std::string_view::npos || header.appended_end < header.appended_begin) {
     throw ReadError(path, element.line, "<AppendedData> has no end: the file is cut off");
   }
+  check_xml_tail(path, bytes, root, header.appended_end);
   using Choice = std::pair<std::string_view, bool>;
   header.encoding.appended_base64 =
       choose(path, element, "encoding", true, std::array{Choice("base64", true), Choice("raw", false)});
@@ -119,7 +121,7 @@ VtkXmlHeader read_vtk_xml_header(const std::filesystem::path& path, std::string_
                                                  Compressor("vtkLZ4DataCompressor", VtkXmlCompressor::lz4),
                                                  Compressor("vtkLZMADataCompressor", VtkXmlCompressor::lzma)});
   if (head.stopped) {
-    find_appended_section(path, bytes, root.children.back(), header);
+    find_appended_section(path, bytes, root, header);
   }
   const XmlElement* const points = first_points_array(root);
   const XmlElement* const array = points != nullptr ? points : first_array(root);

@@ -27,6 +27,7 @@ struct VtkXmlEncoding {
   VtkXmlCompressor compressor = VtkXmlCompressor::none;
   bool big_endian = false;
   bool wide_block_headers = true;  ///< UInt64 in front of the blocks, not UInt32
+  bool sizes_apart = false;  ///< of base64 in the elements: the size of an array is encoded apart from its numbers
 };
 
 /// The facts that stand at the start of a file, and where its appended section lies.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <vtkBitArray.h>
@@ -17,14 +19,17 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/exact_integers.h"
 #include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_information.h"
 #include "trismooth/mesh_io/vtk_messages.h"
+#include "trismooth/mesh_io/vtk_xml_attributes.h"
 #include "trismooth/mesh_io/vtk_xml_cells_reader.h"
 #include "trismooth/mesh_io/vtk_xml_decoder.h"
 #include "trismooth/mesh_io/vtk_xml_pieces.h"
+#include "trismooth/mesh_io/vtk_xml_shared_arrays.h"
 
 namespace trismooth {
 
@@ -122,15 +127,17 @@ class Reader {
       : path_(path),
         head_(parse_xml_head(path, bytes, "AppendedData", {"InformationKey", "Value"})),
         header_(read_vtk_xml_header(path, bytes, head_, kind)),
-        decoder_(path, bytes, header_) {
+        decoder_(path, bytes, header_, file_.losses) {
     file_.kind = kind;
     file_.encoding = header_.encoding;
+    file_.attributes = head_.root.attributes;
   }
 
   VtkXmlFile read();
 
  private:
   vtkSmartPointer<vtkPoints> read_points();
+  MemoryBlock as_float64(ScalarType type, const MemoryBlock& numbers, std::size_t line) const;
   vtkSmartPointer<vtkPointSet> read_unstructured_grid();
   vtkSmartPointer<vtkPointSet> read_poly_data();
   void read_attributes(const std::string& section, std::uint64_t VtkXmlPiece::*rows,
@@ -141,12 +148,31 @@ class Reader {
   std::vector<std::uint64_t> poly_data_cell_order() const;
 
   const std::filesystem::path& path_;
+  VtkXmlFile file_;
   XmlHead head_;
   VtkXmlHeader header_;
   VtkXmlDecoder decoder_;
   std::vector<VtkXmlPiece> pieces_;
-  VtkXmlFile file_;
 };
+
+/// Whole numbers of that type as float64, which holds each of them.
+MemoryBlock Reader::as_float64(ScalarType type, const MemoryBlock& numbers, std::size_t line) const {
+  MemoryBlock converted;
+  visit_scalar_type(type, [&](auto zero) {
+    using T = decltype(zero);
+    const std::span values(reinterpret_cast<const T*>(numbers.data()), numbers.size() / sizeof(T));
+    auto* const target = reinterpret_cast<double*>(converted.extend(values.size() * sizeof(double)));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      target[i] = static_cast<double>(values[i]);
+      if (!holds_exactly<T>(target[i]) || static_cast<T>(target[i]) != values[i]) {
+        throw ReadError(path_, line,
+                        "point " + std::to_string(i / 3) + " has the coordinate " + std::to_string(values[i]) +
+                            ", which double precision does not hold");
+      }
+    }
+  });
+  return converted;
+}
 
 vtkSmartPointer<vtkPoints> Reader::read_points() {
   std::optional<VtkXmlArrayType> type;
@@ -163,10 +189,9 @@ vtkSmartPointer<vtkPoints> Reader::read_points() {
                       "expected one array in <Points>, got " + std::to_string(arrays.size()));
     }
     VtkXmlArrayType here = vtk_xml_array_type_of(path_, *arrays[0]);
-    if (here.values != Values::numbers || here.components != 3 ||
-        (here.type != ScalarType::float32 && here.type != ScalarType::float64)) {
+    if (here.values != Values::numbers || here.components != 3) {
       throw ReadError(path_, arrays[0]->line,
-                      "expected points as 3 components of Float32 or Float64, got " + std::to_string(here.components) +
+                      "expected points as 3 components of a type of number, got " + std::to_string(here.components) +
                           " of " + trismooth::quoted(*arrays[0]->attribute("type")));
     }
     if (type && type->type != here.type) {
@@ -180,6 +205,11 @@ vtkSmartPointer<vtkPoints> Reader::read_points() {
   }
   auto points = vtkSmartPointer<vtkPoints>::New();
   if (type) {
+    if (type->type != ScalarType::float32 && type->type != ScalarType::float64) {
+      numbers = as_float64(type->type, numbers, first->line);
+      file_.losses.push_back("the points are written as Float64, not " + *first->attribute("type"));
+      type->type = ScalarType::float64;
+    }
     const vtkSmartPointer<vtkDataArray> array = make_vtk_array(type->type, 3, std::move(numbers));
     array->SetName(type->name.empty() ? "Points" : type->name.c_str());
     set_component_names(*first, *array);
@@ -223,35 +253,22 @@ void Reader::set_active_attributes(const XmlElement& section, vtkDataSetAttribut
 
 void Reader::read_attributes(const std::string& section, std::uint64_t VtkXmlPiece::*rows,
                              const std::vector<std::uint64_t>& order, vtkDataSetAttributes& target) {
-  // An empty piece may leave its arrays out, so the first that has rows tells which there are.
-  const auto model = std::ranges::find_if(pieces_, [rows](const VtkXmlPiece& piece) { return piece.*rows > 0; });
-  const VtkXmlPiece& model_piece = model == pieces_.end() ? pieces_.front() : *model;
-  const XmlElement* const model_section = model_piece.element->child(section);
-  const std::vector<const XmlElement*> arrays = vtk_xml_arrays_of(model_section);
+  const VtkXmlSharedArrays shared = find_shared_arrays(path_, pieces_, section, rows, file_.losses);
+  const XmlElement* const model_section = shared.first_section;
+  const std::vector<const XmlElement*>& arrays = shared.of_first;
   std::vector<DecodedArray> decoded(arrays.size());
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     decoded[i].type = vtk_xml_array_type_of(path_, *arrays[i]);
-    if (arrays[i]->attribute("Name") == nullptr) {
-      throw ReadError(path_, arrays[i]->line, "an array of <" + section + "> has no Name");
-    }
   }
-  for (const VtkXmlPiece& piece : pieces_) {
-    const std::vector<const XmlElement*> here = vtk_xml_arrays_of(piece.element->child(section));
-    if (piece.*rows == 0) {
-      std::ranges::for_each(here, [this](const XmlElement* array) { decoder_.expect_empty(*array); });
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    if (pieces_[p].*rows == 0) {
+      for (const XmlElement* const array : vtk_xml_arrays_of(pieces_[p].element->child(section))) {
+        decoder_.expect_empty(*array);
+      }
       continue;
     }
-    if (here.size() != arrays.size()) {
-      throw ReadError(path_, piece.element->line,
-                      "this piece has " + std::to_string(here.size()) + " arrays in <" + section +
-                          ">, the first piece has " + std::to_string(arrays.size()));
-    }
     for (std::size_t i = 0; i < arrays.size(); ++i) {
-      if (vtk_xml_array_type_of(path_, *here[i]) != decoded[i].type) {
-        throw ReadError(path_, here[i]->line,
-                        "expected array " + trismooth::quoted(decoded[i].type.name) + " as in the first piece");
-      }
-      decode(decoder_, *here[i], piece.*rows, decoded[i]);
+      decode(decoder_, *shared.of_piece[p][i], pieces_[p].*rows, decoded[i]);
     }
   }
   reserve_vtk_arrays(target, arrays.size());
@@ -380,6 +397,14 @@ VtkXmlFile Reader::read() {
     read_field_data(*field_data);
   }
   decoder_.check_empty_arrays();
+  file_.encoding.sizes_apart = decoder_.has_sizes_apart() && file_.encoding.mode == VtkXmlMode::binary;
+  if (decoder_.has_sizes_apart() && !file_.encoding.sizes_apart) {
+    file_.losses.emplace_back("the sizes of the arrays are written as base64 together with their numbers, not apart");
+  }
+  std::ranges::move(unknown_vtk_xml_attributes(head_.root), std::back_inserter(file_.losses));
+  if (const std::string names = unknown_vtk_file_attributes(head_.root); !names.empty()) {
+    file_.notes.push_back("what <VTKFile> says as " + names + " is kept in this format only");
+  }
   return std::move(file_);
 }
 

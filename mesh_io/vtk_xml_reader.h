@@ -9,6 +9,7 @@
 #include <vtkSmartPointer.h>
 
 #include "trismooth/mesh_io/vtk_xml_header.h"
+#include "trismooth/mesh_io/xml_tree.h"
 
 namespace trismooth {
 
@@ -17,13 +18,17 @@ struct VtkXmlFile {
   VtkXmlKind kind = VtkXmlKind::unstructured_grid;
   vtkSmartPointer<vtkPointSet> data;
   VtkXmlEncoding encoding;
+  XmlAttributes attributes;         ///< of <VTKFile>
   std::vector<std::string> losses;  ///< what of the file the data set does not hold, one sentence each
+  std::vector<std::string> notes;   ///< what only another file of the same kind can hold
 };
 
 /// Reads a file, whose bytes are `bytes`. Every array comes back with its name, type, component names and values, two
 /// of the same name too; several pieces are joined as VTK joins them. Checked: the structure, every count against the
 /// bytes at hand, cell indices against the points, cells against their type. Not checked: whether points are finite.
-/// Points are float32 or float64. Refused: time steps, polyhedra. Throws ReadError; complexity linear in the size.
+/// Points are float32 or float64; whole numbers become float64. Numbers behind those that are asked for and arrays that
+/// are not in every piece are left out. Refused: time steps, polyhedra. Throws ReadError; complexity linear in the
+/// size.
 VtkXmlFile read_vtk_xml(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind);
 
 }  // namespace trismooth

@@ -6,9 +6,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <tbb/task_arena.h>
+#include <vtkBase64OutputStream.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -76,6 +78,29 @@ void forget_ranges(vtkFieldData& fields) {
   }
 }
 
+/// Encodes the first bytes that are written apart from the others: an array's size, where VTK's writer uses it.
+class SizeApartStream : public vtkBase64OutputStream {
+ public:
+  static vtkSmartPointer<SizeApartStream> make() {
+    auto* const stream = new SizeApartStream;
+    stream->InitializeObjectBase();
+    return vtkSmartPointer<SizeApartStream>::Take(stream);
+  }
+
+  int StartWriting() override {
+    is_first_ = true;
+    return vtkBase64OutputStream::StartWriting();
+  }
+  int Write(const void* data, std::size_t length) override {
+    const int written = vtkBase64OutputStream::Write(data, length);
+    const bool was_first = std::exchange(is_first_, false);
+    return written != 0 && (!was_first || (EndWriting() != 0 && vtkBase64OutputStream::StartWriting() != 0)) ? 1 : 0;
+  }
+
+ private:
+  bool is_first_ = true;
+};
+
 /// VTK's writer with faults mended: it writes -0 as 0 in text, values that are not finite as text that its own reader
 /// cannot read, and ranges that it has just computed. It also writes to a stream of ours, so it does not delete what it
 /// failed to write.
@@ -89,8 +114,19 @@ class ExactWriter : public Writer {
   }
 
   void set_stream(std::ostream& stream) { this->Stream = &stream; }
+  void set_file_attributes(const XmlAttributes& attributes) { attributes_ = attributes; }
+  void encode_sizes_apart() { this->SetDataStream(SizeApartStream::make()); }
 
  protected:
+  void WriteFileAttributes() override {
+    if (attributes_.empty()) {
+      Writer::WriteFileAttributes();
+    }
+    for (const auto& [name, value] : attributes_) {
+      *this->Stream << ' ' << name << "=\"" << escape_xml_attribute(value) << '"';
+    }
+  }
+
   void WriteArrayInline(vtkAbstractArray* array, vtkIndent indent, const char* name, int write_rows) override {
     const int mode = this->DataMode;
     const auto view = view_as_data_array(array);
@@ -112,6 +148,9 @@ class ExactWriter : public Writer {
     }
     forget_ranges(*array);
   }
+
+ private:
+  XmlAttributes attributes_;
 };
 
 /// The name and the component names as VTK's writer has to get them: it puts them into attributes as they are.
@@ -175,7 +214,7 @@ void escape_names(vtkFieldData& fields) {
 
 template <class Writer>
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
   const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
   VtkMessages messages;
   messages.watch(writer);
@@ -191,6 +230,10 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
   writer->SetCompressor(make_vtk_compressor(encoding.compressor));
+  writer->set_file_attributes(attributes);
+  if (encoding.sizes_apart) {
+    writer->encode_sizes_apart();
+  }
   // VTK loops over the types of cells on TBB's threads where it was built with it; a user may have asked for one.
   const bool written = tbb::task_arena(1).execute([&] { return writer->Write() != 0; });
   const unsigned long code = writer->GetErrorCode();
@@ -202,7 +245,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 }
 
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
   const vtkSmartPointer<vtkPointSet> copy = shallow_copy(data);
   for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
                                      static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
@@ -216,15 +259,16 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
     copy->SetPoints(escaped);
   }
   if (vtkUnstructuredGrid::SafeDownCast(copy) != nullptr) {
-    write_to_stream<vtkXMLUnstructuredGridWriter>(stream, path, *copy, encoding);
+    write_to_stream<vtkXMLUnstructuredGridWriter>(stream, path, *copy, encoding, attributes);
   } else {
-    write_to_stream<vtkXMLPolyDataWriter>(stream, path, *copy, encoding);
+    write_to_stream<vtkXMLPolyDataWriter>(stream, path, *copy, encoding, attributes);
   }
 }
 
 }  // namespace
 
-void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding) {
+void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
+                   const XmlAttributes& attributes) {
   constexpr std::size_t for_buffers = std::size_t{4} << 20;
   constexpr std::size_t kibibyte = 1024;  // what VTK counts in
   require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
@@ -233,7 +277,7 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     // VTK's writer goes back and forth in what it writes; a pipe or a device cannot.
     std::ostringstream text;
-    write_to_stream(text, path, data, encoding);
+    write_to_stream(text, path, data, encoding, attributes);
     if (!text) {
       throw std::bad_alloc();  // which a string stream keeps to itself
     }
@@ -244,7 +288,7 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
   }
   OutputStreamBuffer file(path);
   std::ostream stream(&file);
-  write_to_stream(stream, path, data, encoding);
+  write_to_stream(stream, path, data, encoding, attributes);
   file.close();
 }
 

@@ -22,11 +22,12 @@ struct ParseState {
   const std::filesystem::path* path = nullptr;
   std::string_view stop_at;
   std::vector<std::string_view> keep_text_of;
+  std::size_t lines_before = 0;  ///< in front of what is parsed
   XmlHead head;
   std::vector<XmlElement*> open;
   std::exception_ptr error;
 
-  std::size_t line() const { return XML_GetCurrentLineNumber(parser); }
+  std::size_t line() const { return lines_before + XML_GetCurrentLineNumber(parser); }
   std::size_t position() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser)); }
 
   void stop() { XML_StopParser(parser, XML_FALSE); }
@@ -119,8 +120,10 @@ const XmlElement* XmlElement::child(std::string_view child_name) const {
   return found == children.end() ? nullptr : &*found;
 }
 
-XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
-                       std::vector<std::string_view> keep_text_of) {
+namespace {
+
+XmlHead parse(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
+              std::vector<std::string_view> keep_text_of, std::size_t lines_before) {
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr),
                                                                                         &XML_ParserFree);
   if (parser == nullptr) {
@@ -130,6 +133,7 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
                    .path = &path,
                    .stop_at = stop_at,
                    .keep_text_of = std::move(keep_text_of),
+                   .lines_before = lines_before,
                    .head = {},
                    .open = {},
                    .error = nullptr};
@@ -170,6 +174,30 @@ XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes
                                          : "ends within <" + state.open.back()->name + ">: it is cut off");
   }
   return std::move(state.head);
+}
+
+}  // namespace
+
+XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
+                       std::vector<std::string_view> keep_text_of) {
+  return parse(path, bytes, stop_at, std::move(keep_text_of), 0);
+}
+
+void check_xml_tail(const std::filesystem::path& path, std::string_view bytes, const XmlElement& root,
+                    std::size_t tail) {
+  const XmlElement& stop = root.children.back();
+  // The declaration says how the text is encoded.
+  const std::size_t declaration = bytes.starts_with("<?xml") ? std::min(bytes.find("?>"), bytes.size() - 2) + 2 : 0;
+  std::string document(bytes.substr(0, declaration));
+  document.append("<").append(root.name).append("><").append(stop.name).append(">").append(bytes.substr(tail));
+  const auto lines_in = [&](std::size_t size) {
+    return static_cast<std::size_t>(std::ranges::count(bytes.substr(0, size), '\n'));
+  };
+  const XmlHead parsed = parse(path, document, {}, {}, lines_in(tail) - lines_in(declaration));
+  if (parsed.root.children.size() > 1) {
+    const XmlElement& extra = parsed.root.children[1];
+    throw ReadError(path, extra.line, "<" + extra.name + "> stands behind <" + stop.name + ">, the last element");
+  }
 }
 
 }  // namespace trismooth

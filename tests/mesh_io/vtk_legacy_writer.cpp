@@ -1,9 +1,11 @@
 #include "trismooth/mesh_io/vtk_legacy_writer.h"
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <span>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/vtk_legacy_names.h"
 
 #include "vtk_legacy_files.h"
@@ -284,6 +286,41 @@ TEST_CASE("legacy VTK: VTK reads back every bit of a document from another forma
     CHECK(back.cell_arrays[i].type == document.cell_arrays[i].type);
     CHECK(std::ranges::equal(back.cell_arrays[i].bytes, document.cell_arrays[i].bytes));
   }
+}
+
+TEST_CASE("legacy VTK: a document that has not the points and cells of its file is not written over it") {
+  const bool binary = GENERATE(false, true);
+  const TemporaryFile source(file_with_ending(binary, false, "cells"), ".vtk");
+  const MeshDocument document = read_mesh(source.path());
+  const TemporaryFile target;
+  const auto message = [&](const MeshDocument& changed, const AddedArrays& added = {}) -> std::string {
+    try {
+      write_mesh(target.path(), changed, added);
+    } catch (const trismooth::WriteError& error) {
+      CHECK_FALSE(std::filesystem::exists(target.path()));
+      return error.reason;
+    }
+    return "written";
+  };
+  for (const std::size_t points : {0, 8, 10}) {
+    MeshDocument changed = document;
+    changed.points.resize(3 * points);
+    changed.points.shrink_to_fit();
+    CHECK(message(changed).find("has 9 points and 7 cells, the mesh to write has " + std::to_string(points)) !=
+          std::string::npos);
+  }
+  MeshDocument changed = document;
+  changed.points.pop_back();
+  CHECK(message(changed) != "written");
+  changed = document;
+  changed.cells.append(trismooth::cell_type::line, std::vector<std::int32_t>{0, 1});
+  changed.cell_arrays.clear();
+  CHECK(message(changed).find("7 cells") != std::string::npos);
+  CHECK(message(document, {.point_arrays = {hard_values<double>("p", 8, 1)}, .cell_arrays = {}})
+            .find("the array 'p' has 8 rows, the mesh to write has 9 points") != std::string::npos);
+  CHECK(message(document, {.point_arrays = {}, .cell_arrays = {hard_values<double>("c", 9, 1)}})
+            .find("the array 'c' has 9 rows, the mesh to write has 7 cells") != std::string::npos);
+  CHECK(message(document) == "written");
 }
 
 TEST_CASE("legacy VTK: arrays of the same name or without one are all kept") {

@@ -201,7 +201,9 @@ TEST_CASE("malformed elements are refused with the place and the reason") {
       {"NumberOfPoints=\"3\"", "NumberOfPoints=\"18446744073709551619\"", "expected a whole number"},
       {"NumberOfPoints=\"3\"", "NumberOfPoints=\"2000000000\"", "has room for"},
       {"NumberOfCells=\"1\"", "NumberOfCells=\"2000000000\"", "array 'offsets' should hold 2000000000 numbers"},
-      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"2\"", "holds more than the 6 numbers"},
+      {"NumberOfPoints=\"3\"", "NumberOfPoints=\"2\"", "has the point index 2; there are 2 points"},
+      {">3<", ">3 3<", "a.vtu:10: array 'offsets' holds more than the 1 numbers"},
+      {">5<", ">5 5<", "a.vtu:11: array 'types' holds more than the 1 numbers"},
       {"NumberOfCells=\"1\"", "NumberOfCells=\"2\"", "array 'offsets' should hold 2 numbers, but has room for 1"},
       {"Int16", "Int17", "a.vtu:5: array 'a' has type 'Int17'"},
       {"Int16", "Int8\" NumberOfComponents=\"0", "array 'a' has 0 components"},
@@ -211,9 +213,13 @@ TEST_CASE("malformed elements are refused with the place and the reason") {
       {"format=\"ascii\">\n1", "format=\"hex\">\n1", "has format 'hex'"},
       {"1 2\n3", "1 2\n3.5", "a.vtu:7: array 'a' expected a number of its type, got '3.5'"},
       {"1 2\n3", "1 2\n40000", "a.vtu:7: array 'a' expected a number of its type, got '40000'"},
-      {"1 2\n3", "1 2\n3 4", "a.vtu:7: array 'a' holds more than the 3 numbers"},
+      {"1 2\n3", "1 2\n3 x", "a.vtu:7: array 'a' expected a number of its type, got 'x'"},
+      {"1 2\n3", "1 2\n+-3", "a.vtu:7: array 'a' expected a number of its type, got '+-3'"},
       {"1 2\n3", "1 2", "a.vtu:5: array 'a' holds 2 numbers, expected 3"},
-      {"\"Float64\"", "\"Int32\"", "expected points as 3 components of Float32 or Float64"},
+      {"\"Float64\"", "\"Bit\"", "expected points as 3 components of a type of number"},
+      {"\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0",
+       "\"Int64\" NumberOfComponents=\"3\" format=\"ascii\">9007199254740993",
+       "a.vtu:8: point 0 has the coordinate 9007199254740993, which double precision does not hold"},
       {"NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", "expected points as 3 components"},
       {"<Points>", "<Points><DataArray type=\"Int8\"/>", "expected one array in <Points>, got 2"},
       {"0 0 0 1", "0 nan 0 1", "point 0 is not finite"},
@@ -222,7 +228,6 @@ TEST_CASE("malformed elements are refused with the place and the reason") {
       {">0 1 2<", ">0 1 -1<", "point index -1"},
       {">0 1 2<", ">0 1 4294967296<", "got '4294967296'"},
       {">0 1 2<", ">0 1<", "array 'connectivity' should hold 3 numbers, but has room for 2"},
-      {">0 1 2<", ">0 1 2 0<", "array 'connectivity' holds more than the 3 numbers"},
       {">3<", ">2000000000<", "array 'connectivity' should hold 2000000000 numbers"},
       {">3<", ">-3<", "fall from 0 to -3"},
       {"\"Int32\" Name=\"offsets\"", "\"Float32\" Name=\"offsets\"", "'offsets' does not hold one whole number a row"},
@@ -248,8 +253,8 @@ TEST_CASE("block headers that lie are refused before memory is taken") {
   REQUIRE(is_consistent(read(VtkXmlKind::unstructured_grid, good_raw)));
   using namespace std::string_literals;
   const std::pair<std::string, std::pair<std::string, std::string>> cases[] = {
-      {"\x01\0\0\0\x07"s, {"\xFF\xFF\xFF\xFF\x07"s, "declares 4294967295 bytes of data, expected 1"}},
-      {"\x0C\0\0\0"s, {"\x0D\0\0\0"s, "declares 13 bytes of data, expected 12"}},
+      {"\x01\0\0\0\x07"s, {"\xFF\xFF\xFF\xFF\x07"s, "declares 4294967295 bytes of data, but has 17 at most"}},
+      {"\x0C\0\0\0"s, {"\x0D\0\0\0"s, "declares 13 bytes of data, which is not a multiple of 4"}},
       {"offset=\"5\"", {"offset=\"999\"", "has offset '999'; the appended data have 21 bytes"}},
       {"offset=\"5\"", {"offset=\"-5\"", "has offset '-5'"}},
       {"offset=\"5\"", {"offset=\"18\"", "ends within its block header"}},
@@ -265,6 +270,26 @@ TEST_CASE("block headers that lie are refused before memory is taken") {
     CHECK(message.find(change.second) != std::string::npos);
   }
   CHECK(silence.broken_by() == "");
+}
+
+TEST_CASE("XML that is damaged behind the appended data is refused with its line") {
+  const std::pair<std::string, std::string> cases[] = {
+      {"</AppendedData>", "it is cut off"},
+      {"</AppendedData></VTKFile", "it is cut off"},
+      {"</AppendedData></VTKFile><a/>", "is not well-formed XML"},
+      {"</AppendedData>\n</VTKFil>", "a.vtu:7: is not well-formed XML"},
+      {"</AppendedData x></VTKFile>", "is not well-formed XML"},
+      {"</AppendedData><!-- ></VTKFile>", "it is cut off"},
+      {"</AppendedData>\n\n<UnstructuredGrid/></VTKFile>", "a.vtu:8: <UnstructuredGrid> stands behind <AppendedData>"},
+  };
+  const std::string end = "</AppendedData></VTKFile>";
+  for (const auto& [tail, expected] : cases) {
+    const std::string message = message_of(VtkXmlKind::unstructured_grid, replaced(good_raw, end, tail));
+    CAPTURE(tail, message);
+    CHECK(message.find(expected) != std::string::npos);
+  }
+  const std::string fine = " </AppendedData\n>\n<!-- the end -->\n</VTKFile> <?x y?>\n";
+  CHECK(is_consistent(read(VtkXmlKind::unstructured_grid, replaced(good_raw, end, fine))));
 }
 
 TEST_CASE("arrays that share their appended data are refused") {

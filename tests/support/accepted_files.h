@@ -12,6 +12,7 @@ struct AcceptedFile {
   std::string name;
   std::string extension;  ///< with its dot
   std::string bytes;
+  double scale = 1;  ///< of the mesh: 4 in files whose coordinates are whole numbers
 };
 
 /// Every file; no two have the same name. Made once.

@@ -1,5 +1,6 @@
 #include "support/accepted_vtk_files.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <vtkDataCompressor.h>
 
+#include "trismooth/mesh_io/text_scanner.h"
 #include "trismooth/mesh_io/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_xml_header.h"
 
@@ -48,11 +50,16 @@ std::vector<T> count_up(std::size_t count, double step) {
   return values;
 }
 
+/// The scale at which all coordinates are whole numbers.
+constexpr double whole_scale = 4;
+
 template <class T>
-std::vector<T> coordinates() {
+std::vector<T> coordinates(double scale = 1) {
   std::vector<T> values;
   for (const auto& point : mesh(true).points) {
-    values.insert(values.end(), point.begin(), point.end());
+    for (const double coordinate : point) {
+      values.push_back(static_cast<T>(scale * coordinate));
+    }
   }
   return values;
 }
@@ -142,7 +149,8 @@ void add_rich_data(LegacyText& file, std::size_t points, std::size_t cells) {
   file.add(fmt::format("\nlast 2 {} vtktypeint64", cells), count_up<std::int64_t>(2 * cells, 1e12));
 }
 
-std::string legacy(const std::string& version, bool binary, bool poly_data, bool with_double, bool rich) {
+std::string legacy(const std::string& version, bool binary, bool poly_data, bool with_double, bool rich,
+                   bool whole = false) {
   const Cells cells;
   const std::size_t cell_count = cells.all().size();
   const bool offsets = version.starts_with('5');
@@ -153,8 +161,9 @@ std::string legacy(const std::string& version, bool binary, bool poly_data, bool
     file.add("FIELD FieldData 1\nTIME 1 1 double", std::vector<double>{0.25});
   }
   const std::size_t points = mesh(true).points.size();
-  with_double ? file.add(fmt::format("POINTS {} double", points), coordinates<double>())
-              : file.add(fmt::format("POINTS {} float", points), coordinates<float>());
+  whole         ? file.add(fmt::format("POINTS {} short", points), coordinates<std::int16_t>(whole_scale))
+  : with_double ? file.add(fmt::format("POINTS {} double", points), coordinates<double>())
+                : file.add(fmt::format("POINTS {} float", points), coordinates<float>());
   if (poly_data) {
     add_cells(file, "LINES", cells.lines, offsets);
     add_cells(file, "POLYGONS", cells.faces, offsets);
@@ -175,6 +184,44 @@ std::string legacy(const std::string& version, bool binary, bool poly_data, bool
   return file.text();
 }
 
+std::string without(std::string text, std::string_view part) {
+  return text.replace(text.find(part), part.size(), "");
+}
+
+/// The file with a comment, and a blank before it, behind every line of text below the title, and one in a line of its
+/// own.
+std::string with_comments(const std::string& text, bool binary) {
+  std::string changed;
+  std::size_t lines = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    // Lines of binary files that are text begin with a keyword.
+    const bool is_text =
+        !binary || line.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_") > std::string_view("LINE").size() - 1;
+    changed += line;
+    changed += ++lines > 2 && is_text ? " \t# of a test" : lines > 2 ? "" : " ";
+    changed += lines == 4 ? "\n# a line" : "";
+    changed += end < text.size() ? "\n" : "";
+    begin = end + 1;
+  }
+  return changed;
+}
+
+void add_legacy_dialects(std::vector<AcceptedFile>& files) {
+  const auto add = [&](const std::string& name, std::string bytes, double scale = 1) {
+    files.push_back({"legacy_" + name, ".vtk", std::move(bytes), scale});
+  };
+  add("mark", std::string(trismooth::byte_order_mark) + legacy("3.0", false, false, true, false));
+  for (const bool binary : {false, true}) {
+    const std::string encoding = binary ? "_binary" : "_ascii";
+    const std::string plain = legacy("3.0", binary, false, true, false);
+    add("no_table" + encoding, without(plain, "LOOKUP_TABLE default\n"));
+    add("comments" + encoding, with_comments(plain, binary));
+    add("whole" + encoding, legacy("3.0", binary, false, false, false, true), whole_scale);
+  }
+}
+
 /// The elements of an XML file, and the section of appended data that they fill.
 class XmlText {
  public:
@@ -186,8 +233,15 @@ class XmlText {
     }
   }
 
+  /// More numbers than the counts ask for, and attributes that nobody knows.
+  void exceed() { exceeds_ = true; }
+
   template <class T>
-  std::string array(const std::string& type, const std::string& attributes, const std::vector<T>& numbers) {
+  std::string array(const std::string& type, std::string attributes, std::vector<T> numbers) {
+    if (exceeds_ && attributes.find("offsets") == std::string::npos && attributes.find("types") == std::string::npos) {
+      type == "String" ? numbers.insert(numbers.end(), {'d', 0}) : numbers.insert(numbers.end(), {1, 2, 3});
+      attributes += " units=\"K\"";
+    }
     const std::string tag = type == "String" ? "Array" : "DataArray";
     const std::string begin = fmt::format("<{} type=\"{}\" {}", tag, type, attributes);
     if (encoding_.mode == VtkXmlMode::ascii) {
@@ -236,6 +290,9 @@ class XmlText {
   }
 
   std::string encoded(const std::string& bytes, bool as_base64) const {
+    if (compressor_ == nullptr && encoding_.sizes_apart && as_base64) {
+      return base64_of(words({bytes.size()})) + base64_of(bytes);
+    }
     if (compressor_ == nullptr) {
       const std::string all = words({bytes.size()}) + bytes;
       return as_base64 ? base64_of(all) : all;
@@ -259,6 +316,7 @@ class XmlText {
   VtkXmlEncoding encoding_;
   vtkSmartPointer<vtkDataCompressor> compressor_;
   std::string appended_;
+  bool exceeds_ = false;
 };
 
 template <class Index>
@@ -272,11 +330,16 @@ std::string xml_cells(XmlText& file, bool wide, const std::vector<std::vector<in
   return wide ? xml_cells<std::int64_t>(file, "Int64", cells) : xml_cells<std::int32_t>(file, "Int32", cells);
 }
 
-std::string xml(const VtkXmlEncoding& encoding, bool poly_data, bool wide) {
+enum class Xml : std::uint8_t { plain, exceeding, whole };
+
+std::string xml(const VtkXmlEncoding& encoding, bool poly_data, bool wide, Xml dialect = Xml::plain) {
   const Cells cells;
   const std::size_t cell_count = cells.all().size();
   const std::size_t points = mesh(true).points.size();
   XmlText file(encoding);
+  if (dialect == Xml::exceeding) {
+    file.exceed();
+  }
   std::string body = "<FieldData>\n" + file.array("Float64", "Name=\"TIME\" NumberOfTuples=\"1\"", std::vector{0.25});
   body += file.array("String", "Name=\"names\" NumberOfTuples=\"2\"", std::vector<std::int8_t>{'a', 'b', 0, 'c', 0}) +
           "</FieldData>\n";
@@ -291,8 +354,9 @@ std::string xml(const VtkXmlEncoding& encoding, bool poly_data, bool wide) {
                      count_up<std::int16_t>(2 * cell_count, 0.5)) +
           "</CellData>\n<Points>\n";
   const std::string points_attributes = "Name=\"Points\" NumberOfComponents=\"3\"";
-  body += wide ? file.array("Float64", points_attributes, coordinates<double>())
-               : file.array("Float32", points_attributes, coordinates<float>());
+  body += dialect == Xml::whole ? file.array("Int16", points_attributes, coordinates<std::int16_t>(whole_scale))
+          : wide                ? file.array("Float64", points_attributes, coordinates<double>())
+                                : file.array("Float32", points_attributes, coordinates<float>());
   body += "</Points>\n";
   if (poly_data) {
     body += "<Lines>\n" + xml_cells(file, wide, cells.lines) + "</Lines>\n<Polys>\n" +
@@ -324,6 +388,7 @@ void add_legacy(std::vector<AcceptedFile>& files) {
     // Both kinds of data set have both amounts of data.
     rich = !rich;
   }
+  add_legacy_dialects(files);
 }
 
 void add_xml(std::vector<AcceptedFile>& files) {
@@ -349,6 +414,20 @@ void add_xml(std::vector<AcceptedFile>& files) {
     }
     flip = !flip;
   }
+  const auto add = [&](const std::string& name, const VtkXmlEncoding& encoding, bool poly_data, Xml dialect) {
+    const bool wide = encoding.big_endian != poly_data;
+    files.push_back({(poly_data ? "vtp_" : "vtu_") + name, poly_data ? ".vtp" : ".vtu",
+                     xml(encoding, poly_data, wide, dialect), dialect == Xml::whole ? whole_scale : 1});
+  };
+  add("inline_apart_little32", {VtkXmlMode::binary, true, VtkXmlCompressor::none, false, false, true}, false,
+      Xml::plain);
+  add("inline_apart_big64", {VtkXmlMode::binary, true, VtkXmlCompressor::none, true, true, true}, true, Xml::plain);
+  add("ascii_exceeding", {VtkXmlMode::ascii, true, VtkXmlCompressor::none, false, false}, false, Xml::exceeding);
+  add("inline_exceeding_zlib_big64", {VtkXmlMode::binary, true, VtkXmlCompressor::zlib, true, true}, false,
+      Xml::exceeding);
+  add("appended_raw_exceeding_big32", {VtkXmlMode::appended, false, VtkXmlCompressor::none, true, false}, true,
+      Xml::exceeding);
+  add("ascii_whole", {VtkXmlMode::ascii, true, VtkXmlCompressor::none, false, false}, false, Xml::whole);
 }
 
 }  // namespace accepted_files::vtk

@@ -140,7 +140,17 @@ std::optional<XmlArrays::Array> XmlArrays::decode(std::size_t begin, std::size_t
   if (!first) {
     return std::nullopt;
   }
-  Array array{.begin = begin, .length = 0, .base64 = base64, .appended = false, .header = words(*first), .data = {}};
+  Array array{.begin = begin,
+              .length = 0,
+              .base64 = base64,
+              .appended = false,
+              .apart = compressed,
+              .header = words(*first),
+              .data = {}};
+  const std::size_t header_length = encoded_length(word_size_, base64);
+  if (!compressed && base64 && begin + header_length < end && file_[begin + header_length - 1] == '=') {
+    array.apart = array.header[0] > 0;
+  }
   std::size_t data_begin = 0;  // within what is decoded
   std::size_t run_begin = begin;
   std::size_t data_size = array.header[0];
@@ -159,6 +169,8 @@ std::optional<XmlArrays::Array> XmlArrays::decode(std::size_t begin, std::size_t
     for (std::size_t i = 3; i < array.header.size(); ++i) {
       data_size += std::min<std::size_t>(array.header[i], most_payload);
     }
+  } else if (array.apart) {
+    run_begin = begin + header_length;
   } else {
     data_begin = word_size_;
   }
@@ -238,7 +250,7 @@ XmlArrays::Array XmlArrays::with_payload(const Array& array, const std::string& 
 
 std::string XmlArrays::with(const Array& array, const Array& changed) const {
   const std::string header = bytes_of(changed.header);
-  const bool one_run = compressor_ == VtkXmlCompressor::none;
+  const bool one_run = !array.apart;
   const std::string encoded = !array.base64 ? header + changed.data
                               : one_run     ? base64_of(header + changed.data)
                                             : base64_of(header) + base64_of(changed.data);

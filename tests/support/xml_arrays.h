@@ -23,6 +23,7 @@ class XmlArrays {
     std::size_t length = 0;  ///< encoded
     bool base64 = true;
     bool appended = false;
+    bool apart = false;                 ///< the header is encoded by itself
     std::vector<std::uint64_t> header;  ///< as the file declares it
     std::string data;                   ///< behind the header, decoded, still compressed
   };
