@@ -61,7 +61,7 @@ std::vector<std::string> cells_of(const PipelineResult& result, std::size_t regi
 
 /// In plain ASCII, as TextColumns wants it, and not longer than leaves room for the numbers.
 std::string short_name(const std::string& name) {
-  constexpr std::size_t most = 14;
+  constexpr std::size_t most = 10;
   std::string text;
   for (const char c : name) {
     text += c >= ' ' && c <= '~' ? c : '?';
@@ -81,7 +81,7 @@ std::string region_table(const PipelineResult& result, std::size_t most) {
   std::vector<std::string> head{"region", "triangles"};
   std::vector<TextColumns::Title> titles;
   if (smoothed) {
-    columns.insert(columns.end(), {{2}, {1}, {2}, {1}, {2}, {1}, {2}, {1}});
+    columns.insert(columns.end(), {{1}, {1}, {1}, {1}, {1}, {1}, {1}, {1}});
     for (int pair = 0; pair < 4; ++pair) {
       head.insert(head.end(), {"before", "after"});
     }

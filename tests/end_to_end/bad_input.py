@@ -255,7 +255,8 @@ class Accepted(BadInputTest):
         for name, content in spellings.items():
             with self.subTest(name):
                 self.write(name, content)
-                report = self.report("smooth", name, "out" + os.path.splitext(name)[1])
+                # The groups of an OBJ file look like regions, of which the others have none.
+                report = self.report("smooth", name, "out" + os.path.splitext(name)[1], "--region-array", "none")
                 self.assertEqual(report["coordinates_hash"], reference["coordinates_hash"])
         with self.subTest("exponents"):
             # -0 stays -0 in the file, so only what is printed of x and y can be the same.

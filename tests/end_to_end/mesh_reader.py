@@ -89,22 +89,24 @@ def read_off(content):
 
 def read_obj(content):
     mesh = Mesh(content)
-    materials, material = [], 0
+    current, named = {b"usemtl": 0, b"g": 0}, {b"usemtl": [], b"g": []}
     joined = re.sub(rb"\\\r?\n", lambda match: b" " * len(match.group()), content)
     for line in lines_of(joined):
         words = [joined[begin:end] for begin, end in line]
         if words[0] == b"v":
             mesh.points.append(tuple(map(float, words[1:4])))
             mesh.spans.append([line[1:4]])
-        elif words[0] == b"usemtl":
-            material = words[1]
+        elif words[0] in current:
+            current[words[0]] = words[1]
         elif words[0] == b"f":
-            materials.append((material,))
+            for keyword, name in current.items():
+                named[keyword].append((name,))
             numbers = [int(word.split(b"/")[0]) for word in words[1:]]
             mesh.cells.append((polygon_type(len(numbers)),
                                tuple(n - 1 if n > 0 else len(mesh.points) + n for n in numbers)))
-    if any(name for name, in materials):
-        mesh.cell_arrays["material"] = materials
+    for keyword, array in ((b"usemtl", "material"), (b"g", "group")):
+        if any(name for name, in named[keyword]):
+            mesh.cell_arrays[array] = named[keyword]
     return mesh
 
 

@@ -6,7 +6,7 @@ import struct
 from mesh_reader import Mesh  # noqa: F401  (the type that the functions take)
 
 REGION_NAMES = ("region", "mat_id", "material", "materialids", "cellentityids", "gmsh:physical", "medit:ref",
-                "gmsh:geometrical", "attribute")
+                "gmsh:geometrical", "attribute", "group")
 
 
 def edges_of(triangles):
