@@ -7,6 +7,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/region_arrays.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"
@@ -85,16 +86,14 @@ TEST_CASE("a strip without any triangle is another cell, and alone no mesh") {
   CHECK(mesh.in_other_cell == std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0});
 }
 
-TEST_CASE("an array that numbers the strips does not make regions of them; one that groups them does") {
+TEST_CASE("the triangles of a strip are of the region of their cell") {
   MeshDocument document = two_rows(8);
   document.cells.append(cell_type::triangle_strip, Numbers{0, 1, 2, 3});
   document.cells.append(cell_type::triangle_strip, Numbers{2, 3, 4, 5});
   document.cells.append(cell_type::triangle_strip, Numbers{4, 5, 6, 7});
-  document.cell_arrays = {make_data_array("region", 1, Numbers{7, 8, 9})};
-  const PlanarMesh mesh = planar_mesh(document, "strips.vtk");
-  CHECK(find_regions(document, mesh, std::nullopt).count == 0);
   document.cell_arrays = {make_data_array("region", 1, Numbers{7, 7, 9})};
-  CHECK(find_regions(document, mesh, std::nullopt).of_triangle == Numbers{0, 0, 0, 0, 1, 1});
+  const PlanarMesh mesh = planar_mesh(document, "strips.vtk");
+  CHECK(trismooth::find_regions(document, mesh).of_triangle == Numbers{0, 0, 0, 0, 1, 1});
 }
 
 TEST_CASE("formats without strips get their triangles, with the arrays' rows, and a note says so") {
