@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/mesh_io/blanks.h"
 #include "trismooth/mesh_io/coordinate_sites.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/patched_original.h"
@@ -197,11 +198,8 @@ class ObjReader {
   }
 
   static void append_words(std::string& text, std::string_view line) {
-    constexpr std::string_view blanks = " \t\v\f";
-    for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-      text.append(text.empty() ? "" : " ").append(line.substr(begin, end - begin));
-      begin = line.find_first_not_of(blanks, end);
+    for (const std::string_view word : words_of(line)) {
+      text.append(text.empty() ? "" : " ").append(word);
     }
   }
 

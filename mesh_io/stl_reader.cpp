@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/blanks.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/patched_original.h"
 #include "trismooth/mesh_io/point_welder.h"
@@ -239,11 +240,11 @@ class TextReader {
   }
 
   static bool is_unknown(std::string_view token) {
-    constexpr std::array<std::string_view, 9> words{"solid",  "facet",   "normal",   "outer",   "loop",
+    constexpr std::array<std::string_view, 9> known{"solid",  "facet",   "normal",   "outer",   "loop",
                                                     "vertex", "endloop", "endfacet", "endsolid"};
     const char first = token.empty() ? '\0' : token.front();
     const bool is_name = ('a' <= first && first <= 'z') || ('A' <= first && first <= 'Z');
-    return is_name && std::ranges::none_of(words, [token](std::string_view word) { return is_word(token, word); });
+    return is_name && std::ranges::none_of(known, [token](std::string_view word) { return is_word(token, word); });
   }
 
   /// Those that were passed over, for a note.
@@ -253,12 +254,6 @@ class TextReader {
       list.append(list.empty() ? "" : ", ").append(quoted(word));
     }
     return list;
-  }
-
-  static std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\v\f";
-    const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
-    return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
   }
 
   static constexpr std::size_t most_words_named = 8;

@@ -28,7 +28,7 @@ namespace trismooth {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
+std::string stripped(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   return begin == std::string_view::npos
              ? ""
@@ -51,7 +51,7 @@ std::optional<Value> parse(const std::string& text) {
 /// The text of the element, or of its children <Value index="0">, <Value index="1">, ...
 std::optional<std::vector<std::string>> values_of(const XmlElement& element) {
   if (element.children.empty()) {
-    return std::vector{trimmed(element.text)};
+    return std::vector{stripped(element.text)};
   }
   std::vector<std::string> values;
   for (const XmlElement& child : element.children) {
@@ -59,7 +59,7 @@ std::optional<std::vector<std::string>> values_of(const XmlElement& element) {
     if (child.name != "Value" || index == nullptr || *index != std::to_string(values.size())) {
       return std::nullopt;
     }
-    values.push_back(trimmed(child.text));
+    values.push_back(stripped(child.text));
   }
   return values;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/blanks.h"
 
 namespace trismooth {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\v\f";
 constexpr std::string_view white_space = " \t\v\f\r\n";
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/mesh_io/blanks.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_information.h"
@@ -16,8 +17,6 @@
 namespace trismooth {
 
 namespace {
-
-constexpr std::string_view blanks = " \t\v\f";
 
 template <class T>
 T load_big_endian(const char* bytes) {
@@ -27,21 +26,6 @@ T load_big_endian(const char* bytes) {
     std::ranges::reverse(stored);
   }
   return std::bit_cast<T>(stored);
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(blanks, end);
-  }
-  return words;
-}
-
-std::string_view trimmed(std::string_view line) {
-  const std::size_t begin = std::min(line.find_first_not_of(blanks), line.size());
-  return line.substr(begin, line.find_last_not_of(blanks) + 1 - begin);
 }
 
 }  // namespace

@@ -55,10 +55,9 @@ const std::string* role_of(const DataArray& array, VtkLegacyData data) {
   if (array.description == nullptr) {
     return nullptr;
   }
-  const auto& roles = array.description->roles;
-  const auto found =
-      std::ranges::find_if(roles, [&](const std::string& role) { return knows_role(array, role, data); });
-  return found == roles.end() ? nullptr : &*found;
+  const std::vector<std::string>& own = array.description->roles;
+  const auto found = std::ranges::find_if(own, [&](const std::string& role) { return knows_role(array, role, data); });
+  return found == own.end() ? nullptr : &*found;
 }
 
 void add_lost_information(const std::string& name, const ArrayDescription* description,

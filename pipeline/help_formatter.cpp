@@ -12,14 +12,14 @@ namespace {
 constexpr std::size_t description_column = 27;
 
 /// The name, and what is said of it: beside it, or below where it is too long for that.
-std::string described(const std::string& name, const std::string& description) {
+std::string described(const std::string& name, const std::string& what) {
   std::string text = "  " + name;
   const std::string indent(description_column, ' ');
   if (text.size() + 2 > description_column) {
-    return text + '\n' + wrapped(description, indent, indent);
+    return text + '\n' + wrapped(what, indent, indent);
   }
   text.resize(description_column, ' ');
-  return wrapped(description, text, indent);
+  return wrapped(what, text, indent);
 }
 
 }  // namespace

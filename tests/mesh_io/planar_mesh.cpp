@@ -8,9 +8,11 @@
 
 #include "trismooth/mesh_io/errors.h"
 
+#include "byte_files.h"
 #include "catch.h"
 #include "support/scratch_folder.h"
 
+using byte_files::contains;
 using trismooth::MeshDocument;
 using trismooth::planar_mesh;
 using trismooth::PlanarMesh;
@@ -46,10 +48,6 @@ MeshDocument two_squares() {
                       {cell_type::line, {1, 4}},
                       {cell_type::triangle, {1, 2, 5}},
                       {cell_type::triangle, {1, 5, 4}}});
-}
-
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
 }
 
 std::string failure_of(const MeshDocument& document) {

@@ -15,10 +15,12 @@
 
 #include "trismooth/mesh_io/region_names.h"
 
+#include "byte_files.h"
 #include "catch.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
+using byte_files::contains;
 using trismooth::find_regions;
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
@@ -54,8 +56,8 @@ MeshDocument grid() {
 template <class Value>
 Numbers by_square(const Value& value) {
   Numbers values;
-  for (std::int32_t square = 0; square < 144; ++square) {
-    values.insert(values.end(), 2, value(square % 12, square / 12));
+  for (std::int32_t cell = 0; cell < 144; ++cell) {
+    values.insert(values.end(), 2, value(cell % 12, cell / 12));
   }
   return values;
 }
@@ -90,10 +92,6 @@ std::vector<std::string> names_of(const Regions& regions) {
 }
 
 using Names = std::vector<std::string>;
-
-bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 /// The vertices of edges whose two triangles have different values, looked up edge by edge.
 std::set<std::int32_t> interface_of(const MeshDocument& document, const Numbers& values) {

@@ -5,6 +5,7 @@
 #include "trismooth/pipeline/held_html.h"
 
 #include "catch.h"
+#include "support/says.h"
 
 using trismooth::held_html;
 using trismooth::held_text;
@@ -20,10 +21,6 @@ InputSummary machine() {
   input.region_arrays = {{"region", RegionReason::known_name, 10, 672}};
   input.held = {.boundary = 140, .interface = 672, .several = 8};
   return input;
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "catch.h"
+#include "support/says.h"
 
 using trismooth::PipelineResult;
 using trismooth::region_table;
@@ -24,10 +25,6 @@ PipelineResult regions(int count, bool smoothed) {
     }
   }
   return result;
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace

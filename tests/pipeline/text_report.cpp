@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "sample_run.h"
+#include "support/says.h"
 
 using trismooth::duration_text;
 using trismooth::PipelineOptions;
@@ -20,10 +21,6 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
 
 std::string full_report(const PipelineOptions& options, const PipelineResult& result) {
   return trismooth::text_report(options, result, TextDetail::all);
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 }  // namespace
