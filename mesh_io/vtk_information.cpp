@@ -23,6 +23,7 @@
 
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_messages.h"
+#include "trismooth/mesh_io/xml_names.h"
 
 namespace trismooth {
 
@@ -38,7 +39,7 @@ std::string stripped(std::string_view text) {
 template <class Value>
 std::optional<Value> parse(const std::string& text) {
   if constexpr (std::is_same_v<Value, std::string>) {
-    return text;
+    return as_xml_text(text);
   } else if constexpr (std::is_same_v<Value, double>) {
     return parse_number<double>(text);
   } else {
@@ -137,7 +138,7 @@ bool set_key(vtkInformation& information, vtkInformationKey* key, std::span<cons
   return with_key(key, false, [&]<class Key, class Value>(Key* typed, const Value&) {
     if constexpr (std::is_same_v<Key, vtkInformationStringVectorKey>) {
       for (const std::string& text : texts) {
-        information.Append(typed, text);
+        information.Append(typed, as_xml_text(text));
       }
       return true;
     } else if constexpr (is_list<Key>) {

@@ -24,11 +24,26 @@ bool is_utf8(std::string_view text) {
 
 }  // namespace
 
-std::string escape_xml_attribute(std::string_view name) {
-  const bool utf8 = is_utf8(name);
-  std::string escaped;
-  for (const char character : name) {
+std::string as_xml_text(std::string_view text) {
+  const bool utf8 = is_utf8(text);
+  std::string characters;
+  for (const char character : text) {
     const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x20 && character != '\t' && character != '\n' && character != '\r') {
+      characters += '?';
+    } else if (byte >= 0x80 && !utf8) {
+      characters += static_cast<char>(0xC0 | (byte >> 6));
+      characters += static_cast<char>(0x80 | (byte & 0x3F));
+    } else {
+      characters += character;
+    }
+  }
+  return characters;
+}
+
+std::string escape_xml_attribute(std::string_view name) {
+  std::string escaped;
+  for (const char character : as_xml_text(name)) {
     switch (character) {
       case '&':
         escaped += "&amp;";
@@ -52,14 +67,7 @@ std::string escape_xml_attribute(std::string_view name) {
         escaped += "&#13;";
         break;
       default:
-        if (byte < 0x20) {
-          escaped += '?';
-        } else if (byte >= 0x80 && !utf8) {
-          escaped += static_cast<char>(0xC0 | (byte >> 6));
-          escaped += static_cast<char>(0x80 | (byte & 0x3F));
-        } else {
-          escaped += character;
-        }
+        escaped += character;
     }
   }
   return escaped;

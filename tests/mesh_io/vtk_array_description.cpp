@@ -194,3 +194,24 @@ TEST_CASE("an information that VTK does not know is lost") {
   trismooth::write_mesh(output.path(), document);
   CHECK(described::judged(output.path())->GetPointData()->GetArray("id")->GetTuple1(8) == 9);
 }
+
+TEST_CASE("units of characters that XML has not, or writes in another way, leave files that can be read") {
+  const auto units_after = [](const std::string& encoded) {
+    legacy_test::Builder file = legacy_test::grid_file(false, false);
+    file.text("POINT_DATA 9\nFIELD f 1\nT 1 9 int\n1 2 3 4 5 6 7 8 9\n");
+    file.text("METADATA\nINFORMATION 1\nNAME UNITS_LABEL LOCATION vtkDataArray\nDATA " + encoded + "\n\n");
+    const legacy_test::TemporaryFile output(".vtu");
+    trismooth::write_mesh(output.path(), trismooth::read_mesh(legacy_test::TemporaryFile(file.bytes(), ".vtk").path()));
+    const MeshDocument document = trismooth::read_mesh(output.path());
+    REQUIRE(document.point_arrays.at(0).description != nullptr);
+    return document.point_arrays[0].description->information.at(0).values.at(0);
+  };
+  CHECK(units_after("100%20%25%20of%20%3Cit%3E%20%26%22") == "100 % of <it> &\"");
+  CHECK(units_after("a%01b") == "a?b");
+  CHECK(units_after("%B0C") ==
+        "\xC2\xB0"
+        "C");
+  CHECK(units_after("%C2%B0C") ==
+        "\xC2\xB0"
+        "C");
+}
