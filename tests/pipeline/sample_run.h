@@ -32,19 +32,20 @@ inline trismooth::PipelineOptions options() {
 
 inline trismooth::PipelineResult result() {
   trismooth::PipelineResult result;
-  result.input.path = "plate.vtk";
-  result.input.format = trismooth::FileFormat::vtk;
-  result.input.vertices = 120;
-  result.input.triangles = 210;
-  result.input.other_cells = 5;
-  result.input.regions = 3;
-  result.input.region_array = "mat_id";
-  result.input.components = 2;
-  result.input.fixed_vertices = 40;
-  result.input.free_vertices = 80;
-  result.input.reoriented_triangles = 7;
-  result.input.region_arrays = {{"mat_id", trismooth::RegionReason::known_name, 3, 11}};
-  result.input.held = {.boundary = 27, .interface = 11, .other_cells = 9, .several = 7};
+  trismooth::InputSummary& input = result.input;
+  input.path = "plate.vtk";
+  input.format = trismooth::FileFormat::vtk;
+  input.vertices = 120;
+  input.triangles = 210;
+  input.other_cells = 5;
+  input.regions = 3;
+  input.region_array = "mat_id";
+  input.components = 2;
+  input.fixed_vertices = 40;
+  input.free_vertices = 80;
+  input.reoriented_triangles = 7;
+  input.region_arrays = {{"mat_id", trismooth::RegionReason::known_name, 3, 11}};
+  input.held = {.boundary = 27, .interface = 11, .other_cells = 9, .several = 7};
   result.before = quality(0);
   result.after = quality(0.25);
   trismooth::SmoothingResult smoothing;
