@@ -45,6 +45,15 @@ GrowthCase file(std::string name, int size, std::string input, std::string outpu
   return {name + ": " + input + " to " + output, size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
             const std::string to = folder / ("out." + output);
+            return [=] { run_tool({from, to}); };
+          }};
+}
+
+/// The same, with a file that has much to be said of, and everything that says it.
+GrowthCase told_of(std::string name, int size, std::string input, std::string (*make)(int)) {
+  return {name + ": " + input + " to reports", size, [=](int count, const ScratchFolder& folder) {
+            const std::string from = folder.write("in." + input, make(count));
+            const std::string to = folder / "out.off";
             const std::string json = folder / "report.json";
             const std::string page = folder / "report.html";
             return [=] { run_tool({from, to, "--verbose", "--report", json, "--report", page}); };
@@ -286,29 +295,28 @@ std::vector<GrowthCase> file_cases() {
   for (const char* const format : {"off", "obj", "ply", "stl", "vtk", "vtu", "vtp"}) {
     cases.push_back(chain_in(format));
   }
-  for (const char* const format : {"obj", "ply", "stl", "vtk", "vtu", "vtp"}) {
+  for (const char* const format : {"ply", "stl", "vtu"}) {
     cases.push_back(file("a chain of vertices", 100, "off", format, &chain_off));
   }
-  for (const char* const format : {"vtk", "vtu", "vtp", "ply", "stl"}) {
+  for (const char* const format : {"vtu", "ply", "stl"}) {
     cases.push_back(file("arrays of one name", 100, "vtk", format, &vtk_fields_of_one_name));
   }
   cases.push_back(file("arrays of one name", 100, "vtu", "vtk", &vtu_point_arrays_of_one_name));
   cases.push_back(file("arrays of one name", 100, "vtu", "vtu", &vtu_point_arrays_of_one_name));
-  for (const char* const format : {"vtk", "vtu", "off"}) {
+  for (const char* const format : {"vtu", "off"}) {
     cases.push_back(file("point arrays", 100, "vtk", format, &vtk_distinct_fields));
   }
   cases.push_back(file("point arrays", 100, "vtu", "vtu", &vtu_distinct_point_arrays));
   cases.insert(cases.end(), {
                                 file("field arrays", 300, "vtu", "vtu", &vtu_fields),
-                                file("arrays of strings", 100, "vtk", "vtu", &vtk_strings),
+                                told_of("arrays of strings", 100, "vtk", &vtk_strings),
                                 file("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),
                                 file("pieces", 50, "vtu", "vtu", &vtu_pieces),
                                 file("compressed pieces", 30, "vtu", "vtk", &vtu_compressed_pieces),
-                                file("elements that are not known", 300, "vtu", "vtu", &vtu_unknown_elements),
+                                told_of("elements that are not known", 300, "vtu", &vtu_unknown_elements),
                                 file("information keys", 300, "vtu", "vtu", &vtu_information_keys),
                                 file("a long comment", 192, "vtu", "off", &vtu_long_comment),
                                 file("cell arrays and unused points", 30, "vtk", "off", &vtk_unused_points),
-                                file("points of one slot", 100, "stl", "stl", &stl_of_one_slot),
                                 file("points of one slot", 100, "stl", "off", &stl_of_one_slot),
                                 file("solids", 100, "stl", "vtu", &stl_solids),
                                 file("groups and materials", 100, "obj", "vtu", &obj_groups),
