@@ -19,7 +19,7 @@ TEST_CASE("every control character stands as its number") {
   for (int code = 0; code < 0x20; ++code) {
     const char hex[] = "0123456789abcdef";
     const std::string expected = {'a', '\\', 'x', hex[code / 16], hex[code % 16], 'b'};
-    CHECK(printable({'a', static_cast<char>(code), 'b'}) == expected);
+    CHECK(printable(std::string{'a', static_cast<char>(code), 'b'}) == expected);
   }
   CHECK(printable("\x7f") == "\\x7f");
   CHECK(printable("\xc2\x80") == "\\u0080");
