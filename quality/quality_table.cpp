@@ -135,14 +135,14 @@ std::string histogram_text(const std::vector<const QualityReport*>& reports) {
 /// The worst elements of one report below `title`.
 std::string worst_text(const QualityReport& report, std::string_view title) {
   TextColumns columns({{0}, {3}, {2}, {2, Align::left}, {2, Align::left}});
-  columns.add_row({std::string(title), "element", "shape", "centroid"});
+  columns.add_row({"", "element", "shape", "centroid"});
   for (std::size_t rank = 0; rank < report.worst.size(); ++rank) {
     const WorstElement& element = report.worst[rank];
     columns.add_row({std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
                      fmt::format("({:.8g}, {:.8g})", element.centroid.x, element.centroid.y),
                      element.all_fixed ? "all fixed" : ""});
   }
-  return columns.text();
+  return columns.text({{0, 3, title}});
 }
 
 std::string worst_text(const std::vector<const QualityReport*>& reports) {
