@@ -158,7 +158,7 @@ TEST_CASE("a mesh of triangle strips is smoothed to the bits of its triangles, a
   // A strip is as good as the worst of its triangles: two of them for each of n columns.
   const auto shapes = [](const std::filesystem::path& path) {
     const trismooth::MeshDocument document = trismooth::read_mesh(path);
-    const trismooth::DataArray* const array = find_array(document.cell_arrays, "shape");
+    const trismooth::DataArray* const array = find_array(document.cell_arrays, "trismooth:shape");
     REQUIRE(array != nullptr);
     const auto values = array->as<double>();
     return std::vector<double>(values.begin(), values.end());

@@ -92,7 +92,7 @@ TEST_CASE("the result of a run on a device says how it ran, and whether another 
              "            120 by the device; 1.50 MiB of its memory\n"));
   for (const std::string& any : {text, text_report(sample::cuda_options(), result)}) {
     CHECK(says(any, "order:      unordered: "));
-    CHECK(says(any, "another run gives another\n            result"));
+    CHECK(says(any, "; another\n            run gives another result"));
   }
   result.smoothing->reproducible = true;
   result.smoothing->child_launches = 0;

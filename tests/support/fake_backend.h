@@ -119,6 +119,7 @@ class FakeBackend final : public trismooth::Backend {
       trismooth::SmoothingOptions on_cpu = options;
       on_cpu.backend = nullptr;
       on_cpu.topology = trismooth::Topology::halfedge;
+      on_cpu.order = trismooth::Order::colour;  // the CPU has no other
       plan_ = std::make_unique<trismooth::SmoothingPlan>(vertex_count, triangles, constraints, on_cpu);
     }
 
