@@ -116,11 +116,12 @@ bool is_whole_stl(const AcceptedFile& file, std::size_t cut) {
   return rest.front() == "endfacet" && std::ranges::count(rest, "facet") == 0;
 }
 
+constexpr std::string_view comment = " \t# of a test";
+
 /// The file with blanks in place of comments.
 std::string without_comments(std::string bytes) {
-  constexpr std::string_view mark = " \t# of a test";
-  for (std::size_t at = bytes.find(mark); at != bytes.npos; at = bytes.find(mark, at)) {
-    bytes.replace(at, mark.size(), std::string(mark.size(), ' '));
+  for (std::size_t at = bytes.find(comment); at != bytes.npos; at = bytes.find(comment, at)) {
+    bytes.replace(at, comment.size(), std::string(comment.size(), ' '));
   }
   return bytes;
 }
@@ -144,7 +145,8 @@ bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
   starts.push_back(bytes.size());
   std::ranges::sort(starts);
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    std::size_t end = starts[i] - 1;
+    const bool is_commented = starts[i] == bytes.size() && std::string_view(file.bytes).ends_with(comment);
+    std::size_t end = starts[i] - (is_commented ? comment.size() : 1);
     if (!binary) {
       while (is_space(bytes[end - 1])) {
         --end;

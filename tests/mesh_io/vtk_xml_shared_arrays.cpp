@@ -72,12 +72,11 @@ TEST_CASE("arrays that are not in every piece are told and left out, the others 
   const TemporaryPath output(".vtu");
   trismooth::write_mesh(output.path(), document);
   const auto written = vtk_xml_samples::read_with_vtk(output.path(), trismooth::VtkXmlKind::unstructured_grid);
-  const auto theirs = vtk_xml_samples::read_with_vtk(input.path(), trismooth::VtkXmlKind::unstructured_grid);
-  REQUIRE(written->GetNumberOfPoints() == theirs->GetNumberOfPoints());
+  REQUIRE(written->GetNumberOfPoints() == 6);
+  // Not what VTK reads of the pieces: it takes arrays by their place, and these stand in another order in the second.
   for (const char* const name : {"p", "q"}) {
     for (vtkIdType i = 0; i < 6; ++i) {
-      CHECK(written->GetPointData()->GetArray(name)->GetTuple1(i) ==
-            theirs->GetPointData()->GetArray(name)->GetTuple1(i));
+      CHECK(written->GetPointData()->GetArray(name)->GetTuple1(i) == static_cast<double>(i + 1));
     }
   }
   CHECK(written->GetCellData()->GetArray("region")->GetTuple1(1) == 2);

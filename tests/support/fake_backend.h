@@ -90,17 +90,7 @@ class FakeBackend final : public trismooth::Backend {
                                       trismooth::Storage storage, double fixed_quotient) override {
       ++backend_.smoothed;
       trismooth::SmoothingResult result = cpu_->smooth(points, frame, storage, fixed_quotient);
-      backend_.fail_at(Failure::smooth, points.size());  // with the points written already
-      if (backend_.failure_ == Failure::bits) {
-        points.front().x = std::nextafter(points.front().x, 2.0);
-      }
-      if (backend_.failure_ == Failure::host_memory) {
-        throw std::bad_alloc();
-      }
-      if (backend_.failure_ == Failure::no_time) {
-        result.timings = {};
-      }
-      result.backend = "cuda";
+      backend_.spoil(points, result);  // with the points written already
       return result;
     }
 
@@ -128,7 +118,7 @@ class FakeBackend final : public trismooth::Backend {
       ++backend_.smoothed;
       std::vector<trismooth::Point2<double>> on_device(points.begin(), points.end());
       trismooth::SmoothingResult result = plan_->smooth(on_device, storage);
-      backend_.fail_at(Failure::smooth, points.size());
+      backend_.spoil(on_device, result);
       trismooth::Overwriting overwriting(std::as_writable_bytes(points), &kept_, workers_);
       const std::size_t pieces = 3;
       const auto bytes = std::as_bytes(std::span(on_device));
@@ -141,7 +131,6 @@ class FakeBackend final : public trismooth::Backend {
         begin = end;
       }
       overwriting.done();
-      result.backend = "cuda";
       return result;
     }
 
@@ -154,6 +143,21 @@ class FakeBackend final : public trismooth::Backend {
     std::unique_ptr<trismooth::SmoothingPlan> plan_;
     trismooth::ScratchBytes kept_;
   };
+
+  /// What goes wrong when the sweeps are over.
+  void spoil(std::span<trismooth::Point2<double>> points, trismooth::SmoothingResult& result) const {
+    fail_at(Failure::smooth, points.size());
+    if (failure_ == Failure::bits) {
+      points.front().x = std::nextafter(points.front().x, 2.0);
+    }
+    if (failure_ == Failure::host_memory) {
+      throw std::bad_alloc();
+    }
+    if (failure_ == Failure::no_time) {
+      result.timings = {};
+    }
+    result.backend = "cuda";
+  }
 
   void fail_at(Failure place, std::size_t vertices) const {
     if (failure_ == place && (failing_vertices_ == 0 || failing_vertices_ == vertices)) {
