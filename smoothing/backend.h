@@ -26,8 +26,8 @@ class PreparedSmoother {
   /// Smooths the vertices' stored coordinates in place: sweeps in the local frame, and unless options.guard is off the
   /// never-worse commit. `frame` is local_frame() of the vertices that cells use, which the caller knows. Results are
   /// rounded to `storage`; vertices that do not move keep their bits. Coordinates are finite (the caller has checked).
-  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh. Where it throws DeviceError, some of the points may have
-  /// been written.
+  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh. Where it throws DeviceError, some of the points may
+  /// have been written.
   virtual SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
                                  double fixed_quotient) = 0;
 };

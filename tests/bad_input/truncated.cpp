@@ -145,8 +145,10 @@ bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
   starts.push_back(bytes.size());
   std::ranges::sort(starts);
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    const bool is_commented = starts[i] == bytes.size() && std::string_view(file.bytes).ends_with(comment);
-    std::size_t end = starts[i] - (is_commented ? comment.size() : 1);
+    std::size_t end = starts[i] - 1;
+    if (std::string_view(file.bytes).substr(0, end).ends_with(comment)) {
+      end -= comment.size();
+    }
     if (!binary) {
       while (is_space(bytes[end - 1])) {
         --end;

@@ -95,7 +95,7 @@ def rejected_files():
         ("degree_huge.off", off_with(20, "1000000000 0 1 5"), ":20: face 2 of 18: .*1000000000"),
         ("degree_2.off", off_with(20, "2 0 1"), ":20: face 2 of 18: .*'2'"),
         ("homogeneous.off", replaced(off, b"OFF", b"4OFF"), ":1: unsupported OFF variant '4OFF'"),
-        ("binary.off", b"OFF BINARY\n" + struct.pack(">3i9f4i", 3, 1, 0, *[0.0] * 9, 3, 0, 1, 2), ""),
+        ("binary.off", b"OFF BINARY\n" + struct.pack(">3i9f3i", 3, 1, 0, *[0.0] * 9, 3, 0, 1), ""),
         ("not_planar.off", off_with(8, "1 1 0.3"), "not planar"),
         ("quads_only.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "1 cell but no triangle"),
         ("pentagon.off", "OFF\n5 1 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n0 0 0\n5 0 1 2 3 4\n", "1 cell but no triangle"),
