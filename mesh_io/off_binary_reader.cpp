@@ -246,7 +246,7 @@ std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::
                                                          std::size_t begin, const OffKeyword& keyword) {
   std::vector<Dialect> dialects = dialects_of(keyword);
   // The error that is told is that of a dialect whose counts fit, if there is one: the first of them.
-  std::ranges::stable_partition(dialects, [&](const Dialect& dialect) {
+  std::stable_partition(dialects.begin(), dialects.end(), [&](const Dialect& dialect) {
     return BinaryOffReader(path, bytes, begin, keyword, dialect).has_likely_counts();
   });
   std::optional<ReadError> first;

@@ -50,8 +50,10 @@ ValueNumbers number_items(std::size_t count, const ValueOf& value_of) {
   std::ranges::sort(values, [](const Start& a, const Start& b) {
     return precedes(a.value, b.value) || (!precedes(b.value, a.value) && a.item < b.item);
   });
-  const auto rest = std::ranges::unique(values, [&](const Start& a, const Start& b) { return same(a.value, b.value); });
-  values.erase(rest.begin(), rest.end());
+  // Not std::ranges::unique, of which Clang 14 cannot read libstdc++'s.
+  values.erase(
+      std::unique(values.begin(), values.end(), [&](const Start& a, const Start& b) { return same(a.value, b.value); }),
+      values.end());
 
   ValueNumbers numbers;
   numbers.of_item.resize(count);

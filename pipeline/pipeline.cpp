@@ -42,7 +42,7 @@ std::int64_t peak_memory_bytes() {
 
 std::int64_t count_different(std::vector<std::int32_t> numbers) {
   std::ranges::sort(numbers);
-  return std::ranges::unique(numbers).begin() - numbers.begin();
+  return std::unique(numbers.begin(), numbers.end()) - numbers.begin();
 }
 
 /// One run over one file. The stages are called in their order; each fills its part of the result.
