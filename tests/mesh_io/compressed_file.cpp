@@ -41,11 +41,12 @@ TEST_CASE("a compressed file is called that, by its name or by its first bytes")
     for (const std::string& file : {"mesh.vtu" + extension, "mesh.off" + extension, std::string("mesh.vtu"),
                                     std::string("mesh.off"), std::string("mesh.stl"), std::string("mesh.obj")}) {
       CAPTURE(file);
-      const std::string message =
-          message_of<ReadError>([&] { trismooth::read_mesh(folder.write(file, bytes + std::string(200, 'x'))); });
+      const auto path = folder.write(file, bytes + std::string(200, 'x'));
+      const std::string message = message_of<ReadError>([&] { trismooth::read_mesh(path); });
       CHECK(message.find(file + ": is compressed (" + name + "); decompress it first") != std::string::npos);
     }
-    const std::string message = message_of<WriteError>([&] { trismooth::output_format("out.vtu" + extension); });
+    const std::string output = "out.vtu" + extension;
+    const std::string message = message_of<WriteError>([&] { trismooth::output_format(output); });
     CHECK(message.find("out.vtu" + extension + ": nothing is written compressed; leave out '" + extension + "'") == 0);
   }
 }
