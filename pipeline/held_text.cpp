@@ -29,6 +29,8 @@ std::string held_text(const InputSummary& input) {
   add(held.boundary, "boundary");
   if (input.region_arrays.empty()) {
     add(held.interface, "interface");
+  } else if (input.regions == 1) {
+    reasons.push_back(fmt::format("no interface ({} is one region)", quoted_names(input.region_arrays)));
   } else {
     reasons.push_back(fmt::format("{} interface ({})", held.interface, quoted_names(input.region_arrays)));
   }

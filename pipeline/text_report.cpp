@@ -196,6 +196,9 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
   text += inverted_line(result);
   if (!result.smoothing && result.region_names.size() <= few_regions) {
     text += region_table(result);
+  } else if (!result.smoothing) {
+    text += fmt::format("{} regions: --verbose shows the worst of them, a report has them all\n",
+                        result.region_names.size());
   }
   if (const auto& written = options.written()) {
     text += labelled_line("written:", written->string());

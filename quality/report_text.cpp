@@ -75,10 +75,15 @@ std::string_view verdict(Metric metric, const MetricSummary& before, const Metri
     return "";
   }
   const auto improves = [larger_is_better](double from, double to) { return larger_is_better ? to > from : to < from; };
+  // A mean whose change no table shows has none: "worse" beside equal numbers would only alarm. (Of the worst element
+  // as many digits are shown as a change needs.)
+  constexpr double shown = 1e-6;
+  const bool mean_stays = std::abs(after.mean - before.mean) <= shown * std::abs(before.mean);
+  const double mean_after = mean_stays ? before.mean : after.mean;
   const double worst_before = worst_of(metric, before);
   const double worst_after = worst_of(metric, after);
-  const bool better = improves(worst_before, worst_after) || improves(before.mean, after.mean);
-  const bool worse = improves(worst_after, worst_before) || improves(after.mean, before.mean);
+  const bool better = improves(worst_before, worst_after) || improves(before.mean, mean_after);
+  const bool worse = improves(worst_after, worst_before) || improves(mean_after, before.mean);
   if (better && worse) {
     return "mixed";
   }

@@ -51,6 +51,8 @@ TEST_CASE("an array that was obeyed is named even where it holds nothing") {
   input.fixed_array = "fixed";
   input.region_arrays = {{"region", RegionReason::known_name, 1, 0}};
   CHECK(held_text(input) == "0 of 7: 0 interface ('region'), 0 by the array 'fixed'");
+  input.regions = 1;
+  CHECK(held_text(input) == "0 of 7: no interface ('region' is one region), 0 by the array 'fixed'");
 }
 
 TEST_CASE("a page says the same, with why each array counts, and shows names literally") {
