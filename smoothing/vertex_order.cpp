@@ -1,6 +1,7 @@
 #include "trismooth/smoothing/vertex_order.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_sort.h>
 
@@ -28,7 +29,10 @@ std::vector<std::int32_t> hilbert_order(std::span<const Point2<double>> points, 
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const double extent = std::max(high.x - low.x, high.y - low.y);
-  const double cells = extent > 0 ? ((1 << curve_order) - 1) / extent : 0;
+  // Vertices that no cell uses may be so near to each other, in a frame that is not theirs, that no number is large
+  // enough.
+  const double quotient = ((1 << curve_order) - 1) / extent;
+  const double cells = std::isfinite(quotient) ? quotient : 0;
   std::vector<std::uint64_t> keys(points.size());
   workers.for_blocks(count, order_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t v = begin; v < end; ++v) {

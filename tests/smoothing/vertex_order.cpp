@@ -89,3 +89,10 @@ TEST_CASE("meshes without extent, along a line or of nothing are ordered, too") 
   check_order(hilbert_order(mesh.points, rings, workers), rings);
   CHECK(hilbert_order({}, OneRings{}, workers).empty());
 }
+
+TEST_CASE("vertices that are nearer to each other than any number tells apart have some order") {
+  Workers workers(1);
+  const std::vector<Point> points{{0, 0}, {1e-310, 0}, {0, 5e-324}};
+  const OneRings rings = OneRings::with_sizes(3, [](std::int32_t) { return std::int64_t{0}; });
+  check_order(hilbert_order(points, rings, workers), rings);
+}
