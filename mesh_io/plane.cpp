@@ -181,14 +181,14 @@ class Judge {
     double worst_distance = 0;
     cloud_.for_each([&](std::size_t v, const Vector3d& p) {
       const double distance = std::abs(plane.normal.dot(p - plane.foot));
-      if (distance <= std::min(2 * flatness, rounding(v))) {
+      if (distance <= rounding(v)) {
         return;
       }
       if (sizes_.empty()) {
         sizes_ = half_sizes(xyz_, cells_);
       }
       const double by_size = 2 * element_part * (sizes_[v] / cloud_.half_size());
-      const double excess = distance / std::min(2 * flatness, std::max(by_size, rounding(v)));
+      const double excess = distance / std::max(rounding(v), std::min(2 * flatness, by_size));
       if (!(excess <= worst_excess)) {
         worst = static_cast<std::int64_t>(v);
         worst_excess = excess;

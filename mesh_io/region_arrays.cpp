@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/array_names.h"
 #include "trismooth/mesh_io/inner_edges.h"
 #include "trismooth/mesh_io/region_names.h"
+#include "trismooth/mesh_io/shell_words.h"
 #include "trismooth/mesh_io/value_numbers.h"
 
 namespace trismooth {
@@ -64,12 +65,15 @@ class RegionFinder {
 
   Regions by_names(std::span<const std::string> names) {
     for (const std::string& name : names) {
-      const Candidate& candidate = named(name);
-      if (candidate.array.components != 1) {
-        throw std::invalid_argument(fmt::format("the cell array '{}' has {} components; regions need one",
-                                                candidate.array.name, candidate.array.components));
+      for (const Candidate* const candidate : named(name)) {
+        if (candidate->array.components != 1) {
+          throw std::invalid_argument(fmt::format("the cell array '{}' has {} components; regions need one",
+                                                  candidate->array.name, candidate->array.components));
+        }
+        if (std::ranges::find(obeyed_, candidate) == obeyed_.end()) {
+          obey(*candidate, number_values(candidate->array, mesh_.cells), RegionReason::named);
+        }
       }
-      obey(candidate, number_values(candidate.array, mesh_.cells), RegionReason::named);
     }
     return take();
   }
@@ -87,19 +91,25 @@ class RegionFinder {
   }
 
  private:
-  const Candidate& named(const std::string& name) const {
+  /// All arrays of that name, or else of names that differ from it in case, blanks and the like.
+  std::vector<const Candidate*> named(const std::string& name) const {
+    std::vector<const Candidate*> found;
     const auto find = [&](const auto& same) {
-      return std::ranges::find_if(candidates_, [&](const Candidate& c) { return same(c.array.name); });
+      for (const Candidate& candidate : candidates_) {
+        if (same(candidate.array.name)) {
+          found.push_back(&candidate);
+        }
+      }
     };
-    auto found = find([&](const std::string& other) { return other == name; });
-    if (found == candidates_.end()) {
-      found = find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
+    find([&](const std::string& other) { return other == name; });
+    if (found.empty()) {
+      find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
     }
-    if (found == candidates_.end()) {
+    if (found.empty()) {
       throw std::invalid_argument("the file has no cell array '" + name +
                                   "' to take regions from; it has: " + names_of(candidates_));
     }
-    return *found;
+    return found;
   }
 
   void judge(const Candidate& candidate) {
@@ -119,7 +129,7 @@ class RegionFinder {
       }
     } else if (known) {
       judge_known(candidate, std::move(numbers));
-    } else if (is_few(numbers.count(), mesh_.triangles.size())) {
+    } else {
       judge_unknown(candidate, std::move(numbers));
     }
   }
@@ -132,8 +142,8 @@ class RegionFinder {
     }
     regions_.notes.push_back(fmt::format(
         "the cell array '{0}' changes across {1:.0f} % of the edges between triangles: it is not taken for regions, "
-        "what is between its values may move; --region-array {0} holds it",
-        candidate.array.name, 100 * *edges));
+        "what is between its values may move; --region-array {2} holds it",
+        candidate.array.name, 100 * *edges, shell_word(candidate.array.name)));
   }
 
   void judge_unknown(const Candidate& candidate, ValueNumbers numbers) {
@@ -141,8 +151,8 @@ class RegionFinder {
     const auto left_out = [&](const std::string& why) {
       regions_.notes.push_back(
           fmt::format("the cell array '{0}' ({1} values) is not taken for regions, {2}: what is between its values may "
-                      "move; --region-array {0} holds it",
-                      name, numbers.count(), why));
+                      "move; --region-array {3} holds it",
+                      name, numbers.count(), why, shell_word(name)));
     };
     if (const std::optional<double> edges = edges_above(most_edges_of_others, numbers)) {
       if (*edges <= most_edges_of_known_names && !is_bookkeeping_name(name)) {
@@ -152,13 +162,15 @@ class RegionFinder {
       left_out("by its name it is for another purpose");
     } else if (!are_whole(candidate.array, mesh_.cells, numbers)) {
       left_out("it does not hold whole numbers");
+    } else if (!is_few(numbers.count(), mesh_.triangles.size())) {
+      left_out("its values are many for so few triangles");
     } else {
       const std::int32_t values = numbers.count();
       obey(candidate, std::move(numbers), RegionReason::looks_like_regions);
       regions_.notes.push_back(fmt::format(
           "the cell array '{0}' ({1} values) looks like regions: the {2} vertices between them are held. If "
-          "that is right, --region-array {0} says so; if not, --region-array none frees them",
-          name, values, regions_.arrays.back().held_vertices));
+          "that is right, --region-array {3} says so; if not, --region-array none frees them",
+          name, values, regions_.arrays.back().held_vertices, shell_word(name)));
     }
   }
 

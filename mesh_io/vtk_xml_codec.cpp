@@ -201,7 +201,7 @@ std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, Vt
       views.push_back(std::move(*view));
     } else {
       notes.push_back("the " + std::string(where) + " array " + array->GetName() +
-                      " does not hold numbers; no other format gets it");
+                      " does not hold numbers: no vertices are held by it as fixed, and no other format gets it");
     }
   }
   if (auto* const attributes = vtkDataSetAttributes::SafeDownCast(&fields)) {

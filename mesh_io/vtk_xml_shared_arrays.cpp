@@ -59,7 +59,7 @@ VtkXmlSharedArrays find_shared_arrays(const std::filesystem::path& path, std::sp
     if (array.in_pieces.size() < pieces_with_rows) {
       losses.push_back("the array " + trismooth::quoted(*element.attribute("Name")) + " of <" + section + "> in line " +
                        std::to_string(element.line) +
-                       " is not in every piece, or not of one type there: it is not kept");
+                       " is not in every piece, or not of one type there: it is not kept and holds no vertices");
       continue;
     }
     shared.of_first.push_back(&element);

@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "trismooth/mesh_io/shell_words.h"
 #include "trismooth/mesh_io/silence_vtk.h"
 #include "trismooth/pipeline/exit_code.h"
 #include "trismooth/pipeline/failure.h"
@@ -24,7 +25,6 @@
 #include "trismooth/pipeline/interrupt.h"
 #include "trismooth/pipeline/output_attempts.h"
 #include "trismooth/pipeline/printable_stream.h"
-#include "trismooth/pipeline/shell_words.h"
 #include "trismooth/pipeline/subcommands.h"
 #include "trismooth/pipeline/usage_message.h"
 #include "trismooth/pipeline/version.h"

@@ -55,6 +55,16 @@ class Planes(tool.ToolTest):
             points = inclined(flat, 2.0 ** power)
             self.assert_in_plane(points, self.smoothed(points, triangles), 2.0 ** power, 1e-14)
 
+    def test_far_from_the_origin_what_was_written_is_accepted_again(self):
+        """There the rounding of coordinates alone takes vertices farther out of the plane than 1e-6 of its size."""
+        flat, triangles = grid(9)
+        for offset in (2.0 ** 30, 2.0 ** 35, 2.0 ** 40):
+            # In the plane z = y + offset / 2 - x / 2, after rounding to the numbers that there are.
+            points = [(x + offset, y, y + offset / 2 - (x + offset) / 2) for x, y in flat]
+            with self.subTest(offset):
+                self.smoothed(points, triangles)
+                self.run_tool("smooth", "out.off", "again.off", "--quiet")
+
     def test_a_strip_a_million_times_longer_than_wide_stays_in_its_plane(self):
         flat, triangles = grid()
         n = 6

@@ -6,6 +6,7 @@ What must stay is worked out here, from the file's triangles and values alone.
 import os
 import random
 import re
+import shlex
 
 import mesh_reader
 import planar_geometry
@@ -104,7 +105,7 @@ class Machine(RegionTest):
                 self.assertEqual(moved & self.interface, set())
                 self.assertRegex(out, f"672 interface.*'{name}'")
                 line, = [line for line in err.splitlines() if name in line]
-                for words in ("looks like regions", "672", f"--region-array {name}", "--region-array none"):
+                for words in ("looks like regions", "672", f"--region-array {shlex.quote(name)}", "--region-array none"):
                     self.assertIn(words, line)
         moved, out, err = self.moved("--region-array", "none", name="named.vtu")
         self.assertGreater(len(moved & self.interface), 500)
@@ -202,6 +203,23 @@ class Arrays(RegionTest):
                 self.assertEqual(moved, free)
                 self.assertNotIn("interface", out)
                 self.assertEqual("--region-array region" in err, name == "region")
+
+    def test_many_small_groups_under_an_unknown_name_are_never_passed_over_in_silence(self):
+        for width in (2, 3, 4):
+            values = [v % 13 // width + 100 * (v // 13 // (5 - width)) for v in (min(cell) for _, cell in self.grid.cells)]
+            mesh = self.write_grid(("grains of it", "Int32", values))
+            with self.subTest(groups=len(set(values))):
+                moved, out, err = self.moved()
+                if moved & ends_between(mesh, values):
+                    self.assertIn("grains of it", err)
+                    self.assertIn("--region-array 'grains of it'", err)
+
+    def test_all_arrays_of_a_name_count_where_it_is_given(self):
+        self.write_grid(("part", "Int32", self.left_right), ("part", "Int32", self.bands))
+        mesh = mesh_reader.read(self.path("in.vtu"))
+        moved, _, _ = self.moved("--region-array", "part")
+        for values in (self.left_right, self.bands):
+            self.assertEqual(moved & ends_between(mesh, values), set())
 
     def test_a_region_array_that_is_not_there_is_refused_and_those_that_are_there_named(self):
         self.write_grid(("region", "Int32", self.left_right), ("names", "String", ["a"] * len(self.grid.cells)))

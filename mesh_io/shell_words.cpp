@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/shell_words.h"
+#include "trismooth/mesh_io/shell_words.h"
 
 #include <algorithm>
 #include <cstddef>
