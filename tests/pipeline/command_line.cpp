@@ -40,7 +40,15 @@ struct Outcome {
   std::optional<PipelineOptions> options;  ///< what the pipeline was run with, if it was
 
   bool says(const std::string& words) const { return err.find(words) != std::string::npos; }
-  bool shows(const std::string& words) const { return out.find(words) != std::string::npos; }
+  /// Wherever lines are broken: names of scratch files may be long.
+  bool shows(const std::string& words) const {
+    std::string text = out;
+    const std::string line_break = "\n            ";
+    for (std::size_t at = text.find(line_break); at != std::string::npos; at = text.find(line_break, at)) {
+      text.replace(at, line_break.size(), " ");
+    }
+    return text.find(words) != std::string::npos;
+  }
 };
 
 /// Calls the command line with a pipeline that answers `run`, as in a build without CUDA unless `cuda` is another.
