@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/smoothing/never_worse.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "cases.h"
@@ -56,6 +57,31 @@ Mesh islands(int count) {
   return mesh;
 }
 
+/// Vertices in a row that all step over the place of the next: they go back one a round, from the last one on. A sliver
+/// that gets better keeps the bar so low that nothing else offends.
+GrowthCase rounds_of_the_guard() {
+  return {"flat arrays: a round of the guard for every vertex", 800, [](int columns, const ScratchFolder&) {
+            const auto mesh = std::make_shared<Mesh>(test_meshes::jittered_grid(columns, 3, 0, 1));
+            for (auto& p : mesh->points) {
+              p = {p.x * (columns - 1), p.y * 2};
+            }
+            mesh->points[static_cast<std::size_t>(columns) + 1].y = 1.9999;
+            auto after = mesh->points;
+            after[static_cast<std::size_t>(columns) + 1].y = 1;
+            for (int i = 2; i + 1 < columns; ++i) {
+              after[static_cast<std::size_t>(columns + i)].x += 1.5;
+            }
+            return [mesh, after] {
+              trismooth::Workers workers(1);
+              const auto topology = trismooth::connect_triangles(mesh->vertex_count(), mesh->triangles, workers);
+              const std::vector<std::uint8_t> reversed(mesh->triangles.size(), 0);
+              const auto rings = trismooth::one_rings(topology, mesh->triangles, reversed, topology.hold, workers);
+              auto points = after;
+              trismooth::keep_never_worse(rings.view(), mesh->points, points, workers);
+            };
+          }};
+}
+
 }  // namespace
 
 std::vector<GrowthCase> flat_array_cases() {
@@ -67,5 +93,6 @@ std::vector<GrowthCase> flat_array_cases() {
       flat("a strip listed from both ends", 500, &strip_from_both_ends),
       flat("a strip listed backwards", 500, &reversed_strip),
       flat("many components", 500, &islands),
+      rounds_of_the_guard(),
   };
 }
