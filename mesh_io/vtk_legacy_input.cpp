@@ -9,26 +9,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/mesh_io/big_endian.h"
 #include "trismooth/mesh_io/blanks.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/number_text.h"
 #include "trismooth/mesh_io/vtk_information.h"
 
 namespace trismooth {
-
-namespace {
-
-template <class T>
-T load_big_endian(const char* bytes) {
-  std::array<char, sizeof(T)> stored{};
-  std::memcpy(stored.data(), bytes, sizeof(T));
-  if constexpr (std::endian::native == std::endian::little) {
-    std::ranges::reverse(stored);
-  }
-  return std::bit_cast<T>(stored);
-}
-
-}  // namespace
 
 VtkLegacyInput::VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path) : scanner_(bytes, path) {
   read_header();

@@ -6,22 +6,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "trismooth/mesh_io/big_endian.h"
 #include "trismooth/mesh_io/exact_integers.h"
 
 namespace trismooth {
 
 namespace {
-
-/// The number whose big-endian bytes begin at `bytes`.
-template <class T>
-T from_big_endian(const char* bytes) {
-  std::array<char, sizeof(T)> stored{};
-  std::memcpy(stored.data(), bytes, sizeof(T));
-  if constexpr (std::endian::native == std::endian::little) {
-    std::ranges::reverse(stored);
-  }
-  return std::bit_cast<T>(stored);
-}
 
 void append_big_endian(std::string& text, double value) {
   auto bytes = std::bit_cast<std::array<char, sizeof(double)>>(value);
@@ -63,7 +53,7 @@ VtkLegacyPromotion promote_coordinates(std::string_view bytes, const VtkLegacyLa
   promotion.bytes += bytes.substr(behind_type, first - behind_type);
   for (std::uint64_t& offset : sites.offsets) {
     const double value = visit_scalar_type(layout.coordinates.type, [&](auto zero) {
-      return static_cast<double>(from_big_endian<decltype(zero)>(bytes.data() + offset));
+      return static_cast<double>(load_big_endian<decltype(zero)>(bytes.data() + offset));
     });
     offset = promotion.bytes.size();
     append_big_endian(promotion.bytes, value);
