@@ -15,10 +15,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "trismooth/mesh_io/halfedge_mesh.h"
-#include "trismooth/pipeline/bench/spread.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 namespace {

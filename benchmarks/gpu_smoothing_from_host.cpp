@@ -6,7 +6,7 @@
 #include <cuda_runtime_api.h>
 #include <fmt/format.h>
 
-#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "gpu_smoothing_experiments.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/cuda/device_mesh.h"
-#include "trismooth/cuda/topology.h"
+#include "trismooth/cuda/topology/topology.h"
 
 #include "gpu_smoothing_experiments.h"
 

@@ -9,8 +9,8 @@
 
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/error.h"
 #include "trismooth/cuda/memory_pool.h"
+#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 
 namespace benchmarks {

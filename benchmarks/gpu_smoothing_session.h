@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/bench/spread.h"
-#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/options.h"
 
 /// What the experiments of gpu_smoothing have in common.

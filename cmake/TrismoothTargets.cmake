@@ -4,7 +4,7 @@
 # Sources say `#include "trismooth/quality/metrics.h"` in the tree as well as installed: the build tree
 # holds one link for each folder.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include/trismooth")
-foreach(folder IN ITEMS quality smoothing mesh_io pipeline cuda)
+foreach(folder IN ITEMS base quality smoothing mesh_io pipeline cuda)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${PROJECT_BINARY_DIR}/include/trismooth/${folder}" SYMBOLIC)
 endforeach()
 

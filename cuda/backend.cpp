@@ -4,16 +4,17 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/mesh_size.h"
+#include "trismooth/base/overwriting.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/find_rings.h"
-#include "trismooth/cuda/host_copy.h"
-#include "trismooth/cuda/memory_need.h"
-#include "trismooth/cuda/timeline.h"
-#include "trismooth/cuda/uploaded_constraints.h"
-#include "trismooth/smoothing/overwriting.h"
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/cuda/runtime/host_copy.h"
+#include "trismooth/cuda/runtime/memory_need.h"
+#include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/topology/find_rings.h"
+#include "trismooth/cuda/topology/uploaded_constraints.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

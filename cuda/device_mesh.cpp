@@ -8,15 +8,16 @@
 #include <string_view>
 #include <utility>
 
-#include "trismooth/cuda/bounding_box.h"
-#include "trismooth/cuda/coordinates.h"
-#include "trismooth/cuda/device_algorithms.h"
-#include "trismooth/cuda/device_pointer.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/base/mesh_size.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/memory_need.h"
-#include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/cuda/packing/coordinates.h"
+#include "trismooth/cuda/primitives/bounding_box.h"
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/device_pointer.h"
+#include "trismooth/cuda/runtime/memory_need.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

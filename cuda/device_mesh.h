@@ -6,7 +6,7 @@
 
 #include <cuda_runtime_api.h>
 
-#include "trismooth/cuda/topology.h"
+#include "trismooth/cuda/topology/topology.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 

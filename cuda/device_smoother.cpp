@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/cuda/commit.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/sweep_batches.h"
-#include "trismooth/cuda/sweep_engine.h"
-#include "trismooth/cuda/timeline.h"
+#include "trismooth/cuda/guard/commit.h"
+#include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/sweeps/sweep_batches.h"
+#include "trismooth/cuda/sweeps/sweep_engine.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::cuda {

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "trismooth/cuda/packing.h"
-#include "trismooth/quality/local_frame.h"
-#include "trismooth/quality/point2.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/cuda/packing/packing.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 

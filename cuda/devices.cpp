@@ -4,8 +4,8 @@
 
 #include <cuda_runtime_api.h>
 
-#include "trismooth/cuda/device_probe.h"
-#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/runtime/device_probe.h"
+#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::cuda {

@@ -4,7 +4,7 @@
 #include <map>
 #include <mutex>
 
-#include "trismooth/cuda/error.h"
+#include "trismooth/cuda/runtime/error.h"
 
 namespace trismooth::cuda {
 

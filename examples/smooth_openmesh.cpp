@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/mesh_io/smooth_mesh.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace {

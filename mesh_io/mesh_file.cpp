@@ -5,14 +5,14 @@
 #include <string>
 #include <string_view>
 
-#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/bytes/compressed_file.h"
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/compressed_file.h"
+#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/file_bytes.h"
-#include "trismooth/mesh_io/output_file.h"
-#include "trismooth/mesh_io/strip_triangles.h"
-#include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/planar_mesh.h"
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/triangle_view.h"
 
 namespace trismooth {
 

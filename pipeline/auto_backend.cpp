@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/cuda/devices.h"
-#include "trismooth/pipeline/text_report.h"
+#include "trismooth/quality/report_text.h"
 
 namespace trismooth {
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/mesh_io/number_text.h"
-#include "trismooth/pipeline/suggestion.h"
+#include "trismooth/base/suggestion.h"
+#include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {

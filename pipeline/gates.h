@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/base/enum_text.h"
 #include "trismooth/quality/quality_report.h"
-#include "trismooth/smoothing/enum_text.h"
 
 namespace trismooth {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "trismooth/smoothing/hold.h"
+#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth {
 

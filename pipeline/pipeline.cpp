@@ -6,22 +6,21 @@
 
 #include <sys/resource.h>
 
-#include "trismooth/mesh_io/compressed_file.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/fixed_array.h"
-#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/mesh_io/planar_mesh.h"
-#include "trismooth/mesh_io/plane_smoothing.h"
-#include "trismooth/mesh_io/region_arrays.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/pipeline/input/fixed_array.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/region_arrays.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
-#include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
 namespace trismooth {
@@ -227,9 +226,8 @@ class Run {
     const double fixed_quotient = wants_shape
                                       ? smallest_fixed_quotient(local_, mesh_.triangles, found_.reversed, found_.fixed)
                                       : std::numeric_limits<double>::infinity();
-    const Storage storage = document_.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64;
     SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, frame_,
-                                                local_, fixed_quotient, storage, options_.smoothing);
+                                                local_, fixed_quotient, storage_of(document_), options_.smoothing);
     smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
@@ -253,7 +251,7 @@ class Run {
     for (const auto& [vertex, position] : smoothing.reverted) {
       Eigen::Map<Eigen::Vector3d> point(uncommitted.data() + 3 * static_cast<std::size_t>(vertex));
       const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
-      point = document_.moved_point_type() == ScalarType::float32 ? moved.unaryExpr(&rounded_to_float32).eval() : moved;
+      point = rounded_to(storage_of(document_), moved);
     }
     result_.uncommitted_hash = coordinates_hash(uncommitted);
   }

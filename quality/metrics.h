@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "trismooth/quality/point2.h"
+#include "trismooth/base/point2.h"
 
 namespace trismooth {
 

@@ -5,14 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/quality/workers.h"
 
 namespace trismooth {
 
 namespace {
-
-constexpr std::int64_t grain = 4096;
 
 Point2<float> rounded(Point2<double> point) {
   return {static_cast<float>(point.x), static_cast<float>(point.y)};
@@ -24,6 +22,7 @@ PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
   std::atomic<std::int64_t> collapsed{0};
   std::atomic<std::int64_t> distorted{0};
   const auto count = static_cast<std::int64_t>(view.triangles.size());
+  constexpr std::int64_t grain = 4096;
   Workers(threads).for_blocks(count, grain, [&](std::int64_t begin, std::int64_t end) {
     std::int64_t collapsed_here = 0;
     std::int64_t distorted_here = 0;

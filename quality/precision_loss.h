@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/quality/workers.h"
 
 namespace trismooth {
 

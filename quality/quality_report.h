@@ -6,8 +6,8 @@
 #include <iosfwd>
 #include <vector>
 
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/triangle_view.h"
 
 namespace trismooth {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/workers.h"
 
 namespace trismooth {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
 

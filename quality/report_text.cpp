@@ -53,6 +53,29 @@ std::string count_text(std::int64_t count) {
   return text;
 }
 
+std::string size_text(std::int64_t vertices) {
+  constexpr std::int64_t thousand = 1'000;
+  constexpr std::int64_t million = thousand * thousand;
+  if (vertices >= million && vertices % (million / 10) == 0) {
+    return fmt::format("{}M", static_cast<double>(vertices) / million);
+  }
+  if (vertices >= thousand && vertices % (thousand / 10) == 0) {
+    return fmt::format("{}K", static_cast<double>(vertices) / thousand);
+  }
+  return count_text(vertices);
+}
+
+std::string bytes_text(std::int64_t bytes) {
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  constexpr double gibibyte = 1024.0 * mebibyte;
+  const auto size = static_cast<double>(bytes);
+  if (size >= gibibyte) {
+    return fmt::format("{:.1f} GiB", size / gibibyte);
+  }
+  return size < 9.95 * mebibyte ? fmt::format("{:.2f} MiB", size / mebibyte)
+                                : fmt::format("{:.0f} MiB", size / mebibyte);
+}
+
 std::string percent_text(double fraction) {
   if (std::isnan(fraction)) {
     return "-";

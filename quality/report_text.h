@@ -8,7 +8,7 @@
 
 namespace trismooth {
 
-/// Numbers of a quality report as tables for people show them.
+/// Numbers as tables for people show them.
 
 /// Decimals that suit the metric's values.
 int decimals(Metric metric);
@@ -27,6 +27,12 @@ TextPair distinct_texts(double before, double after, int decimals);
 
 /// 1234567 as 1,234,567.
 std::string count_text(std::int64_t count);
+
+/// A number of vertices: "1K", "50K", "1.5M"; "1,234" where that would not be exact.
+std::string size_text(std::int64_t vertices);
+
+/// "0.25 MiB", "213 MiB", "139.8 GiB": an amount of memory with the digits that matter.
+std::string bytes_text(std::int64_t bytes);
 
 /// A fraction in per cent without the sign, cut rather than rounded: 100 and 0 are said of all and of none only.
 std::string percent_text(double fraction);

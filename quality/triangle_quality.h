@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trismooth/quality/exact_arithmetic.h"
-#include "trismooth/quality/point2.h"
+#include "trismooth/base/exact_arithmetic.h"
+#include "trismooth/base/point2.h"
 
 namespace trismooth {
 

@@ -11,7 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 # All targets together take two minutes of one processor. scripts/fuzz.sh is for longer runs.
 fuzz_seconds=13
 # Of the lines of these folders the tests must reach so many.
-covered_folders=(quality smoothing mesh_io)
+covered_folders=(base quality smoothing mesh_io)
 least_coverage=90
 
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1}
@@ -72,7 +72,7 @@ print_coverage() {
 
 run_asan() {
   # The longest first.
-  local tests=(test_bad_input test_mesh_io test_smoothing test_properties test_quality test_fuzz_regressions)
+  local tests=(test_bad_input test_mesh_io test_base test_halfedge test_smoothing test_properties test_quality test_fuzz_regressions)
   export TRISMOOTH_FUZZ_REGRESSIONS=$project/tests/fuzz/regressions
   build asan "${tests[@]}" fuzz
   run asan "${tests[@]}"
@@ -82,7 +82,7 @@ run_asan() {
 }
 
 run_tsan() {
-  local tests=(test_smoothing test_quality)
+  local tests=(test_smoothing test_base test_quality)
   build tsan "${tests[@]}"
   run tsan "${tests[@]}"
 }

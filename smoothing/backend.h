@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
-#include "trismooth/quality/point2.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/point2.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
 

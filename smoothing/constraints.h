@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth {
 

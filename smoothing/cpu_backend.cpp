@@ -3,15 +3,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trismooth/quality/float32_rounding.h"
-#include "trismooth/quality/local_frame.h"
-#include "trismooth/quality/workers.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/processor_name.h"
+#include "trismooth/base/storage.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend.h"
-#include "trismooth/smoothing/largest_stored.h"
-#include "trismooth/smoothing/never_worse.h"
-#include "trismooth/smoothing/packed_rings.h"
-#include "trismooth/smoothing/processor_name.h"
-#include "trismooth/smoothing/sweeper.h"
+#include "trismooth/smoothing/guard/never_worse.h"
+#include "trismooth/smoothing/rings/packed_rings.h"
+#include "trismooth/smoothing/sweeps/sweeper.h"
 
 namespace trismooth {
 
@@ -32,10 +31,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-Point2<double> rounded_to(Storage storage, Point2<double> point) {
-  return storage == Storage::float64 ? point : Point2<double>{rounded_to_float32(point.x), rounded_to_float32(point.y)};
-}
 
 class CpuSmoother final : public PreparedSmoother {
  public:

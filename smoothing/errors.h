@@ -2,13 +2,9 @@
 
 #include <stdexcept>
 
-namespace trismooth {
+#include "trismooth/base/errors.h"
 
-/// Triangles that are no mesh to smooth: an index out of range, a triangle that repeats a vertex, a component that
-/// cannot be oriented, a coordinate that is not finite.
-struct MeshError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace trismooth {
 
 /// A device that is not there, has too little memory, or failed.
 struct DeviceError : std::runtime_error {

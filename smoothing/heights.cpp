@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/hold.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/quality/point2.h"
-#include "trismooth/smoothing/point_view.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/base/point_view.h"
 
 namespace trismooth {
 

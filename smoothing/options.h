@@ -5,7 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "trismooth/smoothing/enum_text.h"
+#include "trismooth/base/enum_text.h"
+#include "trismooth/base/storage.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {
@@ -49,9 +50,6 @@ enum class Evaluation : std::uint8_t {
   changed,  ///< those whose closed neighbourhood changed since their last evaluation
   all,      ///< every free vertex in every sweep, as in the paper: for comparison
 };
-
-/// The number type in which the caller stores the coordinates; results are rounded to it before the commit.
-enum class Storage : std::uint8_t { float64, float32 };
 
 /// What a progress callback answers.
 enum class Progress : std::uint8_t { proceed, stop };

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/quality/point2.h"
-#include "trismooth/smoothing/enum_text.h"
+#include "trismooth/base/enum_text.h"
+#include "trismooth/base/point2.h"
 
 namespace trismooth {
 

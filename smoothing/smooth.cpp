@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/mesh_size.h"
 #include "trismooth/smoothing/heights.h"
-#include "trismooth/smoothing/hold.h"
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/smoothing/rings/hold.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth {
 

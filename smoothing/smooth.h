@@ -4,12 +4,12 @@
 #include <memory>
 #include <span>
 
+#include "trismooth/base/index_view.h"
+#include "trismooth/base/point_view.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/index_view.h"
 #include "trismooth/smoothing/options.h"
-#include "trismooth/smoothing/point_view.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {

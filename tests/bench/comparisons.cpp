@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/comparisons.h"
+#include "trismooth/pipeline/experiments/comparisons.h"
 
 #include <algorithm>
 #include <string>

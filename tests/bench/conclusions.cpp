@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/conclusions.h"
+#include "trismooth/pipeline/experiments/conclusions.h"
 
 #include <algorithm>
 #include <optional>

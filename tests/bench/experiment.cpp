@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/experiment.h"
+#include "trismooth/pipeline/experiments/experiment.h"
 
 #include <algorithm>
 #include <set>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/figures.h"
+#include "trismooth/pipeline/experiments/figures.h"
 
 #include <string>
 #include <vector>

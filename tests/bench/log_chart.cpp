@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/log_chart.h"
+#include "trismooth/pipeline/experiments/log_chart.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/progress_text.h"
+#include "trismooth/pipeline/experiments/progress_text.h"
 
 #include <string>
 

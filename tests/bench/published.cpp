@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/published.h"
+#include "trismooth/pipeline/experiments/published.h"
 
 #include <algorithm>
 #include <cmath>

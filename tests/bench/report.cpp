@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/experiments/report.h"
 
 #include <algorithm>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/experiments/report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"

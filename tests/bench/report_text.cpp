@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/pipeline/bench/report.h"
+#include "trismooth/pipeline/experiments/report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "trismooth/pipeline/bench/experiment.h"
+#include "trismooth/pipeline/experiments/experiment.h"
 
 /// Results of experiments that nobody made, for tests of what is concluded from them.
 namespace sample {

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/spread.h"
+#include "trismooth/pipeline/experiments/spread.h"
 
 #include <stdexcept>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/tables.h"
+#include "trismooth/pipeline/experiments/tables.h"
 
 #include <array>
 #include <string>

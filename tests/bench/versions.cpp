@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/bench/versions.h"
+#include "trismooth/pipeline/experiments/versions.h"
 
 #include <algorithm>
 #include <array>

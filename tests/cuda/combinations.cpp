@@ -17,16 +17,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/mesh_io/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/pipeline.h"
-#include "trismooth/pipeline/random_mesh.h"
-#include "trismooth/quality/local_frame.h"
 #include "trismooth/smoothing/backend.h"
-#include "trismooth/smoothing/guard_rule.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/host_device.h"
-#include "trismooth/quality/point2.h"
-#include "trismooth/smoothing/one_ring_update.h"
-#include "trismooth/smoothing/smart_laplacian.h"
+#include "trismooth/base/host_device.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
 
 #include "support/test_meshes.h"
 

@@ -8,10 +8,10 @@
 
 #include <cuda_runtime.h>
 
-#include "trismooth/cuda/launch.h"
-#include "trismooth/cuda/move_tally.cuh"
-#include "trismooth/smoothing/one_ring_update.h"
-#include "trismooth/smoothing/sweep_tally.h"
+#include "trismooth/cuda/primitives/move_tally.cuh"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
+#include "trismooth/smoothing/sweeps/sweep_tally.h"
 
 #include "catch.h"
 #include "hard_rings.h"

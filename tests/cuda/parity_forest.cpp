@@ -1,4 +1,4 @@
-#include "trismooth/cuda/parity_forest.h"
+#include "trismooth/cuda/topology/parity_forest.h"
 
 #include <atomic>
 #include <cstdint>

@@ -18,14 +18,14 @@
 
 #include <cuda_runtime.h>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/cuda/backend.h"
-#include "trismooth/cuda/cdp_parent.cuh"
-#include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/launch.h"
-#include "trismooth/cuda/packing.h"
-#include "trismooth/cuda/paper_mesh.h"
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/cuda/packing/packing.h"
+#include "trismooth/cuda/paper/cdp_parent.cuh"
+#include "trismooth/cuda/paper/paper_mesh.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "support/test_meshes.h"

@@ -10,10 +10,10 @@
 
 #include <cuda_runtime.h>
 
-#include "trismooth/smoothing/laplacian.h"
-#include "trismooth/smoothing/smart_laplacian.h"
-#include "trismooth/smoothing/splitmix64.h"
-#include "trismooth/smoothing/weighted_laplacian.h"
+#include "trismooth/base/splitmix64.h"
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "trismooth/cuda/sweep_batches.h"
+#include "trismooth/cuda/sweeps/sweep_batches.h"
 
 #include <cmath>
 #include <limits>

@@ -14,16 +14,16 @@
 
 #include <cuda_runtime_api.h>
 
+#include "trismooth/base/rounding.h"
 #include "trismooth/cuda/backend.h"
-#include "trismooth/cuda/context.h"
-#include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"
-#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

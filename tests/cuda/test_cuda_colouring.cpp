@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/cuda/colouring.h"
-#include "trismooth/cuda/context.h"
-#include "trismooth/cuda/device_algorithms.h"
-#include "trismooth/cuda/device_buffer.h"
-#include "trismooth/smoothing/colouring.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/cuda/packing/colouring.h"
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/smoothing/rings/colouring.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"
 #include "support/hostile_meshes.h"

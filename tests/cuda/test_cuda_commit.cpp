@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/errors.h"
+#include "trismooth/base/local_frame.h"
 #include "trismooth/cuda/backend.h"
-#include "trismooth/cuda/bounding_box.h"
-#include "trismooth/cuda/commit.h"
-#include "trismooth/cuda/context.h"
-#include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/quality/local_frame.h"
-#include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/hold.h"
+#include "trismooth/cuda/guard/commit.h"
+#include "trismooth/cuda/primitives/bounding_box.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/smoothing/rings/hold.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

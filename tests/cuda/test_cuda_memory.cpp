@@ -18,8 +18,8 @@
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/host_copy.h"
 #include "trismooth/cuda/memory_pool.h"
+#include "trismooth/cuda/runtime/host_copy.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/rounding.h"
 #include "trismooth/cuda/backend.h"
-#include "trismooth/cuda/context.h"
-#include "trismooth/cuda/device_buffer.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/uploaded_constraints.h"
-#include "trismooth/quality/float32_rounding.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/cuda/topology/uploaded_constraints.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"
 #include "properties/contract.h"

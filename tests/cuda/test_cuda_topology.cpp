@@ -12,15 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/cuda/context.h"
-#include "trismooth/cuda/device_buffer.h"
-#include "trismooth/cuda/find_rings.h"
-#include "trismooth/cuda/topology.h"
-#include "trismooth/mesh_io/halfedge_mesh.h"
-#include "trismooth/pipeline/random_mesh.h"
-#include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/mesh_rings.h"
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/cuda/topology/find_rings.h"
+#include "trismooth/cuda/topology/topology.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

@@ -10,7 +10,7 @@
 
 #include <cuda_runtime.h>
 
-#include "trismooth/smoothing/one_ring_update.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
 #include "trismooth/smoothing/options.h"
 
 #include "catch.h"

@@ -1,12 +1,12 @@
-#include "trismooth/cuda/vertex_fan.h"
+#include "trismooth/cuda/topology/vertex_fan.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/mesh_rings.h"
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

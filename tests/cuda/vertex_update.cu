@@ -8,14 +8,14 @@
 
 #include <cuda_runtime.h>
 
-#include "trismooth/cuda/launch.h"
-#include "trismooth/cuda/point_arrays.h"
-#include "trismooth/cuda/reciprocals.cuh"
-#include "trismooth/cuda/register_ring.cuh"
-#include "trismooth/cuda/slotted_rings.h"
-#include "trismooth/cuda/team_update.cuh"
-#include "trismooth/cuda/vertex_update.cuh"
-#include "trismooth/smoothing/methods.h"
+#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/update/reciprocals.cuh"
+#include "trismooth/cuda/update/register_ring.cuh"
+#include "trismooth/cuda/update/team_update.cuh"
+#include "trismooth/cuda/update/vertex_update.cuh"
+#include "trismooth/smoothing/methods/methods.h"
 
 #include "catch.h"
 #include "hard_rings.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <span>
 
-#include "trismooth/smoothing/splitmix64.h"
+#include "trismooth/base/splitmix64.h"
 
 namespace fuzz {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/base/rounding.h"
 
 namespace fuzz {
 

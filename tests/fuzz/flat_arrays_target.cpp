@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/float32_rounding.h"
-#include "trismooth/smoothing/errors.h"
+#include "trismooth/base/errors.h"
+#include "trismooth/base/rounding.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "broken.h"

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/errors.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/fixed_array.h"
-#include "trismooth/mesh_io/halfedge_mesh.h"
-#include "trismooth/mesh_io/planar_mesh.h"
-#include "trismooth/mesh_io/plane_smoothing.h"
-#include "trismooth/mesh_io/region_arrays.h"
-#include "trismooth/smoothing/errors.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+#include "trismooth/pipeline/input/fixed_array.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/region_arrays.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "broken.h"

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
-#include "trismooth/quality/point2.h"
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"

@@ -15,7 +15,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/command_line.h"
+#include "trismooth/pipeline/cli/command_line.h"
 
 #include "cases.h"
 #include "support/hostile_meshes.h"

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/smoothing/never_worse.h"
+#include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "cases.h"

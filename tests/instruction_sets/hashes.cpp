@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/splitmix64.h"
 #include "trismooth/quality/quality_report.h"
-#include "trismooth/smoothing/splitmix64.h"
 
 #include "properties/smoothing_cases.h"
 #include "support/random_meshes.h"

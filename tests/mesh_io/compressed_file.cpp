@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/compressed_file.h"
+#include "trismooth/mesh_io/bytes/compressed_file.h"
 
 #include <string>
 #include <vector>

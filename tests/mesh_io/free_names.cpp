@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/free_names.h"
+#include "trismooth/mesh_io/document/free_names.h"
 
 #include <set>
 #include <string>

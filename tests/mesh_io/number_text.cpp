@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/number_text.h"
+#include "trismooth/mesh_io/text/number_text.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/off_binary_reader.h"
+#include "trismooth/mesh_io/off/off_binary_reader.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/output_file.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,11 +1,11 @@
-#include "trismooth/mesh_io/output_stream_buffer.h"
+#include "trismooth/mesh_io/vtk_xml/output_stream_buffer.h"
 
 #include <ostream>
 #include <sstream>
 #include <string>
 
+#include "trismooth/base/splitmix64.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/smoothing/splitmix64.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"

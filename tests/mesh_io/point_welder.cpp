@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/point_welder.h"
+#include "trismooth/mesh_io/stl/point_welder.h"
 
 #include <array>
 #include <cstdint>

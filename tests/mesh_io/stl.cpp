@@ -11,7 +11,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/mesh_io/point_welder.h"
+#include "trismooth/mesh_io/stl/point_welder.h"
 
 #include "byte_files.h"
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/text_scanner.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
 
 #include <cstdint>
 #include <limits>

@@ -1,7 +1,7 @@
 // What files say of arrays beside names and numbers: names of components, units, active arrays. From each of VTK's
 // formats to each other all of it arrives, or what_is_lost() says what does not. VTK's own readers judge.
 
-#include "trismooth/mesh_io/vtk_array_description.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_array_description.h"
 
 #include <algorithm>
 #include <string>

@@ -1,9 +1,9 @@
-#include "trismooth/mesh_io/vtk_legacy_annotations.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_annotations.h"
 
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/document/annotation_names.h"
 
 #include "vtk_legacy_files.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/vtk_legacy_reader.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_reader.h"
 
 #include "support/sanitized.h"
 #include "vtk_legacy_files.h"

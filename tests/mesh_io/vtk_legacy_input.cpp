@@ -1,9 +1,8 @@
 // Dialects of legacy files that some programs write: a byte-order mark, comments, blanks at the ends of lines, SCALARS
 // without a lookup table, strips. The same mesh is read, and the same bytes are written back.
 
-#include "trismooth/mesh_io/vtk_legacy_input.h"
-
-#include "trismooth/mesh_io/planar_mesh.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_input.h"
+#include "trismooth/mesh_io/mesh_file.h"
 
 #include "vtk_legacy_files.h"
 

@@ -1,7 +1,7 @@
 // Legacy files whose coordinates are whole numbers: nothing moves, nothing changes; a vertex that moves to another
 // whole number changes that number; one that moves between them makes the file's type double.
 
-#include "trismooth/mesh_io/vtk_legacy_promotion.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_promotion.h"
 
 #include <limits>
 

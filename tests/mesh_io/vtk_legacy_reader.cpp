@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_legacy_reader.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_reader.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_legacy_writer.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_writer.h"
 
 #include <cmath>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <span>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/vtk_legacy_names.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_names.h"
 
 #include "vtk_legacy_files.h"
 

@@ -1,6 +1,6 @@
 // What the tags of a file say beside what VTK reads: <VTKFile> keeps it, of the others it is told.
 
-#include "trismooth/mesh_io/vtk_xml_attributes.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_attributes.h"
 
 #include <algorithm>
 #include <string>

@@ -1,7 +1,7 @@
 // Arrays as other programs encode them: the size in front of base64 by itself, more numbers than the counts ask for.
 // VTK's reader takes the same files for the same mesh.
 
-#include "trismooth/mesh_io/vtk_xml_decoder.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_decoder.h"
 
 #include <algorithm>
 #include <array>

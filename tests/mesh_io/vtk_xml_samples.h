@@ -8,7 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/vtk_xml_header.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
 namespace vtk_xml_samples {
 

@@ -1,6 +1,6 @@
 // Pieces whose arrays differ: what all have is joined, by name; what one lacks is told and left out, as VTK does it.
 
-#include "trismooth/mesh_io/vtk_xml_shared_arrays.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_shared_arrays.h"
 
 #include <algorithm>
 #include <string>

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "trismooth/mesh_io/smooth_mesh.h"
+#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/backend_choice.h"
+#include "trismooth/pipeline/cli/backend_choice.h"
 
 #include <stdexcept>
 #include <string>

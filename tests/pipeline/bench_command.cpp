@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/command_line.h"
+#include "trismooth/pipeline/cli/command_line.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/command_line.h"
+#include "trismooth/pipeline/cli/command_line.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/pipeline/backend_choice.h"
+#include "trismooth/pipeline/cli/backend_choice.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/smoothing/errors.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/delaunay.h"
+#include "trismooth/pipeline/generate/delaunay.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/failure.h"
+#include "trismooth/pipeline/cli/failure.h"
 
 #include <filesystem>
 #include <iomanip>
@@ -10,7 +10,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/auto_backend.h"
-#include "trismooth/pipeline/command_line.h"
+#include "trismooth/pipeline/cli/command_line.h"
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"

@@ -1,8 +1,8 @@
-#include "trismooth/pipeline/held_text.h"
+#include "trismooth/pipeline/report/held_text.h"
 
 #include <string>
 
-#include "trismooth/pipeline/held_html.h"
+#include "trismooth/pipeline/report/held_html.h"
 
 #include "catch.h"
 #include "support/says.h"

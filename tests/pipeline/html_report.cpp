@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/html_report.h"
+#include "trismooth/pipeline/report/html_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/pipeline/html_text.h"
-#include "trismooth/pipeline/svg_charts.h"
+#include "trismooth/pipeline/report/html_text.h"
+#include "trismooth/pipeline/report/svg_charts.h"
 
 #include "catch.h"
 #include "sample_run.h"

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/interrupt.h"
+#include "trismooth/pipeline/cli/interrupt.h"
 
 #include <csignal>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "trismooth/mesh_io/output_file.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"

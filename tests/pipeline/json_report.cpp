@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/json_report.h"
+#include "trismooth/pipeline/report/json_report.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/labelled_line.h"
+#include "trismooth/pipeline/report/labelled_line.h"
 
 #include <sstream>
 #include <string>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/mirrored_tiles.h"
+#include "trismooth/pipeline/generate/mirrored_tiles.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/option_parsing.h"
+#include "trismooth/pipeline/cli/option_parsing.h"
 
 #include <stdexcept>
 #include <string>

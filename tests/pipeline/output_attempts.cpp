@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/output_attempts.h"
+#include "trismooth/pipeline/cli/output_attempts.h"
 
 #include <cerrno>
 #include <new>

@@ -13,7 +13,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/held_text.h"
+#include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

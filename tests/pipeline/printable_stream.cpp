@@ -1,10 +1,10 @@
-#include "trismooth/pipeline/printable_stream.h"
+#include "trismooth/pipeline/cli/printable_stream.h"
 
 #include <sstream>
 #include <streambuf>
 #include <string>
 
-#include "trismooth/pipeline/printable_text.h"
+#include "trismooth/pipeline/report/printable_text.h"
 
 #include "catch.h"
 

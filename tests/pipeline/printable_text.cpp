@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/printable_text.h"
+#include "trismooth/pipeline/report/printable_text.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/progress_bar.h"
+#include "trismooth/pipeline/cli/progress_bar.h"
 
 #include <chrono>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/random_mesh.h"
+#include "trismooth/pipeline/generate/random_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/random_points.h"
+#include "trismooth/pipeline/generate/random_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/region_table.h"
+#include "trismooth/pipeline/report/region_table.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/report_format.h"
+#include "trismooth/pipeline/report/report_format.h"
 
 #include <array>
 #include <fstream>

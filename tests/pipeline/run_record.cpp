@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/run_record.h"
+#include "trismooth/pipeline/report/run_record.h"
 
 #include <chrono>
 #include <cstdlib>

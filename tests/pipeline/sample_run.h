@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/pipeline/pipeline.h"
-#include "trismooth/pipeline/run_record.h"
+#include "trismooth/pipeline/report/run_record.h"
 
 /// A run with a different value in every field, for tests of reports.
 namespace sample {

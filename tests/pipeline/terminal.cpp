@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/terminal.h"
+#include "trismooth/pipeline/report/terminal.h"
 
 #include <fcntl.h>
 #include <unistd.h>

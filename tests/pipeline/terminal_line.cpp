@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/terminal_line.h"
+#include "trismooth/pipeline/cli/terminal_line.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/text_report.h"
+#include "trismooth/pipeline/report/text_report.h"
 
 #include <algorithm>
 #include <sstream>
@@ -168,13 +168,6 @@ TEST_CASE("inverted triangles that remain are told, and those that went, too") {
   CHECK(says(text_report(sample::options(), result), "1 inverted triangle remains (5 before)."));
   result.after->inverted = 2;
   CHECK(says(text_report(sample::options(), result), "2 inverted triangles remain (5 before)."));
-}
-
-TEST_CASE("an amount of memory has the digits that matter") {
-  CHECK(trismooth::bytes_text(0) == "0.00 MiB");
-  CHECK(trismooth::bytes_text(262144) == "0.25 MiB");
-  CHECK(trismooth::bytes_text(std::int64_t{213} << 20) == "213 MiB");
-  CHECK(trismooth::bytes_text((std::int64_t{139} << 30) + (std::int64_t{1} << 29)) == "139.5 GiB");
 }
 
 TEST_CASE("a time has the digits that matter") {

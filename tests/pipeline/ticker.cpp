@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/ticker.h"
+#include "trismooth/pipeline/cli/ticker.h"
 
 #include <atomic>
 #include <chrono>

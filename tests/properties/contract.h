@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/triangle_view.h"
 
 #include "properties/smoothing_cases.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/halfedge_mesh.h"
-#include "trismooth/mesh_io/smooth_mesh.h"
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
+#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 
 #include "catch.h"
 #include "properties/for_random_meshes.h"

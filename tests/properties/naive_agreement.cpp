@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/quality/float32_rounding.h"
-#include "trismooth/smoothing/stop_rule.h"
+#include "trismooth/base/rounding.h"
+#include "trismooth/smoothing/sweeps/stop_rule.h"
 
 #include "catch.h"
 #include "properties/contract.h"
@@ -21,7 +21,7 @@ using namespace properties;
 
 namespace {
 
-Point2<double> rounded_to(Storage storage, Point2<double> p) {
+Point2<double> stored_as(Storage storage, Point2<double> p) {
   return storage == Storage::float64
              ? p
              : Point2<double>{trismooth::rounded_to_float32(p.x), trismooth::rounded_to_float32(p.y)};
@@ -76,7 +76,7 @@ Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage s
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!(working[v] == narrowed<T>(before[v]))) {
       const Point2<double> local{static_cast<double>(working[v].x), static_cast<double>(working[v].y)};
-      stored[v] = rounded_to(storage, frame.leave(local));
+      stored[v] = stored_as(storage, frame.leave(local));
     }
     after.push_back(frame.enter(stored[v]));
   }

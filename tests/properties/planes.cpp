@@ -9,9 +9,9 @@
 
 #include <Eigen/Geometry>
 
-#include "trismooth/mesh_io/planar_mesh.h"
-#include "trismooth/mesh_io/plane_smoothing.h"
-#include "trismooth/smoothing/mesh_rings.h"
+#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"
 #include "properties/contract.h"

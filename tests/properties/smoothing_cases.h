@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/splitmix64.h"
 #include "trismooth/smoothing/smooth.h"
-#include "trismooth/smoothing/splitmix64.h"
 
 #include "support/random_meshes.h"
 #include "support/same_bits.h"

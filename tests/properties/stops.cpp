@@ -9,7 +9,7 @@
 
 #include <Eigen/SparseLU>
 
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
 
 #include "catch.h"
 #include "properties/contract.h"

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/colouring.h"
+#include "trismooth/smoothing/rings/colouring.h"
 
 #include <algorithm>
 #include <cstdint>

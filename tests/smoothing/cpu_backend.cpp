@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/smooth.h"

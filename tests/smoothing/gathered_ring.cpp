@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/gathered_ring.h"
+#include "trismooth/smoothing/sweeps/gathered_ring.h"
 
 #include <cstdint>
 #include <span>

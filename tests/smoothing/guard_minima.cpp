@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/guard_minima.h"
+#include "trismooth/smoothing/guard/guard_minima.h"
 
 #include <algorithm>
 #include <limits>

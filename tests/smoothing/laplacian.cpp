@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/laplacian.h"
+#include "trismooth/smoothing/methods/laplacian.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/never_worse.h"
+#include "trismooth/smoothing/guard/never_worse.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/base/rounding.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/smooth.h"
 

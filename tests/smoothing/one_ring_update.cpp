@@ -1,11 +1,11 @@
-#include "trismooth/smoothing/one_ring_update.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
 
 #include <limits>
 #include <vector>
 
-#include "trismooth/smoothing/laplacian.h"
-#include "trismooth/smoothing/smart_laplacian.h"
-#include "trismooth/smoothing/weighted_laplacian.h"
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
 
 #include "catch.h"
 #include "support/naive_smoothing.h"

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/one_rings.h"
+#include "trismooth/smoothing/rings/one_rings.h"
 
 #include <algorithm>
 #include <cmath>

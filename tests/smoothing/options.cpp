@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trismooth/quality/worker_threads.h"
+#include "trismooth/base/worker_threads.h"
 
 #include "catch.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/packed_rings.h"
+#include "trismooth/smoothing/rings/packed_rings.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/smart_laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
 
 #include <vector>
 

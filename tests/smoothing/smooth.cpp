@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/base/rounding.h"
+#include "trismooth/base/storage.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/largest_stored.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/sweeper.h"
+#include "trismooth/smoothing/sweeps/sweeper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/quality/local_frame.h"
+#include "trismooth/base/local_frame.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/triangle_topology.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/errors.h"
+#include "trismooth/base/mesh_size.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/vertex_order.h"
+#include "trismooth/smoothing/rings/vertex_order.h"
 
 #include <algorithm>
 #include <cmath>

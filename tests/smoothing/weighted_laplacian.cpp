@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/weighted_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
 
 #include <cmath>
 #include <limits>

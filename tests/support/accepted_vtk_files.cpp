@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <vtkDataCompressor.h>
 
-#include "trismooth/mesh_io/text_scanner.h"
-#include "trismooth/mesh_io/vtk_compressor.h"
-#include "trismooth/mesh_io/vtk_xml_header.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
 #include "support/xml_arrays.h"
 

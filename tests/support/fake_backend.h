@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/overwriting.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/overwriting.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
 #include "trismooth/smoothing/smooth.h"
-#include "trismooth/smoothing/triangle_topology.h"
 
 /// A device that a test can count the calls of and make fail, on any machine.
 namespace fakes {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "trismooth/smoothing/splitmix64.h"
+#include "trismooth/base/splitmix64.h"
 
 #include "support/test_meshes.h"
 

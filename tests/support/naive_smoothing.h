@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/point2.h"
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 

@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/delaunay.h"
-#include "trismooth/quality/float32_rounding.h"
+#include "trismooth/base/rounding.h"
+#include "trismooth/pipeline/generate/delaunay.h"
 
 namespace random_meshes {
 

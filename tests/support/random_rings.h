@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "trismooth/quality/point2.h"
+#include "trismooth/base/point2.h"
 
 #include "support/test_meshes.h"
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "trismooth/quality/point2.h"
+#include "trismooth/base/point2.h"
 
 /// Equal where zeros have the same sign, and a NaN equals itself.
 inline bool same_bits(double a, double b) {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/point2.h"
-#include "trismooth/quality/triangle_view.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
 
 /// Small meshes for tests, made of nothing but seeds: the same on every platform.
 namespace test_meshes {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/mesh_io/vtk_xml_header.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
 namespace accepted_files::vtk {
 

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "trismooth/base/array_layout.h"
+#include "trismooth/base/triangle_view.h"
+
+namespace trismooth {
+
+namespace array_layout {
+
+/// What vertices are numbered with: signed or unsigned, of 32 or 64 bits.
+template <class T>
+concept Index = std::integral<std::remove_cv_t<T>> && !std::same_as<std::remove_cv_t<T>, bool> &&
+                (sizeof(T) == sizeof(std::int32_t) || sizeof(T) == sizeof(std::int64_t));
+
+template <class R>
+concept IndexNumbers = Numbers<R> && Index<NumberOf<R>>;
+template <class R>
+concept IndexTuples = Tuples<R> && Index<TupleNumberOf<R>> && NumberTuple<std::ranges::range_value_t<R>>::size == 3;
+template <class M>
+concept IndexMatrix = Matrix<M> && Index<MatrixNumberOf<M>>;
+template <class M>
+concept TriangleMatrix = IndexMatrix<M> &&(ColumnsOf<M, 3, 3> || RowsOf<M, 3, 3>);
+
+}  // namespace array_layout
+
+/// The triangles of a mesh where the caller keeps them: three vertex numbers each, from 0, of any type of 32 or 64
+/// bits. Nothing is copied to make one. The caller owns the memory and keeps it meanwhile; a function that takes one
+/// does not look at it any more when it has returned.
+///
+/// It is made without a word from numbers one behind the other, three for each triangle (std::vector<std::int32_t>,
+/// std::span<const std::size_t>, ...), from triples of them (std::vector<std::array<int, 3>>, ...) and from Eigen
+/// matrices whose type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...).
+class IndexView {
+ public:
+  /// Throws std::invalid_argument unless there are three for each triangle.
+  template <class R>
+  requires array_layout::IndexNumbers<R> IndexView(R&& numbers) : IndexView(array_layout::flat_rows(numbers, 3)) {
+    require_whole_triangles(array_layout::number_count(numbers));
+  }
+
+  template <class R>
+  requires array_layout::IndexTuples<R> IndexView(R&& triangles) : IndexView(array_layout::tuple_rows(triangles)) {}
+
+  template <class M>
+  requires array_layout::TriangleMatrix<M> IndexView(M&& matrix)
+      : IndexView(array_layout::rows_by_type<3, 3>(matrix)) {}
+
+  /// One triangle a row. Throws std::invalid_argument where a row has not three numbers and where there are triangles
+  /// but no memory.
+  template <class T>
+  requires array_layout::Index<T>
+  explicit IndexView(const NumberRows<T>& rows)
+      : first_(reinterpret_cast<const std::byte*>(rows.first)),
+        size_(rows.rows),
+        triangle_stride_(rows.row_stride),
+        corner_stride_(rows.column_stride),
+        is_wide_(sizeof(T) == sizeof(std::int64_t)),
+        is_signed_(std::is_signed_v<T>) {
+    check(rows.columns);
+  }
+
+  /// Triangles.
+  std::size_t size() const { return size_; }
+
+  /// The triangles as the library holds them: the caller's own memory where it has that form, else converted into
+  /// `converted`. Throws MeshError for a number that is not one of the vertices and has no place in 32 bits; of all
+  /// others it is found later. Complexity: constant or linear.
+  std::span<const Triangle> triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
+
+ private:
+  static void require_whole_triangles(std::size_t numbers);
+  void check(std::size_t columns) const;
+  template <class T>
+  void convert(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
+
+  const std::byte* first_;
+  std::size_t size_;
+  std::ptrdiff_t triangle_stride_;
+  std::ptrdiff_t corner_stride_;
+  bool is_wide_;
+  bool is_signed_;
+};
+
+/// An Eigen matrix of indices with a triangle a row (libigl's F) or a column, where its type does not tell (MatrixXi).
+/// Throws std::invalid_argument unless these have three numbers.
+template <array_layout::IndexMatrix M>
+IndexView triangle_rows(M&& matrix) {
+  return IndexView(array_layout::matrix_rows(matrix));
+}
+template <array_layout::IndexMatrix M>
+IndexView triangle_columns(M&& matrix) {
+  return IndexView(array_layout::matrix_columns(matrix));
+}
+
+}  // namespace trismooth

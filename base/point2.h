@@ -1,0 +1,28 @@
+#pragma once
+
+#include "trismooth/base/exact_arithmetic.h"
+#include "trismooth/base/host_device.h"
+
+namespace trismooth {
+
+/// A point or a vector of the plane. T is float or double.
+template <class T>
+struct Point2 {
+  T x;
+  T y;
+
+  friend constexpr TRISMOOTH_HOST_DEVICE bool operator==(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+  friend constexpr TRISMOOTH_HOST_DEVICE Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+};
+
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T cross(Point2<T> a, Point2<T> b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T squared_length(Point2<T> a) {
+  return a.x * a.x + a.y * a.y;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,154 @@
+#include <cstring>
+
+#include "trismooth/cuda/packing/renumbering.h"
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/runtime/thread_index.cuh"
+
+namespace trismooth::cuda {
+
+namespace {
+
+__global__ void number_vertices(const std::int32_t* input_index, std::int32_t vertex_count, std::int32_t* new_number) {
+  const std::int64_t i = thread_index();
+  if (i < vertex_count) {
+    new_number[input_index[i]] = static_cast<std::int32_t>(i);
+  }
+}
+
+__global__ void find_ring_sizes(RenumberingView numbers, std::uint32_t* sizes) {
+  const std::int64_t i = thread_index();
+  if (i < numbers.free_count) {
+    sizes[i] = static_cast<std::uint32_t>(numbers.from.ring_size(numbers.input_index[i]));
+  }
+}
+
+__global__ void copy_rings(RenumberingView numbers, const std::uint32_t* offsets, std::int32_t* neighbours) {
+  const std::int64_t i = thread_index();
+  if (i >= numbers.free_count) {
+    return;
+  }
+  const std::int32_t input = numbers.input_index[i];
+  const std::int32_t* const ring = numbers.from.ring(input);
+  for (std::int32_t k = 0; k < numbers.from.ring_size(input); ++k) {
+    neighbours[offsets[i] + static_cast<std::uint32_t>(k)] = numbers.new_number[ring[k]];
+  }
+}
+
+/// Fills the records of all rings that fit one, and the sizes of those that do not (0 where one does).
+template <class Slot>
+__global__ void fill_records(RenumberingView numbers, RingRecord<Slot>* records, std::uint32_t* long_sizes) {
+  const std::int64_t i = thread_index();
+  if (i >= numbers.free_count) {
+    return;
+  }
+  const auto v = static_cast<std::int32_t>(i);
+  const std::int32_t input = numbers.input_index[v];
+  const std::int32_t* const ring = numbers.from.ring(input);
+  const std::int32_t size = numbers.from.ring_size(input);
+  bool fits = size >= RingRecord<Slot>::smallest_ring && size <= RingRecord<Slot>::slots;
+  alignas(RingRecord<Slot>) Slot slots[RingRecord<Slot>::slots];
+  for (std::int32_t k = 0; k < RingRecord<Slot>::slots && fits; ++k) {
+    const std::int32_t neighbour = numbers.new_number[ring[k < size ? k : 0]];
+    const std::int32_t value = sizeof(Slot) == 2 ? neighbour - v : neighbour;
+    slots[k] = static_cast<Slot>(value);
+    fits = slots[k] == value;
+  }
+  if (fits) {
+    memcpy(&records[v], slots, sizeof(slots));
+  }
+  long_sizes[v] = fits ? 0 : static_cast<std::uint32_t>(size);
+}
+
+template <class Slot>
+__global__ void copy_long_rings(RenumberingView numbers, const std::uint32_t* begins, RingRecord<Slot>* records,
+                                std::int32_t* long_rings) {
+  const std::int64_t i = thread_index();
+  if (i >= numbers.free_count || begins[i] == begins[i + 1]) {
+    return;
+  }
+  const std::int32_t input = numbers.input_index[i];
+  const std::int32_t* const ring = numbers.from.ring(input);
+  const std::int32_t size = numbers.from.ring_size(input);
+  for (std::int32_t k = 0; k < size; ++k) {
+    long_rings[begins[i] + static_cast<std::uint32_t>(k)] = numbers.new_number[ring[k]];
+  }
+  records[i] = RingRecord<Slot>::of_long_ring(begins[i], size);
+}
+
+__global__ void copy_colours(RenumberingView numbers, const std::int32_t* colours, std::uint8_t* copied) {
+  const std::int64_t i = thread_index();
+  if (i < numbers.free_count) {
+    copied[i] = static_cast<std::uint8_t>(colours[numbers.input_index[i]]);
+  }
+}
+
+}  // namespace
+
+Renumbering::Renumbering(Context& context, const RingsView& from, const std::int32_t* input_index,
+                         std::int32_t free_count)
+    : new_number_(context, static_cast<std::size_t>(from.size)),
+      view_{from, input_index, new_number_.data(), free_count} {
+  number_vertices<<<blocks_for(from.size), block_size, 0, context.stream()>>>(input_index, from.size,
+                                                                              new_number_.data());
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+}
+
+DeviceRings renumbered(Context& context, const Renumbering& numbers, std::size_t entries) {
+  const RenumberingView view = numbers.view();
+  DeviceRings to;
+  to.offsets = DeviceBuffer<std::uint32_t>(context, static_cast<std::size_t>(view.free_count) + 1);
+  to.offsets.fill_bytes(0);
+  to.neighbours = DeviceBuffer<std::int32_t>(context, entries);
+  if (view.free_count > 0) {
+    const unsigned blocks = blocks_for(view.free_count);
+    find_ring_sizes<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data());
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+    sum_before(context, to.offsets.data(), std::int64_t{view.free_count} + 1);
+    copy_rings<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data(), to.neighbours.data());
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  }
+  return to;
+}
+
+template <class Slot>
+SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
+  const RenumberingView view = numbers.view();
+  SlottedRings<Slot> to;
+  const auto count = static_cast<std::size_t>(view.free_count);
+  if (count == 0) {
+    return to;
+  }
+  to.records = DeviceBuffer<RingRecord<Slot>>(context, count);
+  DeviceBuffer<std::uint32_t> begins(context, count + 1);
+  begins.fill_bytes(0);
+  const unsigned blocks = blocks_for(view.free_count);
+  fill_records<<<blocks, block_size, 0, context.stream()>>>(view, to.records.data(), begins.data());
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  sum_before(context, begins.data(), std::int64_t{view.free_count} + 1);
+  std::uint32_t entries = 0;
+  TRISMOOTH_CUDA_CHECK(
+      cudaMemcpyAsync(&entries, begins.data() + count, sizeof(entries), cudaMemcpyDeviceToHost, context.stream()));
+  context.synchronize();
+  to.long_rings = DeviceBuffer<std::int32_t>(context, entries);
+  copy_long_rings<<<blocks, block_size, 0, context.stream()>>>(view, begins.data(), to.records.data(),
+                                                               to.long_rings.data());
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  return to;
+}
+
+template SlottedRings<std::int16_t> slotted(Context&, const Renumbering&);
+template SlottedRings<std::int32_t> slotted(Context&, const Renumbering&);
+
+DeviceBuffer<std::uint8_t> renumbered(Context& context, const Renumbering& numbers, const std::int32_t* colours) {
+  const RenumberingView view = numbers.view();
+  DeviceBuffer<std::uint8_t> to(context, colours == nullptr ? 0 : static_cast<std::size_t>(view.free_count));
+  if (to.size() > 0) {
+    copy_colours<<<blocks_for(view.free_count), block_size, 0, context.stream()>>>(view, colours, to.data());
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  }
+  return to;
+}
+
+}  // namespace trismooth::cuda

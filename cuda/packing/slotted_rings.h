@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "trismooth/base/host_device.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+
+namespace trismooth::cuda {
+
+/// One-rings as the resident execution reads them: a record of one size for each vertex, so that the threads of a warp
+/// read whole lines of memory, and nothing needs to say where a ring begins. A slot holds a neighbour's number or, in
+/// 16 bits, its difference to the vertex's. Slots beyond the ring's end repeat the first one, so that a ring is closed.
+/// A ring of less than 3 or more than 8 neighbours, or with one too far away for a difference, is in a list of long
+/// rings; its record says where.
+template <class Slot>
+struct alignas(16) RingRecord {
+  static_assert(std::is_same_v<Slot, std::int16_t> || std::is_same_v<Slot, std::int32_t>);
+  static constexpr int slots = 8;
+  static constexpr int smallest_ring = 3;
+
+  std::int32_t words[slots * sizeof(Slot) / 4];
+
+  TRISMOOTH_HOST_DEVICE std::int32_t slot(int i) const {
+    if constexpr (sizeof(Slot) == 2) {
+      return i % 2 == 0 ? static_cast<std::int16_t>(words[i / 2]) : words[i / 2] >> 16;
+    } else {
+      return words[i];
+    }
+  }
+  /// Two equal slots at the beginning, which no ring has, mean that the ring is long.
+  TRISMOOTH_HOST_DEVICE bool is_long() const { return slot(0) == slot(1); }
+  TRISMOOTH_HOST_DEVICE std::uint32_t long_begin() const { return static_cast<std::uint32_t>(words[2]); }
+  TRISMOOTH_HOST_DEVICE std::int32_t long_size() const { return words[3]; }
+  static TRISMOOTH_HOST_DEVICE RingRecord of_long_ring(std::uint32_t begin, std::int32_t size) {
+    RingRecord record{};
+    record.words[2] = static_cast<std::int32_t>(begin);
+    record.words[3] = size;
+    return record;
+  }
+
+  TRISMOOTH_HOST_DEVICE std::int32_t ring_size() const {
+    if (is_long()) {
+      return long_size();
+    }
+    int size = slots;
+    for (int i = slots - 1; i >= smallest_ring; --i) {
+      size = slot(i) == slot(0) ? i : size;
+    }
+    return size;
+  }
+};
+
+/// One ring of them, in memory.
+template <class Slot>
+class SlottedRing {
+ public:
+  TRISMOOTH_HOST_DEVICE SlottedRing(std::int32_t vertex, const RingRecord<Slot>& record, const std::int32_t* long_rings)
+      : first_(sizeof(Slot) == 2 ? vertex : 0),
+        slots_(reinterpret_cast<const Slot*>(record.words)),
+        long_ring_(record.is_long() ? long_rings + record.long_begin() : nullptr) {}
+
+  /// The number of neighbour `i`.
+  TRISMOOTH_HOST_DEVICE std::int32_t operator[](int i) const {
+    return long_ring_ != nullptr ? long_ring_[i] : first_ + slots_[i];
+  }
+
+ private:
+  std::int32_t first_;
+  const Slot* slots_;
+  const std::int32_t* long_ring_;
+};
+
+/// For kernels. Vertices from `size` on have no ring: they are fixed.
+template <class Slot>
+struct SlottedRingsView {
+  std::int32_t size;
+  const RingRecord<Slot>* records;
+  const std::int32_t* long_rings;
+
+  TRISMOOTH_HOST_DEVICE std::int32_t ring_size(std::int32_t vertex) const { return records[vertex].ring_size(); }
+  TRISMOOTH_HOST_DEVICE SlottedRing<Slot> ring(std::int32_t vertex) const {
+    return {vertex, records[vertex], long_rings};
+  }
+};
+
+/// Owns them.
+template <class Slot>
+struct SlottedRings {
+  DeviceBuffer<RingRecord<Slot>> records;
+  DeviceBuffer<std::int32_t> long_rings;
+
+  SlottedRingsView<Slot> view() const {
+    return {static_cast<std::int32_t>(records.size()), records.data(), long_rings.data()};
+  }
+};
+
+}  // namespace trismooth::cuda

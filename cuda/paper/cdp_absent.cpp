@@ -1,0 +1,23 @@
+#include "trismooth/cuda/paper/cdp.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth::cuda {
+
+bool has_cdp() {
+  return false;
+}
+
+template <class Mesh>
+void launch_cdp(Method /*method*/, const Mesh& /*mesh*/, const LoopRules& /*rules*/, LoopState* /*state*/,
+                SweepSums* /*sums*/, cudaStream_t /*stream*/) {
+  throw DeviceError(
+      "CUDA: this build has no dynamic parallelism (it was configured with -DTRISMOOTH_CDP=OFF); use '--execution "
+      "resident' or 'single-block'");
+}
+
+template void launch_cdp(Method, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
+template void launch_cdp(Method, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
+template void launch_cdp(Method, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
+template void launch_cdp(Method, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,50 @@
+#include "trismooth/cuda/runtime/context.h"
+
+#include "trismooth/cuda/memory_pool.h"
+#include "trismooth/cuda/runtime/error.h"
+
+namespace trismooth::cuda {
+
+Context::Context() : pool_(memory_pool()) {
+  TRISMOOTH_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+}
+
+Context::Context(cudaStream_t stream) : stream_(stream), owns_stream_(false), pool_(memory_pool()) {}
+
+Context::~Context() {
+  if (owns_stream_) {
+    cudaStreamDestroy(stream_);
+  }
+}
+
+void Context::synchronize() const {
+  TRISMOOTH_CUDA_CHECK(cudaStreamSynchronize(stream_));
+}
+
+void* Context::allocate(std::size_t bytes) {
+  if (bytes == 0) {
+    return nullptr;
+  }
+  void* memory = nullptr;
+  const cudaError_t error = cudaMallocFromPoolAsync(&memory, bytes, pool_, stream_);
+  if (error == cudaErrorMemoryAllocation) {
+    cudaGetLastError();
+    DeviceMemory available = device_memory();
+    available.free += in_use_;
+    throw too_little_memory(mebibytes(in_use_ + bytes) + " or more", available);
+  }
+  TRISMOOTH_CUDA_CHECK(error);
+  in_use_ += bytes;
+  peak_ = std::max(peak_, in_use_);
+  return memory;
+}
+
+void Context::free(void* memory, std::size_t bytes) noexcept {
+  if (memory != nullptr) {
+    // An error here is one of an earlier call, which whoever synchronises next is told of.
+    cudaFreeAsync(memory, stream_);
+    in_use_ -= bytes;
+  }
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,172 @@
+#include <algorithm>
+
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/primitives/block_tally.cuh"
+#include "trismooth/cuda/primitives/warp_list.cuh"
+#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/sweeps/grid/resident.h"
+#include "trismooth/cuda/sweeps/grid/resident_instances.h"
+#include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
+
+namespace trismooth::cuda {
+
+namespace {
+
+constexpr std::int32_t threads = 256;
+/// Blocks of a multiprocessor: what their registers allow.
+template <class T>
+constexpr std::int32_t resident_blocks = sizeof(T) == sizeof(float) ? 3 : 2;
+constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
+
+/// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them. In
+/// Form B, where a sweep takes a launch for each colour, it is so for a shorter time.
+constexpr std::uint64_t smallest_share_a = 16;
+constexpr std::uint64_t smallest_share_b = 6;
+
+/// Closes a sweep that evaluated every vertex. One thread calls it when all blocks are done.
+__device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopState* state, const SweepSums& sums) {
+  const volatile SweepSums& complete = sums;
+  SweepSums found{};
+  found.moved = complete.moved;
+  found.beyond_tolerance = complete.beyond_tolerance;
+  state->stop = stop_after(found, rules);
+  ++state->sweeps;
+  state->current = rules.swaps ? 1 - state->current : state->current;
+  // Whether a sweep marks is said before it begins, and so which one is the last to evaluate every vertex.
+  state->evaluates_all = state->marks == 0 ? 1 : 0;
+  const std::uint64_t share = rules.swaps ? smallest_share_a : smallest_share_b;
+  const bool many_move = found.moved > static_cast<std::uint64_t>(free_count) / share;
+  state->marks = rules.evaluates_all || many_move ? 0 : 1;
+}
+
+/// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
+/// each other, then leaves as many to each of the others: what is near in number is near in the mesh and in the cache.
+struct Pieces {
+  std::int32_t begin;
+  std::int32_t end;
+  std::int32_t run_bits;
+
+  /// The first vertex of the block's piece `i`; the end or more where there is none.
+  __device__ std::int64_t first(std::int32_t i) const {
+    const std::int32_t run =
+        (i >> run_bits) * static_cast<std::int32_t>(gridDim.x) + static_cast<std::int32_t>(blockIdx.x);
+    const std::int32_t piece = (run << run_bits) + (i & ((1 << run_bits) - 1));
+    return begin + static_cast<std::int64_t>(piece) * threads;
+  }
+};
+
+/// More vertices than a warp leaves to its teams before it evaluates them, but for those of its last piece.
+constexpr int enough_left_over = 32;
+
+/// Evaluates the block's vertices. `list` is the warp's own.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepData<T, layout, Slot>& data,
+                                             std::int32_t* list, ThreadTally<T>& tally) {
+  const auto thread = static_cast<std::int32_t>(threadIdx.x);
+  const auto fetch = [&](std::int64_t first) {
+    return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
+                                       : RingRecord<Slot>{};
+  };
+  std::int32_t piece = 0;
+  std::int64_t first = pieces.first(piece);
+  RingRecord<Slot> record = fetch(first);
+  while (first < pieces.end) {
+    int listed = 0;
+    do {
+      // The next record is on its way while this one is worked on.
+      const std::int64_t next_first = pieces.first(++piece);
+      const RingRecord<Slot> next = fetch(next_first);
+      const bool active = first + thread < pieces.end;
+      const std::int32_t v = static_cast<std::int32_t>(first) + thread;
+      listed = added_to_list(list, listed, visit<Update, marks>(v, record, active, data, tally), v);
+      record = next;
+      first = next_first;
+    } while (listed < enough_left_over && first < pieces.end);
+    __syncwarp();
+    visit_by_teams<Update, marks>(listed, data, tally, [&](int i) { return list[i]; });
+    __syncwarp();
+  }
+}
+
+/// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
+/// to be marked is what this kernel does.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__global__ void __launch_bounds__(threads, resident_blocks<T>)
+    sweep_batch(ResidentMesh<T, layout, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
+                SweepSums* sums) {
+  if (state->stop != LoopState::running || state->evaluates_all == 0 || (state->marks != 0) != marks ||
+      state->sweeps >= rules.sweeps) {
+    return;
+  }
+  __shared__ SweepSums shared;
+  __shared__ std::int32_t left_over[threads / 32][enough_left_over + 32];
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  const bool second = state->current != 0;
+  const bool to_second = rules.swaps ? !second : second;
+  const SweepData<T, layout, Slot> data{
+      mesh.rings, second ? mesh.second.points : mesh.first.points, to_second ? mesh.second.points : mesh.first.points,
+      to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
+  ThreadTally<T> tally;
+  sweep_pieces<Update, marks>(pieces, data, left_over[threadIdx.x / 32], tally);
+  if (threadIdx.x == 0 && blockIdx.x == 0) {
+    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
+  }
+  join_in_block(tally, shared);
+  __syncthreads();
+  if (threadIdx.x != 0) {
+    return;
+  }
+  add_block(shared, &sums[state->sweeps]);
+  if (is_last) {
+    __threadfence();
+    if (atomicAdd(&state->blocks_done, 1U) + 1 == gridDim.x) {
+      __threadfence();
+      state->blocks_done = 0;
+      end_sweep(rules, mesh.rings.size, state, sums[state->sweeps]);
+    }
+  }
+}
+
+}  // namespace
+
+template <class T, Layout layout, class Slot>
+std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+                                  std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
+                                  SweepSums* sums, cudaStream_t stream) {
+  const std::int32_t most_blocks = multiprocessor_count() * resident_blocks<T>;
+  std::int32_t launches = 0;
+  const auto launch_sweep = [&](auto kernel) {
+    for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
+      const std::int32_t begin = batches[batch];
+      const std::int32_t end = batches[batch + 1];
+      const bool is_last = batch + 2 == batches.size();
+      const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+      const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+      kernel<<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
+          mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
+      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+      ++launches;
+    }
+  };
+  visit_method(method, [&]<class Update>(Update) {
+    for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
+      launch_sweep(&sweep_batch<Update, false, T, layout, Slot>);
+    }
+    if (!rules.evaluates_all) {
+      launch_sweep(&sweep_batch<Update, true, T, layout, Slot>);
+    }
+  });
+  return launches;
+}
+
+#define INSTANTIATE(T, layout, Slot)                                                                              \
+  template std::int32_t launch_sweeps_of_all(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&,      \
+                                             std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*, \
+                                             cudaStream_t)
+TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,186 @@
+#include <algorithm>
+
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/primitives/block_tally.cuh"
+#include "trismooth/cuda/primitives/changed_vertices.cuh"
+#include "trismooth/cuda/primitives/grid_barrier.cuh"
+#include "trismooth/cuda/primitives/warp_list.cuh"
+#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/thread_index.cuh"
+#include "trismooth/cuda/sweeps/grid/resident.h"
+#include "trismooth/cuda/sweeps/grid/resident_instances.h"
+#include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
+#include "trismooth/cuda/sweeps/smallest_quotient.cuh"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Threads of a block, one block on each multiprocessor: the fewer blocks, the faster their barrier.
+constexpr int threads = 512;
+/// Vertices that a block looks after at least: fewer blocks rather than idle ones.
+constexpr std::int32_t smallest_share = 128;
+
+/// Of so many sweeps the last two are looked at whether they only go to and fro.
+constexpr std::int32_t sweeps_to_look = 16;
+
+/// What a block does in a sweep, in its shared memory.
+struct BlockWork {
+  unsigned long long barrier_total;  ///< of grid_barrier()
+  SweepSums sums;
+  std::uint32_t differs;  ///< a vertex is elsewhere than two sweeps before
+};
+
+/// Updates the marked vertices of one batch that this warp looks after. `list` is its own.
+template <class Update, class T, Layout layout, class Slot>
+__device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
+                             const SweepData<T, layout, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
+  // The words of a warp are far apart: what changes is often near to each other.
+  const std::int64_t warps = static_cast<std::int64_t>(gridDim.x) * (threads / 32);
+  const std::int64_t warp = thread_index() / 32;
+  const auto lane = static_cast<int>(threadIdx.x % 32);
+  for (std::int64_t base = begin / 32; base * 32 < end; base += words_at_a_time * warps) {
+    const std::int64_t beyond = static_cast<std::int64_t>(end) + 1;
+    const int listed =
+        list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
+    tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
+    int decided = 0;
+    if (!has_register_update<Update, T> || listed > few_for_teams) {
+      int left_over = 0;
+      for (; listed - decided > (has_register_update<Update, T> ? few_for_teams : 0); decided += 32) {
+        const int i = decided + lane;
+        const std::int32_t v = i < listed ? list[i] : 0;
+        const bool left = visit<Update, true>(v, fetch_record(data.rings, v), i < listed, data, tally);
+        __syncwarp();
+        left_over = added_to_list(list, left_over, left, v);
+      }
+      __syncwarp();
+      visit_by_teams<Update, true>(left_over, data, tally, [&](int i) { return list[i]; });
+    }
+    visit_by_teams<Update, true>(listed - decided, data, tally, [&](int i) { return list[decided + i]; });
+  }
+}
+
+template <class T>
+__device__ void swap_values(T& a, T& b) {
+  const T old = a;
+  a = b;
+  b = old;
+}
+
+/// The decision after a sweep needs no more of the sums than whether a block saw a move, one beyond the tolerance, and
+/// a vertex that is elsewhere than two sweeps before: the blocks tell each other at the sweep's last barrier. Counts of
+/// blocks, in 16 bits each.
+constexpr unsigned field_bits = 16;
+
+template <class Update, class T, Layout layout, class Slot>
+__global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, layout, Slot> mesh, LoopRules rules,
+                                                             LoopState* state, SweepSums* sums, BarrierWord* barriers) {
+  __shared__ BlockWork work;
+  __shared__ std::int32_t lists[threads / 32][words_at_a_time * 32];
+  std::int32_t stop = state->stop;
+  bool all = rules.evaluates_all || state->evaluates_all != 0;
+  if (threadIdx.x == 0) {
+    work.sums = SweepSums{};
+    work.differs = 0;
+  }
+  const auto nothing = [] {};
+  SweepData<T, layout, Slot> data{mesh.rings, mesh.first.points, rules.swaps ? mesh.second.points : mesh.first.points,
+                                  rules.swaps ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
+  std::uint32_t* marks = mesh.first.marks;
+  std::int32_t current = state->current;
+  const std::int32_t first_sweep = state->sweeps;
+  std::int32_t sweep = first_sweep;
+  if (current != 0) {
+    swap_values(data.from, data.to);
+    swap_values(marks, data.marks);
+  }
+  std::int32_t repeats = 0;
+  __syncthreads();
+  while (sweep < rules.sweeps && stop == LoopState::running) {
+    const bool looks = rules.swaps && rules.remaining > 0 && sweep % sweeps_to_look >= sweeps_to_look - 2;
+    data.differs = looks ? &work.differs : nullptr;
+    ThreadTally<T> tally;
+    for (std::int32_t batch = 0; batch < rules.batch_count; ++batch) {
+      sweep_marked<Update>(marks, all, rules.batches[batch], rules.batches[batch + 1], data, lists[threadIdx.x / 32],
+                           tally);
+      if (batch + 1 < rules.batch_count) {
+        grid_barrier(barriers++, 0, work.barrier_total, nothing);
+      }
+    }
+    join_in_block(tally, work.sums);
+    __syncthreads();
+    const unsigned long long contribution = (work.sums.moved > 0 ? 1ULL : 0ULL) +
+                                            (work.sums.beyond_tolerance > 0 ? 1ULL << field_bits : 0ULL) +
+                                            (!looks || work.differs != 0 ? 1ULL << (2 * field_bits) : 0ULL);
+    const unsigned long long found = grid_barrier(barriers++, contribution, work.barrier_total, [&] {
+      add_block(work.sums, &sums[sweep]);
+      work.sums = SweepSums{};
+      work.differs = 0;
+    });
+    all = rules.evaluates_all;
+    if (rules.swaps) {
+      swap_values(data.from, data.to);
+      swap_values(marks, data.marks);
+      current = 1 - current;
+    }
+    double min_shape = no_target;
+    if (rules.measures_shape) {
+      measure_quotients(data.rings, data.from, &sums[sweep]);
+      grid_barrier(barriers++, 0, work.barrier_total, nothing);
+      min_shape = min_shape_after(sums[sweep], rules);
+    }
+    constexpr unsigned long long field = (1ULL << field_bits) - 1;
+    const auto reason =
+        reason_in_sweep((found & field) != 0 ? 1 : 0, (found >> field_bits & field) == 0, min_shape, rules.target);
+    stop = reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
+    ++sweep;
+    // Twice, so that the last two sweeps evaluated what all further ones will.
+    repeats = found >> (2 * field_bits) == 0 ? repeats + 1 : 0;
+    if (stop == LoopState::running && repeats >= 2) {
+      stop = LoopState::repeating;
+      current = (rules.remaining - sweep) % 2 == 0 ? current : 1 - current;
+    }
+  }
+  // Everybody has read the state before the last barrier; where no sweep was made, there was none, and nothing is new.
+  if (thread_index() == 0 && sweep > first_sweep) {
+    state->current = current;
+    state->sweeps = sweep;
+    state->stop = stop;
+    state->evaluates_all = 0;
+  }
+}
+
+template <class Update, class T, Layout layout, class Slot>
+void launch_with(const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules, std::int32_t largest_batch,
+                 LoopState* state, SweepSums* sums, BarrierWord* barriers, cudaStream_t stream) {
+  const int blocks = std::clamp(largest_batch / smallest_share, 1, multiprocessor_count());
+  ResidentMesh<T, layout, Slot> mesh_argument = mesh;
+  LoopRules rules_argument = rules;
+  void* arguments[] = {&mesh_argument, &rules_argument, &state, &sums, &barriers};
+  const auto kernel = &sweep_resident<Update, T, layout, Slot>;
+  TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(
+      reinterpret_cast<const void*>(kernel), dim3(static_cast<unsigned>(blocks)), dim3(threads), arguments, 0, stream));
+}
+
+}  // namespace
+
+std::size_t resident_barriers(const LoopRules& rules) {
+  return static_cast<std::size_t>(rules.sweeps) * (static_cast<std::size_t>(rules.batch_count) + 1);
+}
+
+template <class T, Layout layout, class Slot>
+void launch_sweeps_of_marked(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+                             std::int32_t largest_batch, LoopState* state, SweepSums* sums,
+                             unsigned long long* barriers, cudaStream_t stream) {
+  visit_method(method, [&]<class Update>(Update) {
+    launch_with<Update>(mesh, rules, largest_batch, state, sums, barriers, stream);
+  });
+}
+
+#define INSTANTIATE(T, layout, Slot)                                                                                  \
+  template void launch_sweeps_of_marked(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&, std::int32_t, \
+                                        LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
+TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
+
+}  // namespace trismooth::cuda

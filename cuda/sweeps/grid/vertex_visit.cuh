@@ -1,0 +1,148 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/primitives/changed_vertices.cuh"
+#include "trismooth/cuda/primitives/move_tally.cuh"
+#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/update/ring_in_memory.cuh"
+#include "trismooth/cuda/update/team_update.cuh"
+#include "trismooth/cuda/update/vertex_update.cuh"
+
+namespace trismooth::cuda {
+
+/// What a sweep reads and writes.
+template <class T, Layout layout, class Slot>
+struct SweepData {
+  SlottedRingsView<Slot> rings;
+  PointArrays<T, layout> from;
+  PointArrays<T, layout> to;  ///< the same in Form B
+  std::uint32_t* marks;       ///< for the next sweep (Form A), or for those to come (Form B)
+  T tolerance;
+  /// Set where a vertex is elsewhere than `to` had it, that is two sweeps before (Form A). Null: nobody asks.
+  std::uint32_t* differs = nullptr;
+};
+
+/// Marks a vertex for the next sweep unless it is fixed.
+template <class T, Layout layout, class Slot>
+__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, layout, Slot>& data) {
+  if (v < data.rings.size) {
+    mark(data.marks, v);
+  }
+}
+
+/// The record of a vertex, which never changes: read past the cache's coherence, so that it stays there from sweep to
+/// sweep.
+template <class Slot>
+__device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<Slot>& rings, std::int32_t v) {
+  RingRecord<Slot> record;
+  const auto* const from = reinterpret_cast<const int4*>(&rings.records[v]);
+  auto* const to = reinterpret_cast<int4*>(&record);
+#pragma unroll
+  for (std::size_t i = 0; i < sizeof(record) / sizeof(int4); ++i) {
+    to[i] = __ldg(from + i);
+  }
+  return record;
+}
+
+/// Writes where an evaluated vertex is.
+template <class T, Layout layout, class Slot>
+__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, layout, Slot>& data) {
+  if (data.differs != nullptr && !(data.to.load(v) == move.position)) {
+    *data.differs = 1;
+  }
+  data.to.store(v, move.position);
+}
+
+/// The update of a vertex by one thread, its ring read from memory: for rings of any size.
+template <class Update, class T, Layout layout, class Slot>
+__device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position,
+                                                         PointArrays<T, layout> points, SlottedRingsView<Slot> rings) {
+  return update_over<Update>(position, ring_in_memory(points, rings, v));
+}
+
+/// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
+/// Those that are not `active` do nothing. Exact for every ring.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const SweepData<T, layout, Slot>& data,
+                                              ThreadTally<T>& tally) {
+  const Point2<T> position = data.from.load(v);
+  const SlottedRing<Slot> numbers = data.rings.ring(v);
+  const int size = active ? data.rings.ring_size(v) : 0;
+  const VertexMove<T> result = evaluate_by_team<Update>(
+      position, size, [&](int i) { return data.from.load(numbers[i]); },
+      [&] { return update_from_memory<Update>(v, position, data.from, data.rings); });
+  __syncwarp();  // all threads of the team have read the position that is written now
+  if (active && team_lane() == 0) {
+    settle(v, result.move, data);
+  }
+  if (result.move.moved) {
+    if (team_lane() == 0) {
+      add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
+    }
+    if constexpr (marks) {
+      if (team_lane() == 0) {
+        mark(data.marks, v);
+      }
+      for (int i = team_lane(); i < size; i += team_size) {
+        mark_if_free(numbers[i], data);
+      }
+    }
+  }
+}
+
+/// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
+/// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
+/// marks the vertex itself for the next sweep.
+template <class Update, bool marks, class T, Layout layout, class Slot>
+__device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active,
+                                      const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+  // Asked for first: it arrives together with the ring.
+  const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
+  VertexMove<T> result;
+  int size = 0;
+  if constexpr (has_register_update<Update, T>) {
+    RegisterRing<T, largest_register_ring> ring;
+    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
+    size = ring.size;
+    if (size == 0) {
+      return active;
+    }
+    if (!try_update(Update{}, position, ring, result)) {
+      return true;
+    }
+  } else {
+    if (!active) {
+      return false;
+    }
+    size = record.ring_size();
+    result = update_from_memory<Update>(v, position, data.from, data.rings);
+  }
+  settle(v, result.move, data);
+  if (result.move.moved) {
+    add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
+    if constexpr (marks) {
+      mark(data.marks, v);
+      const SlottedRing<Slot> numbers = data.rings.ring(v);
+      for (int i = 0; i < size; ++i) {
+        mark_if_free(numbers[i], data);
+      }
+    }
+  }
+  return false;
+}
+
+/// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
+template <class Update, bool marks, class T, Layout layout, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally,
+                                               const Vertex& vertex) {
+  if constexpr (has_register_update<Update, T>) {
+    for (int base = 0; base < count; base += teams) {
+      const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
+      visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
+    }
+  }
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,92 @@
+#include <cstddef>
+
+#include "trismooth/cuda/primitives/atomics.h"
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/for_each.cuh"
+#include "trismooth/cuda/topology/component_votes.cuh"
+#include "trismooth/cuda/topology/orientation.h"
+#include "trismooth/quality/triangle_quality.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// How a triangle would have its component turned.
+struct SignVotes {
+  TriangleList triangles;
+  const Point2<double>* points;
+  const std::uint32_t* words;
+
+  TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t t) const {
+    const std::uint32_t word = words[t];
+    const auto [a, b, c] = canonical_corners(triangles[t], (word & 1U) != 0);
+    const double quotient = shape_quotient(points[a], points[b], points[c]);
+    return {word >> 1U, quotient > 0, quotient < 0, quotient != 0, !(quotient > 0)};
+  }
+};
+
+struct TurnComponent {
+  VoteCounts counts;
+  std::uint8_t* turned;
+  std::uint32_t* changed;
+
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t component) const {
+    const std::int32_t margin = counts.margins[component];
+    const std::uint32_t tie_breaker = counts.tie_breakers[component];
+    const bool turn = margin != 0 ? margin < 0 : tie_breaker != VoteCounts::nobody && (tie_breaker & 1U) != 0;
+    if (turned[component] != (turn ? 1 : 0)) {
+      turned[component] = turn ? 1 : 0;
+      set_bits(changed, 1);
+    }
+  }
+};
+
+struct OrientTriangle {
+  const std::uint32_t* words;
+  const std::uint8_t* turned;
+  std::uint8_t* reversed;
+
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
+    const std::uint32_t word = words[t];
+    reversed[t] = static_cast<std::uint8_t>((word & 1U) ^ turned[word >> 1U]);
+  }
+};
+
+}  // namespace
+
+bool orient(Context& context, const TriangleList& triangles, const Point2<double>* points, const Components& components,
+            DeviceOrientation& orientation) {
+  const auto triangle_count = static_cast<std::uint32_t>(triangles.count);
+  const auto component_count = static_cast<std::size_t>(components.count);
+  const bool is_first = !orientation.is_known;
+  if (triangle_count == 0) {
+    orientation.is_known = true;
+    return is_first;
+  }
+  if (is_first) {
+    orientation.turned = DeviceBuffer<std::uint8_t>(context, component_count);
+    orientation.turned.fill_bytes(0);
+    orientation.reversed = DeviceBuffer<std::uint8_t>(context, triangle_count);
+  }
+  const std::uint32_t* const words = components.words.data();
+  DeviceBuffer<std::uint32_t> changed(context, 1);
+  changed.fill_bytes(0);
+  {
+    DeviceBuffer<std::int32_t> margins(context, component_count);
+    DeviceBuffer<std::uint32_t> tie_breakers(context, component_count);
+    margins.fill_bytes(0);
+    tie_breakers.fill_bytes(0xFF);
+    const VoteCounts counts{margins.data(), tie_breakers.data()};
+    count_votes(context, triangle_count, SignVotes{triangles, points, words}, counts);
+    for_each(context, static_cast<std::uint32_t>(component_count),
+             TurnComponent{counts, orientation.turned.data(), changed.data()});
+  }
+  if (download(context, changed.data()) == 0 && !is_first) {
+    return false;
+  }
+  for_each(context, triangle_count, OrientTriangle{words, orientation.turned.data(), orientation.reversed.data()});
+  orientation.is_known = true;
+  return true;
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,77 @@
+#include "trismooth/cuda/topology/topology.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "trismooth/base/mesh_size.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/topology/ring_building.h"
+#include "trismooth/cuda/topology/triangle_quotients.h"
+#include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Throws what the host says of what the device has refused: every message has one definition, and a fault of the
+/// triangles comes before one of the constraints.
+void throw_host_error(const Context& context, std::int32_t vertex_count, const TriangleList& triangles,
+                      const DeviceConstraints& constraints) {
+  Workers workers(0);
+  const auto* const listed = reinterpret_cast<const Triangle*>(triangles.vertices);
+  connect_triangles(vertex_count, download(context, listed, static_cast<std::size_t>(triangles.count)), workers);
+  const auto fixed_ids = download(context, constraints.fixed_ids, static_cast<std::size_t>(constraints.fixed_id_count));
+  check_constraints({.fixed_ids = fixed_ids}, vertex_count, triangles.count);
+  throw DeviceError("CUDA: the device has refused a mesh in which the host finds no fault");
+}
+
+}  // namespace
+
+DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
+                               const std::int32_t* triangles, const DeviceConstraints& constraints,
+                               NeighbourFinding way)
+    : context_(&context), triangles_{triangles, triangle_count} {
+  check_mesh_size(vertex_count, triangle_count);
+  DeviceBuffer<Findings> device_findings(context, 1);
+  device_findings.fill_bytes(0);
+  const auto found = [&] {
+    const Findings findings = download(context, device_findings.data());
+    if (findings.faults != 0) {
+      throw_host_error(context, vertex_count, triangles_, constraints);
+    }
+    return findings;
+  };
+  // What is wrong with triangles is asked for later: they are left out, and each question costs a wait.
+  corners_ = find_neighbours(context, vertex_count, triangles_, way, device_findings.data());
+  fixed_ = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(vertex_count));
+  DeviceBuffer<std::uint32_t> forest_words(context, static_cast<std::size_t>(triangle_count));
+  const ParityForest forest{forest_words.data()};
+  determine_constraints(context, triangles_, corners_.view(), constraints, forest, fixed_.data(),
+                        device_findings.data());
+  const Findings neighbourhoods = found();
+  if (neighbourhoods.large_vertices > 0) {
+    large_fans_ = find_large_fans(context, triangles_, corners_.view(), neighbourhoods, constraints.regions, forest,
+                                  fixed_.data(), device_findings.data());
+    found();
+  }
+  components_ = number_components(context, std::move(forest_words));
+}
+
+bool DeviceTopology::orient(const Point2<double>* local_points) {
+  return cuda::orient(*context_, triangles_, local_points, components_, orientation_);
+}
+
+DeviceRings DeviceTopology::rings() const {
+  return build_rings(*context_, triangles_, corners_.view(), large_fans_, fixed_.data(), orientation_.reversed.data());
+}
+
+double DeviceTopology::smallest_fixed_quotient(const Point2<double>* local_points) const {
+  return cuda::smallest_fixed_quotient(*context_, triangles_, local_points, orientation_.reversed.data(),
+                                       fixed_.data());
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/cuda/primitives/point_arrays.h"
+
+namespace trismooth::cuda {
+
+/// The positions of a ring of any size as an update reads them, straight from memory.
+template <class T, Layout layout, class Ring>
+struct RingInMemory {
+  PointArrays<T, layout> points;
+  Ring ring;
+  std::int32_t count;
+
+  __device__ int size() const { return count; }
+  __device__ Point2<T> operator[](int i) const { return points.load(ring[i]); }
+};
+
+/// That of a vertex among rings of any kind.
+template <class T, Layout layout, class Rings>
+__device__ auto ring_in_memory(const PointArrays<T, layout>& points, const Rings& rings, std::int32_t v) {
+  return RingInMemory<T, layout, decltype(rings.ring(v))>{points, rings.ring(v), rings.ring_size(v)};
+}
+
+}  // namespace trismooth::cuda

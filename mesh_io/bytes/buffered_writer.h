@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+#include "trismooth/mesh_io/bytes/memory_block.h"
+
+namespace trismooth {
+
+/// Writes a plain file in large blocks; every failure is a WriteError that names the file and the cause.
+class BufferedWriter {
+ public:
+  explicit BufferedWriter(const std::filesystem::path& path);
+  BufferedWriter(const BufferedWriter&) = delete;
+  BufferedWriter& operator=(const BufferedWriter&) = delete;
+  ~BufferedWriter();
+
+  void write(std::string_view bytes);
+  /// Closes the file; without it the destructor closes it and errors go unseen.
+  void close();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  MemoryBlock block_;
+  std::FILE* file_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,82 @@
+#include "trismooth/mesh_io/document/format_losses.h"
+
+#include <algorithm>
+#include <array>
+
+namespace trismooth {
+
+namespace {
+
+void describe(std::vector<std::string>& sentences, std::string_view format, std::string_view kind,
+              std::span<const DataArray> arrays) {
+  if (arrays.empty()) {
+    return;
+  }
+  std::string sentence(format);
+  sentence.append(" holds no ").append(kind).append(" arrays: ");
+  for (const DataArray& array : arrays) {
+    sentence.append(&array == arrays.data() ? "" : ", ").append(array.name.empty() ? "(no name)" : array.name);
+  }
+  sentences.push_back(sentence + (arrays.size() == 1 ? " is not written" : " are not written"));
+}
+
+std::string type_name(std::size_t type) {
+  switch (type) {
+    case cell_type::vertex:
+      return "vertex";
+    case cell_type::poly_vertex:
+      return "poly_vertex";
+    case cell_type::line:
+      return "line";
+    case cell_type::poly_line:
+      return "poly_line";
+    case cell_type::triangle:
+      return "triangle";
+    case cell_type::triangle_strip:
+      return "triangle_strip";
+    case cell_type::polygon:
+      return "polygon";
+    case cell_type::quad:
+      return "quad";
+    default:
+      return std::to_string(type) + " (by VTK's numbers)";
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document) {
+  std::vector<std::string> sentences;
+  describe(sentences, format, "point", document.point_arrays);
+  describe(sentences, format, "cell", document.cell_arrays);
+  describe(sentences, format, "field", document.field_arrays);
+  return sentences;
+}
+
+std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,
+                                             std::span<const std::uint8_t> written_types, const CellList& cells) {
+  std::array<std::size_t, 256> counts{};
+  for (const std::uint8_t type : cells.types) {
+    ++counts[type];
+  }
+  for (const std::uint8_t type : written_types) {
+    counts[type] = 0;
+  }
+  std::string lost;
+  std::size_t total = 0;
+  for (std::size_t type = 0; type < counts.size(); ++type) {
+    if (counts[type] > 0) {
+      lost.append(lost.empty() ? "" : ", ").append(std::to_string(counts[type]));
+      lost.append(counts[type] == 1 ? " cell" : " cells").append(" of type ").append(type_name(type));
+      total += counts[type];
+    }
+  }
+  if (lost.empty()) {
+    return {};
+  }
+  std::string sentence(format);
+  sentence.append(" holds ").append(holds).append(" only: ").append(lost);
+  return {sentence + (total == 1 ? " is not written" : " are not written")};
+}
+
+}  // namespace trismooth

@@ -1,0 +1,55 @@
+#include "trismooth/mesh_io/document/other_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace trismooth {
+
+namespace {
+
+struct CellName {
+  std::uint8_t type;
+  std::string_view one;
+  std::string_view several;
+};
+
+constexpr std::array<CellName, 8> cell_names{{
+    {cell_type::vertex, "vertex cell", "vertex cells"},
+    {cell_type::poly_vertex, "poly-vertex", "poly-vertices"},
+    {cell_type::line, "line", "lines"},
+    {cell_type::poly_line, "poly-line", "poly-lines"},
+    {cell_type::triangle, "triangle", "triangles"},
+    {cell_type::triangle_strip, "triangle strip", "triangle strips"},
+    {cell_type::polygon, "polygon", "polygons"},
+    {cell_type::quad, "quad", "quads"},
+}};
+
+std::string describe(std::size_t count, std::size_t type) {
+  const auto* const known = std::ranges::find(cell_names, type, &CellName::type);
+  if (known == cell_names.end()) {
+    return std::to_string(count) + " of VTK's cell type " + std::to_string(type);
+  }
+  return std::to_string(count) + " " + std::string(count == 1 ? known->one : known->several);
+}
+
+}  // namespace
+
+std::string describe_other_cells(const CellList& cells, std::span<const std::uint8_t> kept) {
+  std::array<std::size_t, 256> counts{};
+  for (const std::uint8_t type : cells.types) {
+    ++counts[type];
+  }
+  for (const std::uint8_t type : kept) {
+    counts[type] = 0;
+  }
+  std::string text;
+  for (std::size_t type = 0; type < counts.size(); ++type) {
+    if (counts[type] > 0) {
+      text.append(text.empty() ? "" : ", ").append(describe(counts[type], type));
+    }
+  }
+  return text;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/halfedge/triangle_mesh.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/rings/triangle_topology.h"
+
+namespace trismooth {
+
+/// Fills a halfedge mesh with triangles in their consistent orientation: vertex v is input vertex v, face t is triangle
+/// t. A vertex whose triangles form several fans (at bow ties and non-manifold edges), which no halfedge mesh can hold,
+/// is there once for each fan: the copies come after the input's vertices and are listed by `copies_of`.
+struct HalfedgeMesh {
+  TriangleMesh mesh;
+  std::vector<std::int32_t> copies_of;  ///< the input vertex of mesh vertex vertex_count + i
+};
+
+/// Throws MeshError where a halfedge mesh of so many vertices (copies included) and triangles, of whose edges so many
+/// have one triangle or more than two, has more vertices or halfedges than OpenMesh's handles tell apart:
+/// 2,147,483,647. Such an edge has two halfedges for each of its triangles, every other one two.
+void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std::int64_t unpaired_sides);
+
+/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex. Throws MeshError
+/// for a mesh that is too large, see check_halfedge_mesh_size(). Complexity: linear.
+HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
+                                 const TriangleTopology& topology, std::span<const std::uint8_t> reversed);
+
+/// The one-rings, in the input's numbering, of the vertices whose `fixed` byte is 0; those must be interior vertices of
+/// `mesh`. There is a byte for each vertex of the input; further vertices of the mesh are the copies that `copies_of`
+/// lists, and fixed. `reversed`, one byte a face, tells faces of components that `mesh` orients clockwise; empty: there
+/// are none. Complexity: linear.
+OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
+                   std::span<const std::uint8_t> reversed, Workers& workers,
+                   std::span<const std::int32_t> copies_of = {});
+
+/// The faces of `mesh` as a triangle list.
+std::vector<Triangle> face_list(const TriangleMesh& mesh);
+
+}  // namespace trismooth

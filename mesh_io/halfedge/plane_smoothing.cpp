@@ -1,0 +1,89 @@
+#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "trismooth/smoothing/guard/never_worse.h"
+#include "trismooth/smoothing/smooth.h"
+
+namespace trismooth {
+
+namespace {
+
+bool is_finite(const Eigen::Vector3d& point) {
+  return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
+}
+
+bool is_finite(Point2<double> point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+
+/// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
+void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
+                     std::vector<Point2<double>>& points, const LocalFrame& frame,
+                     const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
+                     SmoothingResult& result) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Eigen::Vector3d> stored(points.size());
+  std::vector<Point2<double>> before(points.size());
+  std::ranges::transform(points, before.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  std::vector<Point2<double>> after = before;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (moved[v] == points[v]) {
+      continue;
+    }
+    const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
+    stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
+    // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
+    const Point2<double> place = plane.project(stored[v]);
+    if (is_finite(stored[v]) && is_finite(place)) {
+      after[v] = frame.enter(place);
+    }
+  }
+  if (options.guard) {
+    Workers workers(options.threads);
+    const GuardOutcome outcome = keep_never_worse(rings.view(), before, after, workers);
+    result.guard_rounds = outcome.rounds;
+    result.reverted_vertices = static_cast<std::int64_t>(outcome.reverted.size());
+    for (const std::int32_t v : outcome.reverted) {
+      result.reverted.push_back({v, moved[v]});
+    }
+  }
+  result.moved_vertices = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!(after[v] == before[v])) {
+      Eigen::Map<Eigen::Vector3d>(xyz.data() + 3 * v) = stored[v];
+      points[v] = plane.project(stored[v]);
+      ++result.moved_vertices;
+    }
+  }
+  result.timings.commit += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+SmoothingResult smooth_in_plane(const OneRings& rings, const Plane& plane, std::span<double> xyz,
+                                std::vector<Point2<double>>& points, const LocalFrame& frame,
+                                std::span<const Point2<double>> local, double fixed_quotient, Storage storage,
+                                const SmoothingOptions& options) {
+  SmoothingOptions in_plane = options;
+  in_plane.guard = options.guard && plane.aligned;
+  const auto smoother = backend_of(options).prepare(rings, local, in_plane);
+  if (!plane.aligned) {
+    std::vector<Point2<double>> moved = points;
+    SmoothingResult result = smoother->smooth(moved, frame, Storage::float64, fixed_quotient);
+    commit_in_space(rings, plane, xyz, points, frame, moved, storage, options, result);
+    return result;
+  }
+  SmoothingResult result = smoother->smooth(points, frame, storage, fixed_quotient);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
+    if (const Point2<double> before = plane.project(point); !(before == points[v])) {
+      point = rounded_to(storage, plane.moved(point, before, points[v]));
+    }
+  }
+  return result;
+}
+
+}  // namespace trismooth

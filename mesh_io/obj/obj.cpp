@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/obj/obj_reader.h"
+#include "trismooth/mesh_io/text/text_mesh_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::array element_types{cell_type::vertex,   cell_type::poly_vertex, cell_type::line,   cell_type::poly_line,
+                                   cell_type::triangle, cell_type::quad,        cell_type::polygon};
+
+/// The statement that holds a cell of the type; empty where none does.
+std::string_view statement_of(std::uint8_t type) {
+  switch (type) {
+    case cell_type::vertex:
+    case cell_type::poly_vertex:
+      return "p";
+    case cell_type::line:
+    case cell_type::poly_line:
+      return "l";
+    case cell_type::triangle:
+    case cell_type::quad:
+    case cell_type::polygon:
+      return "f";
+    default:
+      return {};
+  }
+}
+
+void write_obj(const std::filesystem::path& path, const MeshDocument& document) {
+  const CellList& cells = document.cells;
+  TextMeshWriter writer(path);
+  if (document.points.empty()) {
+    // An empty file is no OBJ, but comments alone are a mesh of nothing.
+    writer.word("# no vertices").end_line();
+  }
+  for (std::size_t i = 0; i < document.points.size(); i += 3) {
+    writer.word("v").number(document.points[i]).number(document.points[i + 1]).number(document.points[i + 2]);
+    writer.end_line();
+  }
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const std::string_view statement = statement_of(cells.types[cell]);
+    if (!statement.empty()) {
+      writer.word(statement);
+      for (const std::int32_t vertex : cells[cell]) {
+        writer.integer(std::int64_t{vertex} + 1);
+      }
+      writer.end_line();
+    }
+  }
+  writer.close();
+}
+
+std::vector<std::string> lost_in_obj(const MeshDocument& document) {
+  std::vector<std::string> sentences =
+      describe_lost_cells("OBJ", "faces, lines and points", element_types, document.cells);
+  std::ranges::move(describe_lost_arrays("OBJ", document), std::back_inserter(sentences));
+  return sentences;
+}
+
+}  // namespace
+
+const Codec obj_codec{&read_obj, &write_obj, &lost_in_obj};
+
+}  // namespace trismooth

@@ -1,0 +1,237 @@
+#include "trismooth/mesh_io/obj/obj_reader.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The numbers of the cells by the statement (usemtl, g) that stands before them.
+class CellNumbering {
+ public:
+  /// A statement with this name stands after `cells` cells.
+  void start(std::string name, std::size_t cells) {
+    numbers_.resize(cells, current_);
+    used_ = true;
+    current_ = names_.try_emplace(std::move(name), static_cast<std::int32_t>(names_.size())).first->second;
+  }
+
+  /// Adds the array of all `cells` cells, if there was any statement.
+  void move_to(std::vector<DataArray>& arrays, std::string array_name, std::size_t cells) {
+    if (used_) {
+      numbers_.resize(cells, current_);
+      arrays.push_back(make_data_array(std::move(array_name), 1, std::move(numbers_)));
+    }
+  }
+
+ private:
+  std::map<std::string, std::int32_t, std::less<>> names_;
+  std::vector<std::int32_t> numbers_;
+  std::int32_t current_ = -1;
+  bool used_ = false;
+};
+
+/// Every statement begins with a word of letters, digits and underscores.
+bool is_keyword(std::string_view token) {
+  return std::ranges::all_of(token,
+                             [](char c) {
+                               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                                      c == '_';
+                             }) &&
+         !(token.front() >= '0' && token.front() <= '9');
+}
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, const std::filesystem::path& path)
+      : scanner_(bytes, path, TextScanner::Comments::hash,
+                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0,
+                 TextScanner::Continuation::backslash) {}
+
+  std::pair<MeshDocument, CoordinateSites> read() {
+    bool has_statements = false;
+    while (!scanner_.at_end()) {
+      read_statement(scanner_.next_token("a statement"));
+      has_statements = true;
+    }
+    // Any text can pass for statements that are not known here. Comments alone are a mesh of nothing.
+    if (document_.points.empty() && (has_statements || scanner_.text().empty())) {
+      scanner_.fail_at(0, "is not an OBJ mesh: it has no vertices");
+    }
+    check_forward_references();
+    materials_.move_to(document_.cell_arrays, "material", document_.cells.size());
+    groups_.move_to(document_.cell_arrays, "group", document_.cells.size());
+    note_other_statements();
+    return {std::move(document_), std::move(sites_)};
+  }
+
+ private:
+  void read_statement(std::string_view keyword) {
+    if (keyword == "v") {
+      read_vertex();
+    } else if (keyword == "f" || keyword == "fo") {  // fo: the same, obsolete
+      read_element("face", 3);
+    } else if (keyword == "l") {
+      read_element("line", 2);
+    } else if (keyword == "p") {
+      read_element("point", 1);
+    } else if (keyword == "usemtl") {
+      materials_.start(read_name(), document_.cells.size());
+    } else if (keyword == "g") {
+      groups_.start(read_name(), document_.cells.size());
+    } else if (is_keyword(keyword)) {
+      if (other_statements_.size() < most_statements_named) {
+        other_statements_.insert(keyword);
+      }
+      read_name();
+    } else {
+      scanner_.fail("expected a statement of OBJ, got " + quoted(keyword));
+    }
+  }
+
+  /// x y z, and a weight or a colour, or both.
+  void read_vertex() {
+    if (document_.point_count() >= std::numeric_limits<std::int32_t>::max()) {
+      scanner_.fail("has more vertices than 32-bit indices can tell apart");
+    }
+    const std::size_t vertex = document_.point_count();
+    std::size_t count = 0;
+    for (; !scanner_.at_end_of_line(); ++count) {
+      const double value = scanner_.next_double("a number of a vertex");
+      if (count < 3) {
+        document_.points.push_back(value);
+        sites_.offsets.push_back(scanner_.token_offset());
+      }
+    }
+    if (count != 3 && count != 4 && count != 6 && count != 7) {
+      scanner_.fail("vertex " + std::to_string(vertex + 1) +
+                    ": expected 3 coordinates (and a weight, a colour or both), got " + std::to_string(count) +
+                    (count == 1 ? " number" : " numbers"));
+    }
+    has_colours_or_weights_ = has_colours_or_weights_ || count > 3;
+  }
+
+  void read_element(const char* what, std::size_t least) {
+    CellList& cells = document_.cells;
+    const std::size_t statement = scanner_.token_offset();
+    const std::size_t begin = cells.connectivity.size();
+    while (!scanner_.at_end_of_line()) {
+      cells.connectivity.push_back(read_reference(scanner_.next_token("a vertex index")));
+    }
+    const std::size_t count = cells.connectivity.size() - begin;
+    if (count < least) {
+      scanner_.fail_at(statement, std::string("expected ") + std::to_string(least) + " or more vertices of a " + what +
+                                      ", got " + std::to_string(count));
+    }
+    cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+    cells.types.push_back(type_of(least, count));
+  }
+
+  static std::uint8_t type_of(std::size_t least, std::size_t count) {
+    switch (least) {
+      case 1:
+        return count == 1 ? cell_type::vertex : cell_type::poly_vertex;
+      case 2:
+        return count == 2 ? cell_type::line : cell_type::poly_line;
+      default:
+        return count == 3 ? cell_type::triangle : count == 4 ? cell_type::quad : cell_type::polygon;
+    }
+  }
+
+  /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; the parts behind may be missing.
+  std::int32_t read_reference(std::string_view token) {
+    const std::size_t slash = std::min(token.find('/'), token.size());
+    std::string_view rest = token.substr(slash);
+    for (int part = 0; !rest.empty(); ++part) {
+      rest.remove_prefix(1);
+      const std::size_t length = std::min(rest.find('/'), rest.size());
+      if (part == 2 || (length > 0 && !parse_integer(rest.substr(0, length)))) {
+        scanner_.fail("expected a vertex as v, v/vt, v//vn or v/vt/vn with whole numbers, got " + quoted(token));
+      }
+      rest.remove_prefix(length);
+    }
+    const std::optional<std::int64_t> index = parse_integer(token.substr(0, slash));
+    const auto count = static_cast<std::int64_t>(document_.point_count());
+    if (!index || *index == 0 || *index < -count || *index > std::numeric_limits<std::int32_t>::max()) {
+      scanner_.fail("expected a vertex index, got " + quoted(token) + "; " + std::to_string(count) +
+                    " vertices stand before this line, counted from 1");
+    }
+    if (*index > count && *index > highest_reference_) {
+      highest_reference_ = *index;
+      highest_reference_offset_ = scanner_.token_offset();
+    }
+    return static_cast<std::int32_t>(*index > 0 ? *index - 1 : count + *index);
+  }
+
+  void check_forward_references() const {
+    if (highest_reference_ > static_cast<std::int64_t>(document_.point_count())) {
+      scanner_.fail_at(highest_reference_offset_, "vertex index " + std::to_string(highest_reference_) +
+                                                      " is out of range: the file has " +
+                                                      std::to_string(document_.point_count()) + " vertices");
+    }
+  }
+
+  /// The rest of the statement, its words one blank apart. A name may contain '#', so there are no comments here.
+  std::string read_name() {
+    std::string name;
+    for (bool more = true; more;) {
+      std::string_view line = scanner_.next_line();
+      more = line.ends_with('\\') && scanner_.offset() < scanner_.text().size();
+      line.remove_suffix(more ? 1 : 0);
+      append_words(name, line);
+    }
+    return name;
+  }
+
+  static void append_words(std::string& text, std::string_view line) {
+    for (const std::string_view word : words_of(line)) {
+      text.append(text.empty() ? "" : " ").append(word);
+    }
+  }
+
+  void note_other_statements() {
+    std::string list = has_colours_or_weights_ ? "vertex colours or weights" : "";
+    for (const std::string_view keyword : other_statements_) {
+      list.append(list.empty() ? "" : ", ").append(keyword);
+    }
+    if (!list.empty()) {
+      document_.notes.push_back("Kept in OBJ output only: " + list + ".");
+    }
+  }
+
+  static constexpr std::size_t most_statements_named = 16;  // some "OBJ" files are something else altogether
+
+  TextScanner scanner_;
+  MeshDocument document_;
+  CoordinateSites sites_;
+  CellNumbering materials_;
+  CellNumbering groups_;
+  std::set<std::string_view> other_statements_;
+  bool has_colours_or_weights_ = false;
+  std::int64_t highest_reference_ = 0;
+  std::size_t highest_reference_offset_ = 0;
+};
+
+}  // namespace
+
+MeshDocument read_obj(const std::filesystem::path& path, std::string bytes) {
+  auto [document, sites] = ObjReader(bytes, path).read();
+  document.original = make_patched_original(std::move(bytes), std::move(sites));
+  return std::move(document);
+}
+
+}  // namespace trismooth

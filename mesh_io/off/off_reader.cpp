@@ -1,0 +1,295 @@
+#include "trismooth/mesh_io/off/off_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/off/off_binary_reader.h"
+#include "trismooth/mesh_io/off/off_keyword.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The numbers that follow the coordinates or the indices on a line. No line has more than a vertex of STCNOFF.
+using Row = std::array<double, 9>;
+
+/// Rows that make an array if all are of one length.
+class UniformRows {
+ public:
+  void add(std::span<const double> row) {
+    if (rows_ == 0) {
+      components_ = row.size();
+    }
+    ++rows_;
+    uniform_ = uniform_ && row.size() == components_;
+    if (uniform_) {
+      values_.insert(values_.end(), row.begin(), row.end());
+    } else {
+      values_ = {};
+    }
+  }
+
+  /// False where the rows are of different lengths.
+  bool is_uniform() const { return uniform_; }
+
+  void move_to(std::vector<DataArray>& arrays, std::string name) {
+    if (uniform_ && components_ > 0) {
+      arrays.push_back(make_data_array(std::move(name), components_, std::move(values_)));
+    }
+  }
+
+ private:
+  std::vector<double> values_;
+  std::size_t rows_ = 0;
+  std::size_t components_ = 0;
+  bool uniform_ = true;
+};
+
+class OffReader {
+ public:
+  OffReader(std::string_view bytes, const std::filesystem::path& path)
+      : scanner_(bytes, path, TextScanner::Comments::hash,
+                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
+
+  std::pair<MeshDocument, CoordinateSites> read() {
+    read_keyword();
+    if (is_binary_) {
+      return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_);
+    }
+    read_counts();
+    read_vertices();
+    read_faces();
+    check_rest();
+    return {std::move(document_), std::move(sites_)};
+  }
+
+ private:
+  void read_keyword() {
+    const std::string_view token = scanner_.peek_token();
+    if (const std::optional<OffKeyword> keyword = parse_off_keyword(token)) {
+      scanner_.next_token("the keyword OFF");
+      if (!keyword->is_supported()) {
+        scanner_.fail("unsupported OFF variant " + quoted(keyword->text));
+      }
+      keyword_ = *keyword;
+      // Some files have the first count glued to the keyword.
+      scanner_.seek(scanner_.token_offset() + keyword->text.size());
+      is_binary_ = !scanner_.at_end_of_line() && is_binary_word(scanner_.peek_token());
+    } else if (!parse_integer(token)) {
+      scanner_.next_token("the keyword OFF or the number of vertices");
+      scanner_.fail("is not an OFF file: expected the keyword OFF or the number of vertices, got " + quoted(token));
+    }
+  }
+
+  static bool is_binary_word(std::string_view token) {
+    return std::ranges::equal(token, std::string_view("BINARY"), {},
+                              [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  }
+
+  /// The data begin after the end of the line.
+  std::size_t begin_of_binary_data() {
+    scanner_.next_token("the word BINARY");
+    if (!scanner_.at_end_of_line()) {
+      scanner_.fail("expected the end of the line after BINARY, got " + quoted(scanner_.peek_token()));
+    }
+    scanner_.next_line();
+    return scanner_.offset();
+  }
+
+  void read_counts() {
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    vertex_count_ = static_cast<std::size_t>(scanner_.next_integer("the number of vertices", 0, most));
+    const bool on_one_line = !scanner_.at_end_of_line();
+    face_count_ = static_cast<std::size_t>(scanner_.next_integer("the number of faces", 0, most));
+    // The number of edges says nothing. Some files leave it out.
+    if (!(on_one_line && scanner_.at_end_of_line())) {
+      scanner_.next_integer("the number of edges", 0, std::numeric_limits<std::int64_t>::max());
+    }
+    if (!scanner_.at_end_of_line()) {
+      scanner_.next_token("the end of the line");
+      scanner_.fail("expected the end of the line after the counts");
+    }
+    // Every number takes a digit and a separator, except for the separator at the end of the file.
+    const std::size_t numbers_each = 3 + keyword_.least_extras();
+    require_room(scanner_.path(), "vertices", vertex_count_, 2 * numbers_each, bytes_left() + 1);
+    require_room(scanner_.path(), "faces", face_count_, 2 * least_face_numbers,
+                 bytes_left() + 1 - vertex_count_ * 2 * numbers_each);
+  }
+
+  void read_vertices() {
+    document_.points.resize(3 * vertex_count_);
+    sites_.offsets.resize(3 * vertex_count_);
+    std::vector<double> normals;
+    std::vector<double> texture_coordinates;
+    normals.reserve(keyword_.normals ? 3 * vertex_count_ : 0);
+    texture_coordinates.reserve(keyword_.texture_coordinates ? 2 * vertex_count_ : 0);
+    UniformRows colours;
+    for (std::size_t vertex = 0; vertex < vertex_count_; ++vertex) {
+      if (scanner_.at_end()) {
+        scanner_.fail("expected " + std::to_string(vertex_count_) + " vertices, got " + std::to_string(vertex));
+      }
+      for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
+        document_.points[i] = scanner_.next_double("a coordinate");
+        sites_.offsets[i] = scanner_.token_offset();
+      }
+      const std::span<const double> extras = read_rest_of_line();
+      if (!keyword_.allows_extras(extras.size())) {
+        scanner_.fail("vertex " + std::to_string(vertex + 1) + " of " + std::to_string(vertex_count_) + ": " +
+                      keyword_.text_or_default() + " has " + keyword_.describe_extras() +
+                      " after the coordinates, got " + describe_count(extras.size()));
+      }
+      const OffExtras parts = keyword_.split(extras);
+      if (vertex == 0) {
+        has_vertex_colours_ = !parts.colour.empty();
+      } else if (has_vertex_colours_ == parts.colour.empty()) {
+        scanner_.fail("vertex " + std::to_string(vertex + 1) + " of " + std::to_string(vertex_count_) +
+                      (has_vertex_colours_ ? ": has no colour, but" : ": has a colour, but not") +
+                      " the vertices before it");
+      }
+      normals.insert(normals.end(), parts.normal.begin(), parts.normal.end());
+      texture_coordinates.insert(texture_coordinates.end(), parts.texture.begin(), parts.texture.end());
+      colours.add(parts.colour);
+    }
+    if (keyword_.normals) {
+      document_.point_arrays.push_back(make_data_array("normals", 3, std::move(normals)));
+    }
+    colours.move_to(document_.point_arrays, "colours");
+    if (keyword_.texture_coordinates) {
+      document_.point_arrays.push_back(make_data_array("texture_coordinates", 2, std::move(texture_coordinates)));
+    }
+    note_unless_uniform(colours, "vertex");
+    if (has_vertex_colours_ && !keyword_.colours) {
+      document_.notes.push_back("The keyword " + keyword_.text_or_default() +
+                                " declares no colours; the numbers after the coordinates are read as colours.");
+    }
+  }
+
+  void read_faces() {
+    CellList& cells = document_.cells;
+    cells.offsets.reserve(face_count_ + 1);
+    cells.types.reserve(face_count_);
+    UniformRows colours;
+    for (std::size_t face = 0; face < face_count_; ++face) {
+      if (scanner_.at_end()) {
+        scanner_.fail("expected " + std::to_string(face_count_) + " faces, got " + std::to_string(face));
+      }
+      const std::size_t degree = read_degree(face);
+      if (face == 0) {
+        // Most meshes have faces of one kind. An index takes two bytes at least.
+        cells.connectivity.reserve(std::min(face_count_ * degree, bytes_left() / 2));
+      }
+      for (std::size_t corner = 0; corner < degree; ++corner) {
+        cells.connectivity.push_back(read_index(face));
+      }
+      cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+      cells.types.push_back(cell_type::of_face(degree));
+      const std::span<const double> colour = read_rest_of_line();
+      if (colour.size() > 4 || colour.size() == 2) {
+        fail_face(face,
+                  "expected 0, 1, 3 or 4 colour numbers after the vertices, got " + describe_count(colour.size()));
+      }
+      colours.add(colour);
+    }
+    colours.move_to(document_.cell_arrays, "colours");
+    note_unless_uniform(colours, "face");
+  }
+
+  std::size_t read_degree(std::size_t face) {
+    const std::string_view token = scanner_.next_token("the number of vertices of a face");
+    const std::optional<std::int64_t> degree = parse_integer(token);
+    if (!degree || *degree < 3) {
+      fail_face(face, "expected its number of vertices, 3 or more, got " + quoted(token));
+    }
+    if (static_cast<std::uint64_t>(*degree) > bytes_left() / 2) {
+      fail_face(face, "declares " + std::to_string(*degree) + " vertices, but the file has room for " +
+                          std::to_string(bytes_left() / 2) + " at most");
+    }
+    return static_cast<std::size_t>(*degree);
+  }
+
+  std::int32_t read_index(std::size_t face) {
+    const std::string_view token = scanner_.next_token("a vertex index");
+    const std::optional<std::int64_t> index = parse_integer(token);
+    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(vertex_count_)) {
+      fail_face(face, "expected a vertex index, got " + quoted(token) + "; the file has " +
+                          std::to_string(vertex_count_) + " vertices, counted from 0");
+    }
+    return static_cast<std::int32_t>(*index);
+  }
+
+  /// The numbers up to the end of the line, one more than a row can hold at most.
+  std::span<const double> read_rest_of_line() {
+    std::size_t count = 0;
+    while (!scanner_.at_end_of_line()) {
+      if (count == row_.size()) {
+        scanner_.next_token("the end of the line");
+        scanner_.fail("expected the end of the line, got more numbers than OFF has for anything");
+      }
+      row_[count++] = scanner_.next_double("a number or the end of the line");
+    }
+    return std::span(row_).first(count);
+  }
+
+  /// Numbers after the last face are faces or vertices that the counts leave out.
+  void check_rest() {
+    if (scanner_.at_end()) {
+      return;
+    }
+    const std::string_view token = scanner_.next_token("the end of the file");
+    if (parse_number<double>(token)) {
+      scanner_.fail("expected the end of the file after the declared " + std::to_string(vertex_count_) +
+                    " vertices and " + std::to_string(face_count_) + " faces, got " + quoted(token));
+    }
+    document_.notes.emplace_back("The file goes on after its last face; what stands there is kept in OFF output only.");
+  }
+
+  void note_unless_uniform(const UniformRows& colours, const std::string& owner) {
+    if (!colours.is_uniform()) {
+      document_.notes.push_back("The " + owner +
+                                " colours have different numbers of components; they are kept in OFF "
+                                "output only.");
+    }
+  }
+
+  static std::string describe_count(std::size_t count) { return count == 0 ? "none" : std::to_string(count); }
+
+  [[noreturn]] void fail_face(std::size_t face, const std::string& message) const {
+    scanner_.fail("face " + std::to_string(face + 1) + " of " + std::to_string(face_count_) + ": " + message);
+  }
+
+  std::size_t bytes_left() const { return scanner_.text().size() - scanner_.offset(); }
+
+  static constexpr std::size_t least_face_numbers = 4;  // the degree, and three vertices
+
+  TextScanner scanner_;
+  OffKeyword keyword_;
+  bool is_binary_ = false;
+  bool has_vertex_colours_ = false;
+  MeshDocument document_;
+  CoordinateSites sites_;
+  std::size_t vertex_count_ = 0;
+  std::size_t face_count_ = 0;
+  Row row_{};
+};
+
+}  // namespace
+
+MeshDocument read_off(const std::filesystem::path& path, std::string bytes) {
+  auto [document, sites] = OffReader(bytes, path).read();
+  document.original = make_patched_original(std::move(bytes), std::move(sites));
+  return std::move(document);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,165 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/ply/ply_header.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+// The rows of a PLY file, number by number. Both encodings have the same interface, so that one reader serves both.
+
+/// A number of a PLY file.
+struct PlyNumber {
+  double value = 0;        ///< exact but for 64-bit integers, which may be rounded
+  std::int64_t whole = 0;  ///< the same of an integer type, exact; of uint64 less 2^64 where it is 2^63 or more
+
+  /// The digits of a number of an integer type.
+  std::string text() const {
+    return value < 0 ? std::to_string(whole) : std::to_string(static_cast<std::uint64_t>(whole));
+  }
+};
+
+/// True where the bytes are white space and zeros alone.
+inline bool is_padding(std::string_view bytes) {
+  constexpr std::string_view padding(" \t\v\f\r\n\0", 7);
+  return bytes.find_first_not_of(padding) == bytes.npos;
+}
+
+/// The rows of an ASCII file. A row may run over several lines, but the next row begins on a new one.
+class PlyTextSource {
+ public:
+  PlyTextSource(const std::filesystem::path& path, std::string_view bytes, std::size_t begin)
+      : scanner_(bytes, path, TextScanner::Comments::none, begin) {}
+
+  /// The fewest bytes that a number takes: a digit and the space after it.
+  static std::uint64_t least_bytes(ScalarType /*type*/) { return 2; }
+  /// The bytes that are left for numbers, the space after the last one included though it may be missing.
+  std::uint64_t room() const { return scanner_.text().size() - scanner_.offset() + 1; }
+
+  /// True where no number is left.
+  bool at_end() { return scanner_.at_end(); }
+  /// True where nothing but white space and zeros is left.
+  bool at_padding() const { return is_padding(scanner_.text().substr(scanner_.offset())); }
+  std::size_t offset() const { return scanner_.offset(); }
+
+  /// The next number, of type `type`; integers are checked against the type's range, floating-point numbers may be
+  /// infinite or NaN. `label` names it in messages.
+  PlyNumber number(ScalarType type, std::string_view label) {
+    return visit_scalar_type(type, [&](auto zero) -> PlyNumber {
+      using T = decltype(zero);
+      if constexpr (std::is_floating_point_v<T>) {
+        const std::string_view token = scanner_.next_token(label);
+        const auto value = parse_number<T>(token);
+        if (!value) {
+          scanner_.fail("expected " + std::string(label) + " (a number), got " + quoted(token));
+        }
+        return {static_cast<double>(*value)};
+      } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+        const std::string_view token = scanner_.next_token(label);
+        const auto value = parse_unsigned(token);
+        if (!value) {
+          scanner_.fail("expected " + std::string(label) + " (a whole number from 0 to 18446744073709551615), got " +
+                        quoted(token));
+        }
+        return {static_cast<double>(*value), static_cast<std::int64_t>(*value)};
+      } else {
+        const std::int64_t value =
+            scanner_.next_integer(label, std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
+        return {static_cast<double>(value), value};
+      }
+    });
+  }
+
+  /// Byte offset of the number that was read last.
+  std::size_t number_offset() const { return scanner_.token_offset(); }
+
+  void skip(ScalarType /*type*/, std::uint64_t count, std::string_view label) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      scanner_.next_token(label);
+    }
+  }
+
+  /// True where a row may end: nothing but the next row's line follows.
+  bool at_row_end() { return scanner_.at_end_of_line(); }
+
+  [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
+
+ private:
+  TextScanner scanner_;
+};
+
+/// The rows of a binary file of either byte order.
+class PlyBinarySource {
+ public:
+  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, CoordinateEncoding encoding)
+      : path_(std::move(path)),
+        bytes_(bytes),
+        offset_(begin),
+        number_offset_(begin),
+        swapped_((encoding == CoordinateEncoding::big_endian) == (std::endian::native == std::endian::little)) {}
+
+  static std::uint64_t least_bytes(ScalarType type) { return size_of(type); }
+  std::uint64_t room() const { return bytes_.size() - offset_; }
+
+  bool at_end() const { return offset_ == bytes_.size(); }
+  bool at_padding() const { return is_padding(bytes_.substr(offset_)); }
+  std::size_t offset() const { return offset_; }
+
+  PlyNumber number(ScalarType type, std::string_view label) {
+    return visit_scalar_type(type, [&](auto zero) -> PlyNumber {
+      std::array<char, sizeof(zero)> stored{};
+      number_offset_ = offset_;
+      if (room() < stored.size()) {
+        fail("expected " + std::string(label) + ", got the end of the file");
+      }
+      std::memcpy(stored.data(), bytes_.data() + offset_, stored.size());
+      if (swapped_) {
+        std::ranges::reverse(stored);
+      }
+      offset_ += stored.size();
+      const auto number = std::bit_cast<decltype(zero)>(stored);
+      if constexpr (std::is_floating_point_v<decltype(zero)>) {
+        return {static_cast<double>(number)};
+      } else {
+        return {static_cast<double>(number), static_cast<std::int64_t>(number)};
+      }
+    });
+  }
+
+  std::size_t number_offset() const { return number_offset_; }
+
+  void skip(ScalarType type, std::uint64_t count, std::string_view label) {
+    if (room() / size_of(type) < count) {
+      fail("expected " + std::to_string(count) + " numbers of " + std::string(label) + ", got the end of the file");
+    }
+    offset_ += count * size_of(type);
+  }
+
+  bool at_row_end() const { return true; }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw ReadError(path_, "byte " + std::to_string(number_offset_) + ": " + message);
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string_view bytes_;
+  std::size_t offset_;
+  std::size_t number_offset_;
+  bool swapped_;
+};
+
+}  // namespace trismooth

@@ -1,9 +1,0 @@
-#include "trismooth/mesh_io/stl.h"
-
-#include "trismooth/mesh_io/codec.h"
-
-namespace trismooth {
-
-const Codec stl_codec{&read_stl, &write_stl, &what_stl_loses};
-
-}  // namespace trismooth

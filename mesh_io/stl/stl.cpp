@@ -1,0 +1,9 @@
+#include "trismooth/mesh_io/stl/stl.h"
+
+#include "trismooth/mesh_io/codec.h"
+
+namespace trismooth {
+
+const Codec stl_codec{&read_stl, &write_stl, &what_stl_loses};
+
+}  // namespace trismooth

@@ -1,0 +1,327 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/stl/point_welder.h"
+#include "trismooth/mesh_io/stl/stl.h"
+#include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t title_bytes = 80;
+constexpr std::size_t binary_header_bytes = title_bytes + sizeof(std::uint32_t);
+constexpr std::size_t normal_bytes = 3 * sizeof(float);
+constexpr std::size_t binary_facet_bytes = 4 * normal_bytes + sizeof(std::uint16_t);
+
+/// The little-endian number at `offset`, which must be within `bytes`.
+template <class T>
+T number_at(std::string_view bytes, std::size_t offset) {
+  std::array<char, sizeof(T)> stored{};
+  std::memcpy(stored.data(), bytes.data() + offset, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) {
+    std::ranges::reverse(stored);
+  }
+  return std::bit_cast<T>(stored);
+}
+
+/// True where the token is `word`, which is in lower case, in any case.
+bool is_word(std::string_view token, std::string_view word) {
+  return std::ranges::equal(token, word, {}, [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+}
+
+/// Makes triangles of corners, three after three, and remembers where each corner stands in the file.
+class FacetCollector {
+ public:
+  FacetCollector(const std::filesystem::path& path, CoordinateEncoding encoding, ScalarType type) : path_(path) {
+    sites_.encoding = encoding;
+    document_.point_type = sites_.type = type;
+  }
+
+  void add_corner(const std::array<double, 3>& point, const std::array<std::uint64_t, 3>& offsets) {
+    if (sites_.vertices.size() == std::numeric_limits<std::int32_t>::max()) {
+      throw ReadError(path_, "has more facets than are supported (" +
+                                 std::to_string(std::numeric_limits<std::int32_t>::max() / 3) + ")");
+    }
+    sites_.vertices.push_back(welder_.weld(point));
+    sites_.offsets.insert(sites_.offsets.end(), offsets.begin(), offsets.end());
+    if (sites_.vertices.size() % 3 == 0) {
+      document_.cells.append(cell_type::triangle, std::span(sites_.vertices).last(3));
+    }
+  }
+
+  std::size_t facets() const { return document_.cells.size(); }
+
+  MeshDocument finish(std::string bytes) {
+    document_.points = welder_.take_points();
+    document_.original = make_patched_original(std::move(bytes), std::move(sites_));
+    return std::move(document_);
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  MeshDocument document_;
+  CoordinateSites sites_;
+  PointWelder welder_;
+};
+
+MeshDocument read_binary(const std::filesystem::path& path, std::string bytes) {
+  FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
+  const auto count = number_at<std::uint32_t>(bytes, title_bytes);
+  std::vector<std::uint16_t> attributes(count);
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    std::size_t offset = binary_header_bytes + facet * binary_facet_bytes + normal_bytes;
+    for (int corner = 0; corner < 3; ++corner) {
+      std::array<double, 3> point{};
+      std::array<std::uint64_t, 3> offsets{};
+      for (std::size_t axis = 0; axis < 3; ++axis, offset += sizeof(float)) {
+        point[axis] = static_cast<double>(number_at<float>(bytes, offset));
+        offsets[axis] = offset;
+        if (!std::isfinite(point[axis])) {
+          throw ReadError(path, "byte " + std::to_string(offset) + ": facet " + std::to_string(facet) +
+                                    " has a coordinate that is not a finite number");
+        }
+      }
+      collector.add_corner(point, offsets);
+    }
+    attributes[facet] = number_at<std::uint16_t>(bytes, offset);
+  }
+  MeshDocument document = collector.finish(std::move(bytes));
+  if (std::ranges::any_of(attributes, [](std::uint16_t attribute) { return attribute != 0; })) {
+    document.cell_arrays.push_back(make_data_array("attribute", 1, std::move(attributes)));
+  }
+  return document;
+}
+
+/// What some editors put in front of a text is no part of it.
+std::size_t begin_of_text(std::string_view bytes) {
+  return bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+}
+
+class TextReader {
+ public:
+  TextReader(const std::filesystem::path& path, std::string bytes)
+      : bytes_(std::move(bytes)),
+        scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)),
+        collector_(path, CoordinateEncoding::text, ScalarType::float64) {}
+
+  /// Reads the whole text, once.
+  MeshDocument read() {
+    std::int32_t solids = 0;
+    std::vector<std::int32_t> solid_of_facet;
+    std::string names;
+    expect("solid");
+    do {
+      names.append(names.empty() ? "" : ", ").append(quoted(trimmed(scanner_.next_line())));
+      read_solid();
+      solid_of_facet.resize(collector_.facets(), solids);
+      ++solids;
+    } while (begins_another_solid());
+    const std::string unknown = unknown_words();
+    MeshDocument document = collector_.finish(std::move(bytes_));
+    if (!has_end_) {
+      document.notes.emplace_back("does not end with 'endsolid': nothing says whether facets are missing");
+    }
+    if (!unknown.empty()) {
+      document.notes.push_back("holds lines that STL does not know, which STL output keeps: " + unknown);
+    }
+    if (solids > 1) {
+      document.cell_arrays.push_back(make_data_array("solid", 1, std::move(solid_of_facet)));
+      document.notes.push_back("holds " + std::to_string(solids) +
+                               " solids, numbered from 0 in the cell array 'solid': " + names);
+    }
+    return document;
+  }
+
+ private:
+  /// Reads the facets up to 'endsolid' with its line, to the next 'solid', or to the end of the file: some programs
+  /// write no 'endsolid'.
+  void read_solid() {
+    has_end_ = false;
+    while (true) {
+      skip_unknown_lines();
+      if (collector_.facets() > 0 && scanner_.at_end()) {
+        return;
+      }
+      const std::string_view word = scanner_.next_token("facet or endsolid");
+      if (is_word(word, "facet")) {
+        read_facet();
+      } else if (is_word(word, "endsolid")) {
+        has_end_ = true;
+        scanner_.next_line();
+        return;
+      } else if (is_word(word, "solid") && collector_.facets() > 0) {
+        scanner_.seek(scanner_.token_offset());
+        return;
+      } else {
+        scanner_.fail("expected facet or endsolid, got " + quoted(word));
+      }
+    }
+  }
+
+  bool begins_another_solid() {
+    skip_unknown_lines();
+    if (scanner_.at_end()) {
+      return false;
+    }
+    expect("solid");
+    return true;
+  }
+
+  void read_facet() {
+    expect("normal");
+    for (int axis = 0; axis < 3; ++axis) {
+      // Not checked: degenerate facets have normals of NaN in many spellings, and normals are not used.
+      scanner_.next_token("a normal of three numbers");
+    }
+    expect_statement("outer");
+    expect("loop");
+    for (int corner = 0; corner < 3; ++corner) {
+      expect_statement("vertex");
+      std::array<double, 3> point{};
+      std::array<std::uint64_t, 3> offsets{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point[axis] = scanner_.next_double("a coordinate");
+        offsets[axis] = scanner_.token_offset();
+      }
+      collector_.add_corner(point, offsets);
+    }
+    expect_statement("endloop");
+    expect_statement("endfacet");
+  }
+
+  void expect(std::string_view word) {
+    const std::string_view token = scanner_.next_token(word);
+    if (!is_word(token, word)) {
+      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
+    }
+  }
+
+  void expect_statement(std::string_view word) {
+    const std::string_view token = next_word(word);
+    if (!is_word(token, word)) {
+      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
+    }
+  }
+
+  /// The first word of the next statement.
+  std::string_view next_word(std::string_view what) {
+    skip_unknown_lines();
+    return scanner_.next_token(what);
+  }
+
+  /// Passes over lines that begin with a word that STL does not know, such as 'color'.
+  void skip_unknown_lines() {
+    while (is_at_begin_of_line() && is_unknown(scanner_.peek_token())) {
+      const std::string_view word = scanner_.next_token("a word");
+      if (unknown_.size() < most_words_named) {
+        unknown_.insert(word);
+      }
+      scanner_.next_line();
+    }
+  }
+
+  /// True where the next token is the first of its line.
+  bool is_at_begin_of_line() {
+    if (scanner_.at_end_of_line() || scanner_.offset() == 0) {
+      return true;
+    }
+    const std::size_t before = scanner_.text().find_last_not_of(" \t\v\f", scanner_.offset() - 1);
+    return before == bytes_.npos || bytes_[before] == '\n' || bytes_[before] == '\r';
+  }
+
+  static bool is_unknown(std::string_view token) {
+    constexpr std::array<std::string_view, 9> known{"solid",  "facet",   "normal",   "outer",   "loop",
+                                                    "vertex", "endloop", "endfacet", "endsolid"};
+    const char first = token.empty() ? '\0' : token.front();
+    const bool is_name = ('a' <= first && first <= 'z') || ('A' <= first && first <= 'Z');
+    return is_name && std::ranges::none_of(known, [token](std::string_view word) { return is_word(token, word); });
+  }
+
+  /// Those that were passed over, for a note.
+  std::string unknown_words() const {
+    std::string list;
+    for (const std::string_view word : unknown_) {
+      list.append(list.empty() ? "" : ", ").append(quoted(word));
+    }
+    return list;
+  }
+
+  static constexpr std::size_t most_words_named = 8;
+
+  std::string bytes_;
+  TextScanner scanner_;
+  FacetCollector collector_;
+  std::set<std::string_view> unknown_;  ///< first words of lines that were passed over
+  bool has_end_ = false;                ///< the last solid has its 'endsolid'
+};
+
+bool begins_with_solid(std::string_view bytes) {
+  constexpr std::string_view word = "solid";
+  const std::size_t begin = std::min(bytes.find_first_not_of(" \t\v\f\r\n", begin_of_text(bytes)), bytes.size());
+  return is_word(bytes.substr(begin, word.size()), word);
+}
+
+/// True where the bytes behind the facets that a binary file declares look like more of them: finite numbers, and
+/// either as many bytes as facets have, not all of them zero, or a normal of length 1. The declared number is wrong
+/// then, and a part of the mesh would be missing.
+bool is_another_facet(std::string_view bytes) {
+  if (bytes.size() < binary_facet_bytes) {
+    return false;
+  }
+  std::array<double, 12> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = static_cast<double>(number_at<float>(bytes, i * sizeof(float)));
+    if (!std::isfinite(numbers[i])) {
+      return false;
+    }
+  }
+  constexpr double tolerance = 1e-3;  // of programs that round normals
+  const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
+  const bool is_zero = std::ranges::all_of(bytes, [](char byte) { return byte == '\0'; });
+  return std::abs(length - 1) < tolerance || (bytes.size() % binary_facet_bytes == 0 && !is_zero);
+}
+
+/// Binary files may begin with "solid" too, but text has no zero bytes.
+bool has_zero_byte(std::string_view bytes) {
+  return bytes.substr(0, binary_header_bytes).find('\0') != bytes.npos;
+}
+
+}  // namespace
+
+MeshDocument read_stl(const std::filesystem::path& path, std::string bytes) {
+  const bool may_be_binary = bytes.size() >= binary_header_bytes;
+  const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, title_bytes) : 0;
+  const std::uint64_t end = binary_header_bytes + count * binary_facet_bytes;
+  if (may_be_binary && bytes.size() == end) {
+    return read_binary(path, std::move(bytes));
+  }
+  if (begins_with_solid(bytes) && !has_zero_byte(bytes)) {
+    return TextReader(path, std::move(bytes)).read();
+  }
+  if (!may_be_binary) {
+    throw ReadError(path, "is not an STL file: it does not begin with 'solid' and is too short to be binary");
+  }
+  if (bytes.size() > end && count > 0 && !is_another_facet(std::string_view(bytes).substr(end))) {
+    const std::string note =
+        "bytes follow the last facet, at byte " + std::to_string(end) + ": they are not read; STL output keeps them";
+    MeshDocument document = read_binary(path, std::move(bytes));
+    document.notes.push_back(note);
+    return document;
+  }
+  throw ReadError(path, "byte 80: declares " + std::to_string(count) + " facets, but the file has room for " +
+                            std::to_string((bytes.size() - binary_header_bytes) / binary_facet_bytes) + " and is " +
+                            std::to_string(bytes.size()) + " bytes long where " + std::to_string(end) +
+                            " are expected");
+}
+
+}  // namespace trismooth

@@ -1,0 +1,108 @@
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_annotations.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_layout.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_promotion.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_reader.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_roles.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+using Section = VtkLegacyLayout::Section;
+
+class VtkLegacyFile : public OriginalFile {
+ public:
+  explicit VtkLegacyFile(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  MeshDocument read(const std::filesystem::path& path) { return read_vtk_legacy(path, bytes_, layout_); }
+
+  void write(const std::filesystem::path& path, const MeshDocument& document,
+             std::span<const DataArray> added_point_arrays,
+             std::span<const DataArray> added_cell_arrays) const override {
+    if (document.points.size() != layout_.coordinates.offsets.size() || document.cells.size() != layout_.cell_count) {
+      throw WriteError(path, "the file that was read has " + std::to_string(layout_.coordinates.offsets.size() / 3) +
+                                 " points and " + std::to_string(layout_.cell_count) +
+                                 " cells, the mesh to write has " + std::to_string(document.point_count()) + " and " +
+                                 std::to_string(document.cells.size()));
+    }
+    std::string_view bytes = bytes_;
+    const CoordinateSites* sites = &layout_.coordinates;
+    VtkLegacyPromotion promotion;
+    if (!holds_coordinates(layout_, document.points)) {
+      promotion = promote_coordinates(bytes_, layout_);
+      bytes = promotion.bytes;
+      sites = &promotion.coordinates;
+    }
+    if (added_point_arrays.empty() && added_cell_arrays.empty()) {
+      write_patched(path, bytes, *sites, document.points);
+      return;
+    }
+    // All that is edited stands behind the coordinates.
+    const auto& edits = layout_.without_annotations;
+    const std::size_t unedited = edits.empty() ? bytes_.size() : edits.front().begin;
+    write_patched(path, bytes.substr(0, bytes.size() - (bytes_.size() - unedited)), *sites, document.points,
+                  edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays));
+  }
+
+ private:
+  /// The added arrays, to stand behind the file's last byte. Annotations of an earlier run are gone then. VTK's reader
+  /// takes POINT_DATA after CELL_DATA and the other way round, but neither after itself: arrays of the section that the
+  /// file ends in stand first, as more of it.
+  std::string suffix(const MeshDocument& document, std::span<const DataArray> point_arrays,
+                     std::span<const DataArray> cell_arrays) const {
+    std::string text;
+    VtkLegacyOutput output(layout_.binary, [&](std::string_view block) { text += block; });
+    // Ends an unfinished last line, and METADATA, which lasts until an empty line.
+    output.text("\n\n");
+    const auto add_points = [&] {
+      if (!point_arrays.empty()) {
+        if (layout_.last_section != Section::point_data) {
+          output.text("POINT_DATA " + std::to_string(document.point_count()) + "\n");
+        }
+        output.field(point_arrays, layout_.point_names);
+      }
+    };
+    const auto add_cells = [&] {
+      if (!cell_arrays.empty()) {
+        if (layout_.last_section != Section::cell_data) {
+          output.text("CELL_DATA " + std::to_string(document.cells.size()) + "\n");
+        }
+        output.field(cell_arrays, layout_.cell_names);
+      }
+    };
+    if (layout_.last_section == Section::cell_data) {
+      add_cells();
+      add_points();
+    } else {
+      add_points();
+      add_cells();
+    }
+    output.flush();
+    return text;
+  }
+
+  std::string bytes_;
+  VtkLegacyLayout layout_;
+};
+
+MeshDocument read(const std::filesystem::path& path, std::string bytes) {
+  const auto file = std::make_shared<VtkLegacyFile>(std::move(bytes));
+  MeshDocument document = file->read(path);
+  document.original = file;
+  return document;
+}
+
+}  // namespace
+
+const Codec vtk_legacy_codec{&read, &write_vtk_legacy, &lost_in_vtk_legacy};
+
+}  // namespace trismooth

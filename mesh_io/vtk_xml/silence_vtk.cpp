@@ -1,0 +1,11 @@
+#include "trismooth/mesh_io/vtk_xml/silence_vtk.h"
+
+#include <vtkLogger.h>
+
+namespace trismooth {
+
+void silence_vtk() {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,96 @@
+#include "trismooth/mesh_io/vtk_xml/vtk_cells.h"
+
+#include <algorithm>
+#include <array>
+
+#include <vtkCellArray.h>
+
+namespace trismooth {
+
+namespace {
+
+template <class Index>
+void append_indices(std::span<const Index> offsets, std::span<const Index> connectivity, CellList& cells) {
+  const auto base = static_cast<std::int64_t>(cells.connectivity.size());
+  cells.offsets.reserve(cells.offsets.size() + offsets.size() - 1);
+  for (const Index offset : offsets.subspan(1)) {
+    cells.offsets.push_back(base + static_cast<std::int64_t>(offset));
+  }
+  cells.connectivity.reserve(cells.connectivity.size() + connectivity.size());
+  for (const Index vertex : connectivity) {
+    cells.connectivity.push_back(static_cast<std::int32_t>(vertex));
+  }
+}
+
+template <class Array>
+auto values_of(Array* array) {
+  using Value = typename Array::ValueType;
+  return std::span<const Value>(array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfValues()));
+}
+
+void append_indices(vtkCellArray& from, CellList& cells) {
+  if (from.GetNumberOfCells() == 0) {
+    return;
+  }
+  if (from.IsStorage64Bit()) {
+    append_indices(values_of(from.GetOffsetsArray64()), values_of(from.GetConnectivityArray64()), cells);
+  } else {
+    append_indices(values_of(from.GetOffsetsArray32()), values_of(from.GetConnectivityArray32()), cells);
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(PolyDataGroup group) {
+  constexpr std::array<std::string_view, poly_data_groups> names{"Verts", "Lines", "Polys", "Strips"};
+  return names[static_cast<std::size_t>(group)];
+}
+
+std::optional<PolyDataGroup> poly_data_group_of(std::uint8_t type) {
+  switch (type) {
+    case cell_type::vertex:
+    case cell_type::poly_vertex:
+      return PolyDataGroup::verts;
+    case cell_type::line:
+    case cell_type::poly_line:
+      return PolyDataGroup::lines;
+    case cell_type::triangle:
+    case cell_type::quad:
+    case cell_type::polygon:
+      return PolyDataGroup::polys;
+    case cell_type::triangle_strip:
+      return PolyDataGroup::strips;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices) {
+  switch (group) {
+    case PolyDataGroup::verts:
+      return vertices == 1 ? cell_type::vertex : cell_type::poly_vertex;
+    case PolyDataGroup::lines:
+      return vertices == 2 ? cell_type::line : cell_type::poly_line;
+    case PolyDataGroup::polys:
+      break;
+    case PolyDataGroup::strips:
+      return cell_type::triangle_strip;
+  }
+  return vertices == 3 ? cell_type::triangle : vertices == 4 ? cell_type::quad : cell_type::polygon;
+}
+
+void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, CellList& cells) {
+  append_indices(from, cells);
+  cells.types.insert(cells.types.end(), types.begin(), types.end());
+}
+
+void append_cells(vtkCellArray& from, PolyDataGroup group, CellList& cells) {
+  const std::size_t first = cells.size();
+  append_indices(from, cells);
+  cells.types.reserve(cells.offsets.size() - 1);
+  for (std::size_t cell = first; cell + 1 < cells.offsets.size(); ++cell) {
+    cells.types.push_back(cell_type_of(group, static_cast<std::size_t>(cells.offsets[cell + 1] - cells.offsets[cell])));
+  }
+}
+
+}  // namespace trismooth

@@ -1,0 +1,362 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include "trismooth/mesh_io/bytes/memory_block.h"
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/document/free_names.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_array_description.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_cells.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_data_sets.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_reader.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The points of the document as an unnamed VTK array of its point type; a view of the document's where it can be.
+vtkSmartPointer<vtkDataArray> make_points_array(const MeshDocument& document) {
+  if (document.point_type == ScalarType::float64) {
+    return view_as_vtk_array({"", ScalarType::float64, 3, std::as_bytes(std::span(document.points)), nullptr});
+  }
+  MemoryBlock numbers;
+  auto* const target = reinterpret_cast<float*>(numbers.extend(document.points.size() * sizeof(float)));
+  std::ranges::transform(document.points, target, [](double coordinate) { return static_cast<float>(coordinate); });
+  return make_vtk_array(ScalarType::float32, 3, std::move(numbers));
+}
+
+void set_points(vtkPointSet& data, vtkDataArray& array) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(&array);
+  data.SetPoints(points);
+}
+
+/// Adds views of the arrays; where a name is taken, "_1", "_2", ... makes another.
+void add_arrays(std::span<const DataArray> arrays, vtkFieldData& fields) {
+  FreeNames names;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    if (const char* const name = fields.GetArrayName(i)) {
+      names.take(name);
+    }
+  }
+  reserve_vtk_arrays(fields, arrays.size());
+  for (const DataArray& array : arrays) {
+    add_vtk_array(fields, *view_as_vtk_array(array), names.claim(array.name));
+  }
+}
+
+void remove_annotations(vtkFieldData& fields) {
+  for (int i = fields.GetNumberOfArrays() - 1; i >= 0; --i) {
+    const char* const name = fields.GetAbstractArray(i)->GetName();
+    if (name != nullptr && is_annotation(name)) {
+      fields.RemoveArray(i);
+    }
+  }
+}
+
+/// Points and arrays of a document from elsewhere; `cell_arrays` in the order of the cells of `data`.
+void set_points_and_arrays(vtkPointSet& data, const MeshDocument& document, std::span<const DataArray> cell_arrays) {
+  std::vector<std::string> losses;  // said by lost_descriptions()
+  const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
+  points->SetName("Points");
+  describe(*points, document.points_description.get(), losses);
+  set_points(data, *points);
+  add_arrays(document.point_arrays, *data.GetPointData());
+  add_arrays(cell_arrays, *data.GetCellData());
+  add_arrays(document.field_arrays, *data.GetFieldData());
+  set_roles(document.point_arrays, *data.GetPointData(), losses);
+  set_roles(cell_arrays, *data.GetCellData(), losses);
+}
+
+class VtkXmlOriginal : public OriginalFile {
+ public:
+  explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {}
+
+  void write(const std::filesystem::path& path, const MeshDocument& document,
+             std::span<const DataArray> added_point_arrays,
+             std::span<const DataArray> added_cell_arrays) const override {
+    const vtkSmartPointer<vtkPointSet> copy = shallow_copy(*file_.data);
+    vtkDataArray* const old_points = file_.data->GetPoints()->GetData();
+    const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
+    if (points->GetNumberOfValues() != old_points->GetNumberOfValues()) {
+      throw WriteError(path, "the mesh has not the points of the file that was read");
+    }
+    points->SetName(old_points->GetName());
+    for (int i = 0; i < 3; ++i) {
+      if (const char* const name = old_points->GetComponentName(i)) {
+        points->SetComponentName(i, name);
+      }
+    }
+    points->CopyInformation(old_points->GetInformation(), 1);
+    set_points(*copy, *points);
+    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
+      remove_annotations(*copy->GetPointData());
+      remove_annotations(*copy->GetCellData());
+    }
+    add_arrays(added_point_arrays, *copy->GetPointData());
+    add_arrays(added_cell_arrays, *copy->GetCellData());
+    write_vtk_xml(path, *copy, file_.encoding, file_.attributes);
+  }
+
+ private:
+  VtkXmlFile file_;
+};
+
+void copy_points(const std::filesystem::path& path, vtkPointSet& data, MeshDocument& document) {
+  vtkDataArray* const array = data.GetPoints()->GetData();
+  const std::optional<DataArray> view = view_as_data_array(array);
+  document.point_type = view->type;
+  document.points_description = view->description;
+  document.points.resize(view->bytes.size() / size_of(view->type));
+  if (view->type == ScalarType::float64) {
+    std::ranges::copy(view->as<double>(), document.points.begin());
+  } else {
+    std::ranges::copy(view->as<float>(), document.points.begin());
+  }
+  const auto bad = std::ranges::find_if_not(document.points, [](double x) { return std::isfinite(x); });
+  if (bad != document.points.end()) {
+    throw ReadError(path, "point " + std::to_string((bad - document.points.begin()) / 3) + " is not finite");
+  }
+}
+
+void copy_cells(vtkPointSet& data, CellList& cells) {
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(&data)) {
+    vtkUnsignedCharArray* const types = grid->GetCellTypesArray();
+    const auto count = static_cast<std::size_t>(types->GetNumberOfValues());
+    append_cells(*grid->GetCells(), std::span(types->GetPointer(0), count), cells);
+    return;
+  }
+  auto& poly_data = *vtkPolyData::SafeDownCast(&data);
+  append_cells(*poly_data.GetVerts(), PolyDataGroup::verts, cells);
+  append_cells(*poly_data.GetLines(), PolyDataGroup::lines, cells);
+  append_cells(*poly_data.GetPolys(), PolyDataGroup::polys, cells);
+  append_cells(*poly_data.GetStrips(), PolyDataGroup::strips, cells);
+}
+
+/// What of the descriptions a data set does not get, found by giving them to arrays without numbers of their own.
+std::vector<std::string> lost_descriptions(const MeshDocument& document) {
+  std::vector<std::string> losses;
+  std::vector<DataArray> with_roles;
+  const auto try_all = [&](std::span<const DataArray> arrays) {
+    with_roles.clear();
+    for (const DataArray& array : arrays) {
+      if (array.description != nullptr) {
+        view_as_vtk_array(array, losses);
+        if (!array.description->roles.empty()) {
+          with_roles.push_back(array);
+        }
+      }
+    }
+  };
+  const auto try_roles = [&](vtkDataSetAttributes& attributes) {
+    add_arrays(with_roles, attributes);
+    set_roles(with_roles, attributes, losses);
+  };
+  try_all(document.point_arrays);
+  try_roles(*vtkNew<vtkPointData>());
+  try_all(document.cell_arrays);
+  try_roles(*vtkNew<vtkCellData>());
+  try_all(document.field_arrays);
+  view_as_vtk_array({"Points", ScalarType::float64, 3, {}, nullptr, document.points_description}, losses);
+  return losses;
+}
+
+std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, VtkXmlMode mode,
+                                std::vector<std::string>& notes) {
+  std::vector<DataArray> views;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    vtkAbstractArray* const array = fields.GetAbstractArray(i);
+    if (std::optional<DataArray> view = view_as_data_array(array)) {
+      if (mode == VtkXmlMode::ascii && holds_non_finite(*view)) {
+        notes.push_back("the " + std::string(where) + " array " + view->name +
+                        " holds values that are not finite; VTU and VTP get it as base64, which VTK can read");
+      }
+      views.push_back(std::move(*view));
+    } else {
+      notes.push_back("the " + std::string(where) + " array " + array->GetName() +
+                      " does not hold numbers: no vertices are held by it as fixed, and no other format gets it");
+    }
+  }
+  if (auto* const attributes = vtkDataSetAttributes::SafeDownCast(&fields)) {
+    add_roles(*attributes, views);
+  }
+  return views;
+}
+
+/// The arrays of strings of one component.
+std::vector<LabelArray> labels_of(vtkFieldData& fields) {
+  std::vector<LabelArray> labels;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    auto* const array = vtkStringArray::SafeDownCast(fields.GetAbstractArray(i));
+    if (array != nullptr && array->GetNumberOfComponents() == 1) {
+      const auto count = static_cast<std::size_t>(array->GetNumberOfValues());
+      const auto* const strings = count == 0 ? nullptr : array->GetPointer(0);
+      const std::vector<std::string_view> texts(strings, strings + count);
+      labels.push_back(make_label_array(array->GetName(), texts));
+    }
+  }
+  return labels;
+}
+
+template <VtkXmlKind kind>
+MeshDocument read(const std::filesystem::path& path, std::string bytes) {
+  try {
+    constexpr std::size_t for_buffers = std::size_t{4} << 20;
+    require_host_memory(2 * bytes.size() + for_buffers);  // what VTK's arrays take at least
+    VtkXmlFile file = read_vtk_xml(path, bytes, kind);
+    // The bytes go before the cells come: not both in memory at once.
+    std::string().swap(bytes);
+    MeshDocument document;
+    document.losses = std::move(file.losses);
+    document.notes = std::move(file.notes);
+    copy_points(path, *file.data, document);
+    copy_cells(*file.data, document.cells);
+    document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);
+    document.cell_arrays = views_of(*file.data->GetCellData(), "cell", file.encoding.mode, document.notes);
+    document.cell_labels = labels_of(*file.data->GetCellData());
+    document.field_arrays = views_of(*file.data->GetFieldData(), "field", file.encoding.mode, document.notes);
+    document.original = std::make_shared<VtkXmlOriginal>(std::move(file));
+    return document;
+  } catch (const std::bad_alloc&) {
+    throw ReadError(path, "is too large for the memory of this machine");
+  }
+}
+
+/// The cells of these numbers as a VTK cell array; 32 bits wide where that suffices.
+vtkSmartPointer<vtkCellArray> make_vtk_cells(const CellList& cells, std::span<const std::size_t> chosen) {
+  std::size_t length = 0;
+  for (const std::size_t cell : chosen) {
+    length += cells[cell].size();
+  }
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  if (length <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    result->Use32BitStorage();
+  }
+  result->AllocateExact(static_cast<vtkIdType>(chosen.size()), static_cast<vtkIdType>(length));
+  for (const std::size_t cell : chosen) {
+    result->InsertNextCell(static_cast<int>(cells[cell].size()));
+    for (const std::int32_t vertex : cells[cell]) {
+      result->InsertCellPoint(vertex);
+    }
+  }
+  return result;
+}
+
+std::vector<std::size_t> all_cells(const CellList& cells) {
+  std::vector<std::size_t> all(cells.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+void write_unstructured_grid(const std::filesystem::path& path, const MeshDocument& document) {
+  const auto types = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  types->SetNumberOfValues(static_cast<vtkIdType>(document.cells.size()));
+  std::ranges::copy(document.cells.types, types->GetPointer(0));
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
+  grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells)));
+  set_points_and_arrays(*grid, document, document.cell_arrays);
+  write_vtk_xml(path, *grid, {});
+}
+
+/// The cells that a vtkPolyData holds, group by group.
+std::array<std::vector<std::size_t>, poly_data_groups> group_cells(const CellList& cells) {
+  std::array<std::vector<std::size_t>, poly_data_groups> groups;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (const auto group = poly_data_group_of(cells.types[cell])) {
+      groups[static_cast<std::size_t>(*group)].push_back(cell);
+    }
+  }
+  return groups;
+}
+
+std::vector<std::size_t> joined(const std::array<std::vector<std::size_t>, poly_data_groups>& groups) {
+  std::vector<std::size_t> order;
+  for (const auto& group : groups) {
+    order.insert(order.end(), group.begin(), group.end());
+  }
+  return order;
+}
+
+DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
+  const std::size_t row_size = array.components * size_of(array.type);
+  auto bytes = std::make_shared<std::vector<std::byte>>();
+  bytes->reserve(rows.size() * row_size);
+  for (const std::size_t row : rows) {
+    const auto from = array.bytes.subspan(row * row_size, row_size);
+    bytes->insert(bytes->end(), from.begin(), from.end());
+  }
+  return {array.name, array.type, array.components, *bytes, bytes, array.description};
+}
+
+void write_poly_data(const std::filesystem::path& path, const MeshDocument& document) {
+  const auto groups = group_cells(document.cells);
+  const vtkSmartPointer<vtkPolyData> data = make_poly_data();
+  data->SetVerts(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::verts)]));
+  data->SetLines(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::lines)]));
+  data->SetPolys(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::polys)]));
+  data->SetStrips(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::strips)]));
+  std::vector<DataArray> cell_arrays = document.cell_arrays;
+  const std::vector<std::size_t> order = joined(groups);
+  if (order.size() != document.cells.size() || !std::ranges::is_sorted(order)) {
+    std::ranges::transform(document.cell_arrays, cell_arrays.begin(),
+                           [&order](const DataArray& array) { return with_rows(array, order); });
+  }
+  set_points_and_arrays(*data, document, cell_arrays);
+  write_vtk_xml(path, *data, {});
+}
+
+std::vector<std::string> lost_in_unstructured_grid(const MeshDocument& document) {
+  return lost_descriptions(document);
+}
+
+std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
+  std::map<std::uint8_t, std::size_t> dropped;
+  for (const std::uint8_t type : document.cells.types) {
+    if (!poly_data_group_of(type)) {
+      ++dropped[type];
+    }
+  }
+  std::vector<std::string> sentences = lost_descriptions(document);
+  for (const auto& [type, count] : dropped) {
+    sentences.push_back("VTP holds no cells of type " + std::to_string(type) + ": " + std::to_string(count) +
+                        (count == 1 ? " cell is" : " cells are") + " not written");
+  }
+  if (!std::ranges::is_sorted(joined(group_cells(document.cells)))) {
+    sentences.emplace_back("VTP holds vertices, lines, polygons and strips apart: the order of the cells changes");
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const Codec vtu_codec{&read<VtkXmlKind::unstructured_grid>, &write_unstructured_grid, &lost_in_unstructured_grid};
+const Codec vtp_codec{&read<VtkXmlKind::poly_data>, &write_poly_data, &lost_in_poly_data};
+
+}  // namespace trismooth

@@ -1,0 +1,295 @@
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tbb/task_arena.h>
+#include <vtkBase64OutputStream.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkIndent.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationInformationVectorKey.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/memory_block.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/vtk_xml/output_stream_buffer.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_data_sets.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
+#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+
+namespace trismooth {
+
+namespace {
+
+template <class T>
+void write_text(std::ostream& stream, vtkIndent indent, std::span<const T> values) {
+  constexpr std::size_t columns = 6;
+  std::ostringstream margin;
+  margin << indent;
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += i % columns == 0 ? margin.view() : std::string_view();
+    append_number(text, values[i]);
+    text += (i + 1) % columns == 0 || i + 1 == values.size() ? '\n' : ' ';
+    if (text.size() > (std::size_t{1} << 16)) {
+      stream << text;
+      text.clear();
+    }
+  }
+  stream << text;
+}
+
+/// Ranges that VTK has computed for the array. It would write them beside the numbers, by chance (where something
+/// asked for them before), and its reader complains where they are not finite.
+void forget_ranges(vtkAbstractArray& array) {
+  vtkInformation& information = *array.GetInformation();
+  information.Remove(vtkDataArray::L2_NORM_RANGE());
+  information.Remove(vtkDataArray::L2_NORM_FINITE_RANGE());
+  information.Remove(vtkAbstractArray::PER_COMPONENT());
+  information.Remove(vtkAbstractArray::PER_FINITE_COMPONENT());
+}
+
+void forget_ranges(vtkFieldData& fields) {
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    forget_ranges(*fields.GetAbstractArray(i));
+  }
+}
+
+/// Encodes the first bytes that are written apart from the others: an array's size, where VTK's writer uses it.
+class SizeApartStream : public vtkBase64OutputStream {
+ public:
+  static vtkSmartPointer<SizeApartStream> make() {
+    auto* const stream = new SizeApartStream;
+    stream->InitializeObjectBase();
+    return vtkSmartPointer<SizeApartStream>::Take(stream);
+  }
+
+  int StartWriting() override {
+    is_first_ = true;
+    return vtkBase64OutputStream::StartWriting();
+  }
+  int Write(const void* data, std::size_t length) override {
+    const int written = vtkBase64OutputStream::Write(data, length);
+    const bool was_first = std::exchange(is_first_, false);
+    return written != 0 && (!was_first || (EndWriting() != 0 && vtkBase64OutputStream::StartWriting() != 0)) ? 1 : 0;
+  }
+
+ private:
+  bool is_first_ = true;
+};
+
+/// VTK's writer with faults mended: it writes -0 as 0 in text, values that are not finite as text that its own reader
+/// cannot read, and ranges that it has just computed. It also writes to a stream of ours, so it does not delete what it
+/// failed to write.
+template <class Writer>
+class ExactWriter : public Writer {
+ public:
+  static vtkSmartPointer<ExactWriter> make() {
+    auto* const writer = new ExactWriter;
+    writer->InitializeObjectBase();
+    return vtkSmartPointer<ExactWriter>::Take(writer);
+  }
+
+  void set_stream(std::ostream& stream) { this->Stream = &stream; }
+  void set_file_attributes(const XmlAttributes& attributes) { attributes_ = attributes; }
+  void encode_sizes_apart() { this->SetDataStream(SizeApartStream::make()); }
+
+ protected:
+  void WriteFileAttributes() override {
+    if (attributes_.empty()) {
+      Writer::WriteFileAttributes();
+    }
+    for (const auto& [name, value] : attributes_) {
+      *this->Stream << ' ' << name << "=\"" << escape_xml_attribute(value) << '"';
+    }
+  }
+
+  void WriteArrayInline(vtkAbstractArray* array, vtkIndent indent, const char* name, int write_rows) override {
+    const int mode = this->DataMode;
+    const auto view = view_as_data_array(array);
+    if (mode == vtkXMLWriter::Ascii && view && holds_non_finite(*view)) {
+      this->DataMode = vtkXMLWriter::Binary;
+    }
+    Writer::WriteArrayInline(array, indent, name, write_rows);
+    this->DataMode = mode;
+  }
+
+  void WriteInlineData(vtkAbstractArray* array, vtkIndent indent) override {
+    const auto view = view_as_data_array(array);
+    if (this->DataMode == vtkXMLWriter::Ascii && view && view->type == ScalarType::float32) {
+      write_text(*this->Stream, indent, view->as<float>());
+    } else if (this->DataMode == vtkXMLWriter::Ascii && view && view->type == ScalarType::float64) {
+      write_text(*this->Stream, indent, view->as<double>());
+    } else {
+      Writer::WriteInlineData(array, indent);
+    }
+    forget_ranges(*array);
+  }
+
+ private:
+  XmlAttributes attributes_;
+};
+
+/// The name and the component names as VTK's writer has to get them: it puts them into attributes as they are.
+bool needs_escape(vtkAbstractArray& array) {
+  const auto differs = [](const char* name) { return name != nullptr && escape_xml_attribute(name) != name; };
+  bool needs = differs(array.GetName());
+  for (int i = 0; array.HasAComponentName() && i < array.GetNumberOfComponents(); ++i) {
+    needs = needs || differs(array.GetComponentName(i));
+  }
+  return needs;
+}
+
+/// A copy with escaped names; it shares the numbers.
+vtkSmartPointer<vtkAbstractArray> escaped_copy(vtkAbstractArray& array) {
+  vtkSmartPointer<vtkAbstractArray> copy;
+  copy.TakeReference(array.NewInstance());
+  if (auto* const numbers = vtkDataArray::SafeDownCast(copy)) {
+    numbers->ShallowCopy(vtkDataArray::SafeDownCast(&array));
+  } else {
+    copy->DeepCopy(&array);
+  }
+  copy->CopyInformation(array.GetInformation(), 1);
+  copy->SetName(escape_xml_attribute(array.GetName()).c_str());
+  for (int i = 0; array.HasAComponentName() && i < array.GetNumberOfComponents(); ++i) {
+    if (const char* const component = array.GetComponentName(i)) {
+      copy->SetComponentName(i, escape_xml_attribute(component).c_str());
+    }
+  }
+  return copy;
+}
+
+void escape_names(vtkFieldData& fields) {
+  std::vector<vtkSmartPointer<vtkAbstractArray>> copies;
+  bool any = false;
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    any = any || needs_escape(*fields.GetAbstractArray(i));
+  }
+  if (!any) {
+    return;
+  }
+  copies.reserve(static_cast<std::size_t>(fields.GetNumberOfArrays()));
+  for (int i = 0; i < fields.GetNumberOfArrays(); ++i) {
+    copies.push_back(escaped_copy(*fields.GetAbstractArray(i)));
+  }
+  std::array<int, vtkDataSetAttributes::NUM_ATTRIBUTES> active{};
+  auto* const attributes = vtkDataSetAttributes::SafeDownCast(&fields);
+  if (attributes != nullptr) {
+    attributes->GetAttributeIndices(active.data());
+  }
+  fields.Initialize();
+  reserve_vtk_arrays(fields, copies.size());
+  for (const auto& copy : copies) {
+    add_vtk_array(fields, *copy, copy->GetName());
+  }
+  for (int i = 0; attributes != nullptr && i < vtkDataSetAttributes::NUM_ATTRIBUTES; ++i) {
+    if (active[static_cast<std::size_t>(i)] >= 0) {
+      attributes->SetActiveAttribute(active[static_cast<std::size_t>(i)], i);
+    }
+  }
+}
+
+template <class Writer>
+void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
+  const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
+  VtkMessages messages;
+  messages.watch(writer);
+  // Says no more than that the writer failed, but on standard error and in many lines.
+  VtkMessages repetitions;
+  repetitions.watch(writer->GetExecutive());
+  writer->set_stream(stream);
+  writer->SetInputData(&data);
+  writer->SetDataMode(encoding.mode == VtkXmlMode::ascii    ? vtkXMLWriter::Ascii
+                      : encoding.mode == VtkXmlMode::binary ? vtkXMLWriter::Binary
+                                                            : vtkXMLWriter::Appended);
+  writer->SetEncodeAppendedData(encoding.appended_base64);
+  writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
+  writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
+  writer->SetCompressor(make_vtk_compressor(encoding.compressor));
+  writer->set_file_attributes(attributes);
+  if (encoding.sizes_apart) {
+    writer->encode_sizes_apart();
+  }
+  // VTK loops over the types of cells on TBB's threads where it was built with it; a user may have asked for one.
+  const bool written = tbb::task_arena(1).execute([&] { return writer->Write() != 0; });
+  const unsigned long code = writer->GetErrorCode();
+  if (!written || code != vtkErrorCode::NoError || !messages.first_error().empty()) {
+    throw WriteError(
+        path, "cannot be written: " + (messages.first_error().empty() ? vtkErrorCode::GetStringFromErrorCode(code)
+                                                                      : messages.first_error()));
+  }
+}
+
+void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
+  const vtkSmartPointer<vtkPointSet> copy = shallow_copy(data);
+  for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
+                                     static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
+    forget_ranges(*fields);
+    escape_names(*fields);
+  }
+  vtkDataArray* const points = data.GetPoints()->GetData();
+  if (needs_escape(*points)) {
+    const vtkNew<vtkPoints> escaped;
+    escaped->SetData(vtkDataArray::SafeDownCast(escaped_copy(*points)));
+    copy->SetPoints(escaped);
+  }
+  if (vtkUnstructuredGrid::SafeDownCast(copy) != nullptr) {
+    write_to_stream<vtkXMLUnstructuredGridWriter>(stream, path, *copy, encoding, attributes);
+  } else {
+    write_to_stream<vtkXMLPolyDataWriter>(stream, path, *copy, encoding, attributes);
+  }
+}
+
+}  // namespace
+
+void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
+                   const XmlAttributes& attributes) {
+  constexpr std::size_t for_buffers = std::size_t{4} << 20;
+  constexpr std::size_t kibibyte = 1024;  // what VTK counts in
+  require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    // VTK's writer goes back and forth in what it writes; a pipe or a device cannot.
+    std::ostringstream text;
+    write_to_stream(text, path, data, encoding, attributes);
+    if (!text) {
+      throw std::bad_alloc();  // which a string stream keeps to itself
+    }
+    BufferedWriter file(path);
+    file.write(text.view());
+    file.close();
+    return;
+  }
+  OutputStreamBuffer file(path);
+  std::ostream stream(&file);
+  write_to_stream(stream, path, data, encoding, attributes);
+  file.close();
+}
+
+}  // namespace trismooth

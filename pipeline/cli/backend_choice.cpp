@@ -1,0 +1,52 @@
+#include "trismooth/pipeline/cli/backend_choice.h"
+
+#include <stdexcept>
+
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+void require_cuda(const CudaSupport& cuda, const SmoothingOptions& options) {
+  if (cuda.backend == nullptr) {
+    throw DeviceError(
+        "this build has no CUDA backend; leave out '--backend cuda' to smooth on the CPU, or build with "
+        "-DTRISMOOTH_CUDA=ON");
+  }
+  if (options.execution == Execution::cdp && !cuda.has_cdp) {
+    throw DeviceError(
+        "this build has no CUDA dynamic parallelism; use '--execution resident' or 'single-block', or build with "
+        "-DTRISMOOTH_CDP=ON");
+  }
+  if (const std::string problem = cuda.problem(); !problem.empty()) {
+    throw DeviceError("no CUDA device to smooth on: " + problem + "; use '--backend cpu" +
+                      (options.order == Order::unordered ? " --order colour" : "") +
+                      "', or see what 'trismooth info' finds");
+  }
+}
+
+}  // namespace
+
+void choose_backend(BackendChoice choice, const CudaSupport& cuda, const AutoBackend& automatic,
+                    SmoothingOptions& options) {
+  const bool unordered = options.order == Order::unordered;
+  if (unordered && choice == BackendChoice::cpu) {
+    throw std::invalid_argument("'--order unordered' needs the CUDA backend; the CPU smooths in '--order colour' only");
+  }
+  if (unordered && choice == BackendChoice::automatic && cuda.backend == nullptr) {
+    throw std::invalid_argument(
+        "'--order unordered' needs the CUDA backend, which this build does not have; the CPU smooths in '--order "
+        "colour' only");
+  }
+  if (unordered || choice == BackendChoice::cuda) {
+    require_cuda(cuda, options);
+    options.backend = cuda.backend;
+  } else if (choice == BackendChoice::automatic && cuda.backend != nullptr) {
+    options.backend = &automatic;
+  } else {
+    options.backend = nullptr;
+  }
+}
+
+}  // namespace trismooth

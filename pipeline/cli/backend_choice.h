@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/base/enum_text.h"
+#include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/cuda_support.h"
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth {
+
+/// Which backend the user wants.
+enum class BackendChoice : std::uint8_t { automatic, cpu, cuda };
+
+template <>
+struct EnumText<BackendChoice> {
+  static constexpr std::string_view what = "backend";
+  static constexpr std::array<std::pair<BackendChoice, std::string_view>, 3> texts{
+      {{BackendChoice::automatic, "auto"}, {BackendChoice::cpu, "cpu"}, {BackendChoice::cuda, "cuda"}}};
+};
+
+/// Sets `options.backend` to the one that was chosen and checks that it can do what the options ask for, before
+/// anything is read: null for the CPU, `cuda.backend`, or `automatic`, which is to be made from the same `cuda`.
+/// Order::unordered leaves `automatic` no choice. Throws DeviceError where CUDA is wanted and cannot be had (not in
+/// this build, no device, no CDP), std::invalid_argument for options that only another backend has.
+void choose_backend(BackendChoice choice, const CudaSupport& cuda, const AutoBackend& automatic,
+                    SmoothingOptions& options);
+
+}  // namespace trismooth

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "trismooth/pipeline/cuda_support.h"
+#include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/report/terminal.h"
+
+namespace trismooth {
+
+/// What a command line is connected to. Tests hand in streams, a run and a CUDA of their own.
+struct CommandEnvironment {
+  std::ostream& out;    ///< results
+  std::ostream& err;    ///< messages
+  Terminal terminal{};  ///< progress, on the stream of the messages
+  std::function<PipelineResult(const PipelineOptions&)> run = &run_pipeline;
+  std::function<CudaSupport()> cuda = &cuda_support;
+  std::string command = {};  ///< what was typed, for reports; run_command_line() fills it
+};
+
+/// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for
+/// anything that the user or a file did: that becomes a message. All text goes out as printable_lines() shows it;
+/// progress alone moves the cursor.
+int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
+
+/// The same for the program, once in a process, which it takes over: the standard streams (closed ones are opened), the
+/// signals (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what VTK says.
+int run_command_line(int argc, const char* const* argv);
+
+}  // namespace trismooth

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "trismooth/mesh_io/file_format.h"
+#include "trismooth/pipeline/cli/subcommands.h"
+#include "trismooth/pipeline/cuda_support.h"
+#include "trismooth/pipeline/report/labelled_line.h"
+#include "trismooth/pipeline/version.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The instructions that the compiler was allowed to use.
+constexpr std::string_view simd_level() {
+#if defined(__AVX512F__)
+  return "avx512";
+#elif defined(__AVX2__)
+  return "avx2";
+#elif defined(__AVX__)
+  return "avx";
+#elif defined(__SSE4_2__)
+  return "sse4.2";
+#elif defined(__SSE2__)
+  return "sse2 (x86-64 baseline)";
+#elif defined(__ARM_NEON)
+  return "neon";
+#else
+  return "none known";
+#endif
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#elif defined(__GNUC__)
+  return fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#else
+  return "unknown";
+#endif
+}
+
+std::string wrapped_lines(const std::string& lines) {
+  std::string text;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = std::min(line.find(':'), line.size() - 1);
+    const std::size_t value = std::min(line.find_first_not_of(' ', colon + 1), line.size());
+    text += labelled_line(line.substr(0, colon + 1), line.substr(value));
+  }
+  return text;
+}
+
+ExitCode run_info(const CommandEnvironment& environment) {
+  const CudaSupport cuda = environment.cuda();
+  const unsigned threads = std::thread::hardware_concurrency();
+  environment.out << "trismooth " << version() << '\n'
+                  << labelled_line("formats:", format_list() + " (all are read and written)")
+                  << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
+                  << labelled_line("threads:", std::to_string(threads))
+                  << (cuda.backend != nullptr ? wrapped_lines(cuda.lines())
+                                              : labelled_line("CUDA:", "not in this build"));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Subcommand add_info_command(CLI::App& app, const CommandEnvironment& environment) {
+  CLI::App& command = *app.add_subcommand("info", "Show version, formats, instructions used, threads and devices");
+  return {&command, [&environment] { return run_info(environment); }};
+}
+
+}  // namespace trismooth

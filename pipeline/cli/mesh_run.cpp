@@ -1,0 +1,257 @@
+#include "trismooth/pipeline/cli/mesh_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "trismooth/base/errors.h"
+#include "trismooth/base/worker_threads.h"
+#include "trismooth/mesh_io/bytes/memory_block.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/annotations.h"
+#include "trismooth/pipeline/cli/messages.h"
+#include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/output_attempts.h"
+#include "trismooth/pipeline/cli/progress_bar.h"
+#include "trismooth/pipeline/report/labelled_line.h"
+#include "trismooth/pipeline/report/region_table.h"
+#include "trismooth/pipeline/report/report_file.h"
+#include "trismooth/pipeline/report/text_report.h"
+#include "trismooth/pipeline/report/timings.h"
+
+namespace trismooth {
+
+namespace {
+
+std::string sweep_line(const SweepRecord& record) {
+  std::string line = fmt::format("sweep {}: {} evaluated, {} moved, largest move {:.3g} edges", record.sweep,
+                                 record.evaluated, record.moved, record.max_relative_move);
+  if (!std::isnan(record.min_shape)) {
+    line += fmt::format(", smallest shape {:.6g}", record.min_shape);
+  }
+  return wrapped(line, "", "  ");
+}
+
+std::string timings_line(const PipelineTimings& timings) {
+  std::string line = "times:";
+  for (const auto& [name, milliseconds] : timing_parts(timings)) {
+    if (milliseconds > 0) {
+      line += fmt::format(" {} {},", name, duration_text(milliseconds));
+    }
+  }
+  return wrapped(line + fmt::format(" total {}", duration_text(timings.total)), "", "  ");
+}
+
+/// What is lost is said in full; of other notes there may be many.
+void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream& err) {
+  for (const std::string& loss : result.losses) {
+    print_note(err, loss);
+  }
+  constexpr std::size_t most_notes = 5;
+  const bool all = verbosity == Verbosity::verbose || result.notes.size() <= most_notes + 1;
+  const std::size_t shown = all ? result.notes.size() : most_notes;
+  for (std::size_t i = 0; i < shown; ++i) {
+    print_note(err, result.notes[i]);
+  }
+  if (!all) {
+    print_note(err, fmt::format("{} more notes; --verbose shows them", result.notes.size() - shown));
+  }
+}
+
+/// A report must not overwrite what is read or written in the same run, under whatever name.
+void require_own_file(const std::filesystem::path& report, const PipelineOptions& options) {
+  std::error_code error;  // what does not exist is no other's file
+  for (const auto& other : {std::optional(options.input), options.written(), options.fixed_ids}) {
+    if (other && std::filesystem::equivalent(report, *other, error)) {
+      throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other->string());
+    }
+  }
+}
+
+/// A place where no file can be made is told before the work, not after it.
+void try_outputs(const MeshRunSettings& settings) {
+  const PipelineOptions& options = settings.pipeline;
+  require_known_formats(options);
+  if (const auto& target = options.written()) {
+    const OutputFile attempt(*target);
+  }
+  for (const std::filesystem::path& report : settings.reports) {
+    require_own_file(report, options);
+    const OutputFile attempt(report);
+  }
+}
+
+/// More than it takes to make a report.
+std::size_t report_bytes(const PipelineResult& result) {
+  constexpr std::size_t of_all = std::size_t{4} << 20;
+  constexpr std::size_t of_a_sweep = 4096;
+  constexpr std::size_t of_a_region = 8192;
+  return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
+         result.regions_before.size() * of_a_region;
+}
+
+/// Runs the pipeline while it shows the progress.
+PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
+  std::optional<ProgressBar> bar;
+  if (environment.terminal.stream != nullptr && verbosity == Verbosity::normal) {
+    bar.emplace(environment.terminal, options.smoothing.max_sweeps);
+  }
+  options.stage_started = [&bar](Stage stage) {
+    if (bar) {
+      bar->stage_started(stage);
+    }
+    return Progress::proceed;
+  };
+  options.warned = [&](const std::string& warning) {
+    if (verbosity == Verbosity::quiet) {
+      return;
+    }
+    if (bar) {
+      bar->erase();
+    }
+    print_warning(environment.err, warning);
+  };
+  options.smoothing.progress = [&](const SweepRecord& record) {
+    if (bar) {
+      bar->sweep_done(record);
+    }
+    if (verbosity == Verbosity::verbose) {
+      environment.err << sweep_line(record);  // at once: another line must not come in between
+    }
+    return Progress::proceed;
+  };
+  try {
+    return environment.run(options);
+  } catch (const MeshError& error) {
+    throw ReadError(options.input, error.what());
+  } catch (const std::bad_alloc&) {
+    throw ReadError(
+        options.input,
+        "not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a smaller mesh");
+  }
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
+  PipelineOptions& options = settings.pipeline;
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--region-array", "NAME",
+      "Cell array that gives regions; vertices between two regions are fixed. Repeatable; none: there are no regions "
+      "[arrays known by their name, as region or gmsh:physical, and those that look like regions]",
+      [&options](const std::string& text) { options.region_arrays.push_back(text); }, repeatable)
+      ->group(option_group::constraints);
+  add_parsed_option(command, "--fixed-array", "NAME",
+                    "Point array; where it is not 0, the vertex is fixed [fixed, if the file has it]",
+                    [&options](const std::string& text) { options.fixed_array = text; })
+      ->group(option_group::constraints);
+  add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
+                    [&options](const std::string& text) { options.fixed_ids = text; })
+      ->group(option_group::constraints);
+}
+
+void add_result_options(CLI::App& command, MeshRunSettings& settings) {
+  add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
+                    [&settings](const std::string& text) {
+                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
+                    })
+      ->group(option_group::running);
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--report", "FILE", "Write a report: FILE.json or FILE.html. Repeatable",
+      [&settings](const std::string& text) {
+        require_report_extension(text);
+        settings.reports.emplace_back(text);
+      },
+      repeatable)
+      ->group(option_group::results);
+  add_parsed_option(
+      command, "--require", "'NAME>=X'",
+      "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
+      "degenerate, triangles, and min_, mean_, max_, stddev_ or acceptable_ before a metric: min_shape. Repeatable",
+      [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
+      ->group(option_group::results);
+  const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
+    const auto choose = [&settings, verbosity] {
+      if (settings.verbosity != Verbosity::normal) {
+        throw CLI::ExcludesError("--quiet", "--verbose");
+      }
+      settings.verbosity = verbosity;
+    };
+    command.add_flag_callback(name, choose, help)->group(option_group::results);
+  };
+  add_verbosity_flag("--quiet,-q", Verbosity::quiet, "Print errors and failed gates only");
+  add_verbosity_flag("--verbose,-v", Verbosity::verbose,
+                     "Print all metrics, the worst elements, and every sweep, note and time");
+}
+
+void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings) {
+  add_parsed_option(command, "--annotate-metrics", "M,M,...",
+                    "Metrics that --annotate shows: shape, min_angle, ...; all names are in README [shape]",
+                    [&settings](const std::string& text) { settings.pipeline.annotated_metrics = parse_metrics(text); })
+      ->needs("--annotate")
+      ->group(option_group::results);
+}
+
+ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environment) {
+  PipelineOptions& options = settings.pipeline;
+  const Verbosity verbosity = settings.verbosity;
+  options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
+
+  RunRecord record{environment.command, date_text(std::chrono::system_clock::now()), {}};
+  try_outputs(settings);
+  const PipelineResult result = run_watched(options, verbosity, environment);
+
+  for (const Gate& gate : settings.gates) {
+    record.gates.push_back(check_gate(gate, result.after ? *result.after : result.before));
+  }
+  // Files first: a reader of the standard output that goes away (head) ends the program.
+  const auto lost = std::erase_if(settings.reports, [&](const std::filesystem::path& report) {
+    return !could_write(report, environment.err, [&] {
+      require_host_memory(report_bytes(result));
+      write_report(report, options, result, record);
+    });
+  });
+  std::exception_ptr not_printed;
+  if (verbosity != Verbosity::quiet) {
+    std::string text =
+        text_report(options, result, verbosity == Verbosity::verbose ? TextDetail::all : TextDetail::summary);
+    if (verbosity == Verbosity::verbose && (result.smoothing || result.region_names.size() > few_regions)) {
+      text += region_table(result);
+    }
+    for (const std::filesystem::path& report : settings.reports) {
+      text += labelled_line("report:", report.string());
+    }
+    try {
+      print_results(environment.out, text);
+    } catch (const WriteError&) {
+      not_printed = std::current_exception();
+    }
+    print_notes(result, verbosity, environment.err);
+  }
+  if (verbosity == Verbosity::verbose) {
+    environment.err << timings_line(result.timings_ms);
+  }
+  ExitCode code = ExitCode::done;
+  for (const GateOutcome& outcome : record.gates) {
+    if (!outcome.passed) {
+      environment.err << gate_failure(outcome) << '\n';
+      code = ExitCode::gate_failed;
+    }
+  }
+  if (not_printed) {
+    std::rethrow_exception(not_printed);
+  }
+  return lost > 0 ? ExitCode::not_written : code;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,53 @@
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "trismooth/mesh_io/file_format.h"
+#include "trismooth/pipeline/cli/mesh_run.h"
+#include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/subcommands.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What is asked for is arrays: a file without them would be no answer.
+void require_arrays(const std::filesystem::path& path) {
+  const auto format = format_of(path);
+  if (!format || has_arrays(*format) || *format == FileFormat::ply) {
+    return;  // an unknown extension is told where the file is to be made; PLY takes them if it is made of another
+             // format
+  }
+  std::string formats;
+  for (const FileFormat other : all_formats()) {
+    if (has_arrays(other)) {
+      formats.append(formats.empty() ? "." : ", .").append(to_string(other));
+    }
+  }
+  throw std::invalid_argument("'" + path.string() + "' can hold no arrays; formats that do are " + formats);
+}
+
+}  // namespace
+
+Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment) {
+  const auto settings = std::make_shared<MeshRunSettings>();
+  CLI::App& command = *app.add_subcommand("quality", "Check a mesh and change nothing");
+  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
+                    [settings](const std::string& text) { settings->pipeline.input = text; })
+      ->required();
+  add_mesh_options(command, *settings);
+  add_result_options(command, *settings);
+  add_parsed_option(command, "--annotate", "OUT",
+                    "Write the mesh with arrays that show what was found: trismooth:shape (cells) and trismooth:fixed "
+                    "(points)",
+                    [settings](const std::string& text) {
+                      require_arrays(text);
+                      settings->pipeline.annotated = text;
+                    })
+      ->group(option_group::results);
+  add_annotated_metrics_option(command, *settings);
+  return {&command, [settings, &environment] { return run_on_mesh(*settings, environment); }};
+}
+
+}  // namespace trismooth

@@ -1,0 +1,130 @@
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/cli/backend_choice.h"
+#include "trismooth/pipeline/cli/mesh_run.h"
+#include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/subcommands.h"
+#include "trismooth/pipeline/cuda_support.h"
+
+namespace trismooth {
+
+/// Whether a step is done.
+enum class Switch : std::uint8_t { on, off };
+
+template <>
+struct EnumText<Switch> {
+  static constexpr std::string_view what = "setting";
+  static constexpr std::array<std::pair<Switch, std::string_view>, 2> texts{{{Switch::on, "on"}, {Switch::off, "off"}}};
+};
+
+namespace {
+
+struct SmoothSettings {
+  MeshRunSettings run;
+  BackendChoice backend = BackendChoice::automatic;
+  Switch guard = Switch::on;
+};
+
+void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
+  SmoothingOptions& options = settings.run.pipeline.smoothing;
+  const char* const group = "Smoothing";
+  add_enum_option(command, "--method", options.method,
+                  "smart: to the mean of the neighbours, where the worst triangle around gets better; laplacian: "
+                  "always; weighted: to the mean by inverse edge length")
+      ->group(group);
+  add_enum_option(command, "--form", options.form,
+                  "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
+                  "needs fewer sweeps")
+      ->group(group);
+  add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")
+      ->group(group);
+  add_enum_option(command, "--guard", settings.guard,
+                  "Put back moves that would leave an element invalid or below the worst of those touched")
+      ->group(group);
+}
+
+void add_stop_options(CLI::App& command, SmoothingOptions& options) {
+  const char* const group = "Stopping";
+  add_parsed_option(
+      command, "--max-sweeps", "N", "At most N sweeps; 0: no limit [1000]",
+      [&options](const std::string& text) { options.max_sweeps = parse_integer(text, std::int64_t{0}, INT64_MAX); })
+      ->group(group);
+  add_parsed_option(command, "--tolerance", "X",
+                    "Stop when no vertex moves by more than X of its edge length; 0: only when none moves [1e-6]",
+                    [&options](const std::string& text) { options.tolerance = parse_finite(text); })
+      ->group(group);
+  add_parsed_option(command, "--time-limit", "SECONDS", "Stop sweeping after this time [none]",
+                    [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text); })
+      ->group(group);
+  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles is X [none]",
+                    [&options](const std::string& text) { options.target_quality = parse_finite(text); })
+      ->group(group);
+}
+
+void add_device_options(CLI::App& command, SmoothSettings& settings) {
+  SmoothingOptions& options = settings.run.pipeline.smoothing;
+  add_enum_option(
+      command, "--backend", settings.backend,
+      fmt::format("Who runs the sweeps; auto: cuda, where this build has it, finds a device and {} vertices "
+                  "or more are free; else cpu",
+                  free_vertices_for_cuda))
+      ->group(option_group::running);
+  const char* const group = "Running on CUDA (the CPU accepts and ignores them, except unordered)";
+  add_enum_option(command, "--layout", options.layout,
+                  "Points on the device: an array of structures, or an array for each coordinate")
+      ->group(group);
+  add_enum_option(command, "--execution", options.execution,
+                  "resident: by all of the GPU, the fastest; single-block, cdp: the paper's versions, by one block and "
+                  "by CUDA dynamic parallelism")
+      ->group(group);
+  add_enum_option(command, "--order", options.order,
+                  "Of form b; unordered, as the threads happen to run: the paper's, not reproducible, for single-block "
+                  "and cdp only")
+      ->group(group);
+  add_enum_option(command, "--topology", options.topology, "Who finds the neighbours; the result is the same")
+      ->group(group);
+}
+
+ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environment) {
+  PipelineOptions& options = settings.run.pipeline;
+  options.smoothing.guard = settings.guard == Switch::on;
+  options.smoothing.validate();
+  const CudaSupport cuda = environment.cuda();
+  const AutoBackend automatic(cuda);
+  choose_backend(settings.backend, cuda, automatic, options.smoothing);
+  return run_on_mesh(std::move(settings.run), environment);
+}
+
+}  // namespace
+
+Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environment) {
+  const auto settings = std::make_shared<SmoothSettings>();
+  PipelineOptions& options = settings->run.pipeline;
+  CLI::App& command = *app.add_subcommand("smooth", "Check a mesh, smooth it, check it again and write it");
+  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
+                    [&options](const std::string& text) { options.input = text; })
+      ->required();
+  add_parsed_option(command, "OUTPUT", "", "Mesh to write; may be INPUT. An old file survives any failure",
+                    [&options](const std::string& text) { options.output = text; })
+      ->required();
+  add_algorithm_options(command, *settings);
+  add_stop_options(command, options.smoothing);
+  add_mesh_options(command, settings->run);
+  add_device_options(command, *settings);
+  add_result_options(command, settings->run);
+  command
+      .add_flag("--annotate", options.annotate,
+                "Add arrays to VTK output, or to PLY made of another format, in place of earlier ones: "
+                "trismooth:shape, trismooth:shape_before (cells), "
+                "trismooth:fixed, trismooth:displacement (points)")
+      ->group(option_group::results);
+  add_annotated_metrics_option(command, settings->run);
+  return {&command, [settings, &environment] { return run_smooth(*settings, environment); }};
+}
+
+}  // namespace trismooth

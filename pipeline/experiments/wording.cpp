@@ -1,0 +1,18 @@
+#include "trismooth/pipeline/experiments/wording.h"
+
+#include <fmt/format.h>
+
+#include "trismooth/quality/report_text.h"
+
+namespace trismooth::bench {
+
+std::string runs_text(int runs) {
+  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
+}
+
+std::string sweeps_text(const Spread& sweeps) {
+  return sweeps.least == sweeps.most ? fmt::format("{:.0f}", sweeps.median)
+                                     : fmt::format("{:.0f} ({:.0f}-{:.0f})", sweeps.median, sweeps.least, sweeps.most);
+}
+
+}  // namespace trismooth::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "trismooth/pipeline/generate/grid_predicates.h"
+
+namespace trismooth {
+
+// The standard's distributions and std::shuffle may differ between libraries. These take the generator's bits
+// themselves, so a seed means the same everywhere.
+
+/// A number uniformly random in [0, bound). Precondition: bound > 0. At most two draws on average.
+std::uint64_t random_below(std::uint64_t bound, std::mt19937_64& generator);
+
+/// The numbers 0 .. count-1 in an order uniformly random among all.
+std::vector<std::int32_t> random_permutation(std::int32_t count, std::mt19937_64& generator);
+
+/// `count` distinct grid points, in uniformly random order and uniformly random among those whose coordinates lie in
+/// [lowest, 2^bits). Points that turn up twice are drawn again.
+/// Precondition: 0 <= lowest < 2^bits, 1 <= bits <= 30, and there are at least twice as many such points.
+/// Complexity: O(count log(count)).
+std::vector<GridPoint> random_points(std::int64_t count, int bits, std::int32_t lowest, std::mt19937_64& generator);
+
+}  // namespace trismooth

@@ -1,0 +1,29 @@
+#include "trismooth/pipeline/input/fixed_array.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "trismooth/pipeline/input/array_names.h"
+
+namespace trismooth {
+
+FixedArray find_fixed_array(const MeshDocument& document, const std::optional<std::string>& name) {
+  const DataArray* const array = find_array_loosely(document.point_arrays, name.value_or("fixed"));
+  if (array == nullptr) {
+    if (name) {
+      throw std::invalid_argument("the file has no point array '" + *name +
+                                  "' to take fixed vertices from; it has: " + array_names(document.point_arrays));
+    }
+    return {};
+  }
+  FixedArray fixed{array->name, std::vector<std::uint8_t>(document.point_count(), 0)};
+  for (std::size_t v = 0; v < fixed.flags.size(); ++v) {
+    for (std::size_t i = 0; i < array->components; ++i) {
+      fixed.flags[v] |= array->value(v, i) != 0 ? std::uint8_t{1} : std::uint8_t{0};
+    }
+  }
+  fixed.vertices = std::ranges::count(fixed.flags, 1);
+  return fixed;
+}
+
+}  // namespace trismooth

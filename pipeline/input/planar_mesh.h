@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/mesh_io/halfedge/plane.h"
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// The planar triangle mesh that a document holds.
+struct PlanarMesh {
+  Plane plane;
+  std::vector<Point2<double>> points;       ///< every vertex of the document in coordinates of the plane, file units
+  std::vector<Triangle> triangles;          ///< in the document's order, each in the document's vertex order
+  std::vector<std::int32_t> cells;          ///< the document's cell of each triangle, ascending; a strip has several
+  std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
+  std::vector<std::uint8_t> in_cell;        ///< per vertex: 1 where any cell uses it; the others have no say at all
+  std::int64_t other_cells = 0;             ///< cells that are not triangles
+  std::int64_t repeating_triangles = 0;     ///< those of them that are triangles but for a vertex that they repeat
+  std::vector<std::string> notes;           ///< what the user should know, one sentence each
+};
+
+/// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
+void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path);
+
+/// The number type that coordinates are rounded to in the document's file.
+Storage storage_of(const MeshDocument& document);
+
+/// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
+/// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and
+/// a note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane())
+/// or have no finite coordinates in it (near the largest double), or the document holds cells but no triangle. A
+/// document without any cell is fine: nothing to smooth. Complexity: linear.
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
+
+/// Brings the document's mesh into the plane in which it is to be smoothed, now that it is known which vertices are
+/// `fixed` (not 0): see plane_of_fixed(). Throws ReadError as planar_mesh() does. True where plane and points are
+/// others now.
+bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
+                  const std::filesystem::path& path);
+
+/// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
+/// number that is not below `vertex_count`.
+std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
+
+}  // namespace trismooth

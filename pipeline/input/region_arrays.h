@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/region_array.h"
+
+namespace trismooth {
+
+/// The regions of a mesh. Two triangles are in one region if all arrays agree on them.
+struct Regions {
+  std::vector<RegionArray> arrays;        ///< the cell arrays that were obeyed, in the file's order
+  std::vector<std::int32_t> of_triangle;  ///< a number from 0 for each triangle; empty where no array was obeyed
+  std::vector<std::string> names;         ///< of each region: its value in the file; of several arrays, "1, 7"
+  std::vector<std::string> notes;         ///< what the user should know, one sentence each
+
+  std::int32_t count() const { return static_cast<std::int32_t>(names.size()); }
+};
+
+/// In place of names of arrays: no array gives regions.
+inline constexpr std::string_view no_region_arrays = "none";
+
+/// The regions by the cell arrays `names`, or, where that is empty, by those that the document has. `names` may be
+/// no_region_arrays alone.
+///
+/// Of the document's arrays every one of one component and two values or more counts that
+/// - has a name under which programs write regions (region_names.h) and changes across at most half of the inner edges,
+/// - or holds whole numbers or texts, few different ones (10, or one for 8 triangles), changes across at most a third
+///   of the inner edges and has no name of bookkeeping or of this program (annotation_names.h). A note names it.
+/// A note tells of an array that counts by its name but changes across more edges, and of those that fail at one of the
+/// other conditions alone. Where no array counts, one of a known name that has the same value everywhere is named.
+///
+/// Throws std::invalid_argument where `names` names no cell array of the document, or one of several components; the
+/// message lists those there are. Complexity: linear, and n log n where values change from triangle to triangle.
+Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names = {});
+
+}  // namespace trismooth

@@ -1,0 +1,105 @@
+#include "trismooth/pipeline/input/value_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace trismooth {
+
+namespace {
+
+template <class T>
+bool is_nan(T value) {
+  return std::isnan(static_cast<double>(value));
+}
+
+/// A total order of values: not-a-numbers last, all alike.
+template <class T>
+bool precedes(T a, T b) {
+  return a < b || (!is_nan(a) && is_nan(b));
+}
+
+template <class T>
+T stored_value(const DataArray& array, std::size_t row) {
+  T value{};
+  std::memcpy(&value, array.bytes.data() + row * sizeof(T), sizeof(T));
+  return value;
+}
+
+/// Numbers `count` items by the values that `value_of` gives.
+template <class ValueOf>
+ValueNumbers number_items(std::size_t count, const ValueOf& value_of) {
+  using T = std::invoke_result_t<ValueOf, std::size_t>;
+  struct Start {
+    T value;
+    std::int32_t item;
+  };
+  // Files list the cells of a region one after the other: only the items where the value changes are sorted.
+  std::vector<Start> starts;
+  const auto same = [](T a, T b) { return !precedes(a, b) && !precedes(b, a); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const T value = value_of(i);
+    if (i == 0 || !same(value, value_of(i - 1))) {
+      starts.push_back({value, static_cast<std::int32_t>(i)});
+    }
+  }
+  std::vector<Start> values = starts;
+  std::ranges::sort(values, [](const Start& a, const Start& b) {
+    return precedes(a.value, b.value) || (!precedes(b.value, a.value) && a.item < b.item);
+  });
+  // Not std::ranges::unique, of which Clang 14 cannot read libstdc++'s.
+  values.erase(
+      std::unique(values.begin(), values.end(), [&](const Start& a, const Start& b) { return same(a.value, b.value); }),
+      values.end());
+
+  ValueNumbers numbers;
+  numbers.of_item.resize(count);
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const auto found = std::ranges::lower_bound(values, starts[s].value, precedes<T>, &Start::value);
+    const std::size_t end = s + 1 < starts.size() ? static_cast<std::size_t>(starts[s + 1].item) : count;
+    std::fill(numbers.of_item.begin() + starts[s].item, numbers.of_item.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::int32_t>(found - values.begin()));
+  }
+  numbers.example.resize(values.size());
+  std::ranges::transform(values, numbers.example.begin(), &Start::item);
+  return numbers;
+}
+
+}  // namespace
+
+ValueNumbers number_values(const DataArray& array, std::span<const std::int32_t> rows) {
+  return visit_scalar_type(array.type, [&](auto zero) {
+    return number_items(rows.size(), [&](std::size_t item) {
+      return stored_value<decltype(zero)>(array, static_cast<std::size_t>(rows[item]));
+    });
+  });
+}
+
+ValueNumbers number_pairs(const ValueNumbers& first, const ValueNumbers& second) {
+  const std::int64_t width = second.count();
+  return number_items(first.of_item.size(),
+                      [&](std::size_t item) { return first.of_item[item] * width + second.of_item[item]; });
+}
+
+bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const ValueNumbers& numbers) {
+  return std::ranges::all_of(numbers.example, [&](std::int32_t item) {
+    const double value = array.value(static_cast<std::size_t>(rows[static_cast<std::size_t>(item)]));
+    return std::isfinite(value) && value == std::floor(value);
+  });
+}
+
+std::string value_text(const DataArray& array, std::size_t row) {
+  return visit_scalar_type(array.type, [&](auto zero) {
+    const auto value = stored_value<decltype(zero)>(array, row);
+    if constexpr (sizeof(value) == 1) {
+      return fmt::format("{}", static_cast<int>(value));
+    } else {
+      return is_nan(value) ? std::string("nan") : fmt::format("{}", value);
+    }
+  });
+}
+
+}  // namespace trismooth

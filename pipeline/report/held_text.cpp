@@ -1,0 +1,69 @@
+#include "trismooth/pipeline/report/held_text.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace trismooth {
+
+namespace {
+
+std::string quoted_names(const std::vector<RegionArray>& arrays) {
+  std::string names;
+  for (const RegionArray& array : arrays) {
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", array.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string held_text(const InputSummary& input) {
+  const HeldVertices& held = input.held;
+  std::vector<std::string> reasons;
+  const auto add = [&](std::int64_t count, std::string_view what) {
+    if (count > 0) {
+      reasons.push_back(fmt::format("{} {}", count, what));
+    }
+  };
+  add(held.boundary, "boundary");
+  if (input.region_arrays.empty()) {
+    add(held.interface, "interface");
+  } else if (input.regions == 1) {
+    reasons.push_back(fmt::format("no interface ({} is one region)", quoted_names(input.region_arrays)));
+  } else {
+    reasons.push_back(fmt::format("{} interface ({})", held.interface, quoted_names(input.region_arrays)));
+  }
+  add(held.non_manifold, "non-manifold");
+  add(held.bow_tie, "bow tie");
+  add(held.other_cells, "of other cells");
+  add(held.unused, "unused");
+  if (!input.fixed_array.empty()) {
+    reasons.push_back(fmt::format("{} by the array '{}'", input.fixed_array_vertices, input.fixed_array));
+  }
+  if (input.fixed_ids_vertices > 0 || !input.fixed_ids.empty()) {
+    reasons.push_back(fmt::format("{} by the file {}", input.fixed_ids_vertices, input.fixed_ids.string()));
+  }
+  std::string text = fmt::format("{} of {}", input.fixed_vertices, input.vertices);
+  for (const std::string& reason : reasons) {
+    text += (&reason == reasons.data() ? ": " : ", ") + reason;
+  }
+  if (held.several > 0) {
+    text += fmt::format(", {} of them {}", held.several, reasons.size() == 2 ? "both" : "for several reasons");
+  }
+  return text;
+}
+
+std::string_view describe(RegionReason reason) {
+  switch (reason) {
+    case RegionReason::named:
+      return "named with --region-array";
+    case RegionReason::known_name:
+      return "by its name";
+    case RegionReason::looks_like_regions:
+      break;
+  }
+  return "looks like regions";
+}
+
+}  // namespace trismooth

@@ -1,0 +1,376 @@
+#include "trismooth/pipeline/report/html_report.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/report/held_html.h"
+#include "trismooth/pipeline/report/html_page.h"
+#include "trismooth/pipeline/report/html_text.h"
+#include "trismooth/pipeline/report/region_table.h"
+#include "trismooth/pipeline/report/svg_charts.h"
+#include "trismooth/pipeline/report/text_report.h"
+#include "trismooth/pipeline/report/timings.h"
+#include "trismooth/pipeline/version.h"
+#include "trismooth/quality/report_text.h"
+
+namespace trismooth {
+
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;  // name and value, both HTML
+
+const QualityReport* after_of(const PipelineResult& result) {
+  return result.after ? &*result.after : nullptr;
+}
+
+const QualityReport& final_report(const PipelineResult& result) {
+  return result.after ? *result.after : result.before;
+}
+
+std::string header(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  const InputSummary& input = result.input;
+  std::string counts =
+      fmt::format("{} vertices, {} triangles", count_text(input.vertices), count_text(input.triangles));
+  if (input.other_cells > 0) {
+    counts += fmt::format(", {} other cells", count_text(input.other_cells));
+  }
+  std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
+                                 options.output ? "Mesh smoothing report" : "Mesh quality report",
+                                 escape_html(input.path.filename().string()), counts);
+  if (const auto& written = options.written()) {
+    html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n", escape_html(written->string()));
+  }
+  if (!record.date.empty()) {
+    html += fmt::format("<div class=\"soft\">{}</div>\n", escape_html(record.date));
+  }
+  return html + "</header>\n";
+}
+
+/// The outcome in one sentence or two.
+std::string lead(const PipelineResult& result, const RunRecord& record) {
+  const QualityReport& last = final_report(result);
+  std::string text;
+  if (last.triangles == 0) {
+    text = "The mesh has no triangles.";
+  } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
+    text = "No vertex could be improved: the mesh is as it was.";
+  } else if (result.smoothing) {
+    text = fmt::format("{} of {} free vertices moved in {} sweep{}; {}.", count_text(result.smoothing->moved_vertices),
+                       count_text(result.input.free_vertices), count_text(result.smoothing->sweeps),
+                       result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
+  }
+  if (last.inverted > 0) {
+    text += fmt::format(" {} of {} triangles {} inverted.", count_text(last.inverted), count_text(last.triangles),
+                        result.smoothing ? "are still" : "are");
+  } else if (last.triangles > 0) {
+    text += " No triangle is inverted.";
+  }
+  if (last.degenerate > 0) {
+    text += fmt::format(" {} without area.",
+                        last.degenerate == 1 ? "1 triangle is" : count_text(last.degenerate) + " triangles are");
+  }
+  const auto failed = std::ranges::count(record.gates, false, &GateOutcome::passed);
+  if (failed > 0) {
+    text += fmt::format(" {} of {} gate{} failed.", failed, record.gates.size(), record.gates.size() == 1 ? "" : "s");
+  }
+  if (result.smoothing && !result.smoothing->reproducible) {
+    text += fmt::format(" Not reproducible: {}.", escape_html(not_reproducible_text()));
+  }
+  const bool bad = last.inverted > 0 || last.degenerate > 0 || failed > 0;
+  return fmt::format("<p class=\"lead{}\">{}</p>\n", bad ? " bad" : "", text);
+}
+
+std::string card(std::string_view label, const std::string& value, const std::string& detail) {
+  return fmt::format(
+      "<div class=\"card\"><div class=\"label\">{}</div><div class=\"value\">{}</div><small>{}</small></div>\n", label,
+      value, detail);
+}
+
+/// "0.12 → 0.34", or the one value of a run without smoothing.
+std::string change(const PipelineResult& result, const std::string& before, const std::string& after) {
+  return result.after ? fmt::format("<span class=\"from\">{} →</span> {}", before, after) : before;
+}
+
+std::string metric_card(const PipelineResult& result, std::string_view label, Metric metric,
+                        double MetricSummary::*value, std::string_view unit, const std::string& detail) {
+  const double before = result.before[metric].*value;
+  const double after = final_report(result)[metric].*value;
+  TextPair texts = distinct_texts(before, after, decimals(metric));
+  texts.before += unit;
+  texts.after += unit;
+  return card(label, change(result, texts.before, texts.after), detail);
+}
+
+std::string cards(const PipelineResult& result) {
+  const QualityReport& last = final_report(result);
+  std::string html =
+      metric_card(result, "Smallest shape", Metric::shape, &MetricSummary::min, "", "1 is equilateral, 0 degenerate");
+  html += metric_card(result, "Mean shape", Metric::shape, &MetricSummary::mean, "",
+                      percent_text(last[Metric::shape].acceptable_fraction) + " % of the triangles are acceptable");
+  html += metric_card(result, "Smallest angle", Metric::min_angle, &MetricSummary::min, "°",
+                      "largest angle " + number_text(last[Metric::max_angle].max, decimals(Metric::max_angle)) + "°");
+  const std::string inverted =
+      fmt::format("<span class=\"{}\">{}</span>", last.inverted > 0 ? "bad" : "good", count_text(last.inverted));
+  html += card(
+      "Inverted triangles",
+      result.after ? fmt::format("<span class=\"from\">{} →</span> {}", count_text(result.before.inverted), inverted)
+                   : inverted,
+      fmt::format("of {}; {} degenerate", count_text(last.triangles),
+                  result.after && result.before.degenerate != last.degenerate
+                      ? fmt::format("{} → {}", count_text(result.before.degenerate), count_text(last.degenerate))
+                      : count_text(last.degenerate)));
+  const InputSummary& input = result.input;
+  html += card("Free vertices", count_text(input.free_vertices),
+               fmt::format("{} fixed{}", count_text(input.fixed_vertices),
+                           input.region_array.empty()
+                               ? std::string{}
+                               : fmt::format("; {} by array {}",
+                                             input.regions == 1 ? "1 region" : count_text(input.regions) + " regions",
+                                             escape_html(input.region_array))));
+  html += card("Time", duration_text(result.timings_ms.total),
+               result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
+  return "<div class=\"cards\">\n" + html + "</div>\n";
+}
+
+std::string metric_name_cell(const MetricInfo& metric) {
+  const std::string unit = metric.unit.empty() ? std::string{} : fmt::format(", {}", escape_html(metric.unit));
+  return html_cell(fmt::format("{}<small>{}{}</small>", metric.name, escape_html(metric.meaning), unit));
+}
+
+std::string metric_table(const QualityReport& report) {
+  std::string html =
+      "<table class=\"stack\">\n<thead><tr><th>metric</th><th>min</th><th>mean</th><th>max</th><th>std. deviation</th>"
+      "<th>acceptable %</th></tr></thead>\n<tbody>\n";
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& summary = report[metric.metric];
+    const int digits = decimals(metric.metric);
+    html += "<tr>" + metric_name_cell(metric) +
+            html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "", "min") +
+            html_cell(number_text(summary.mean, digits), "", "mean") +
+            html_cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong", "max") +
+            html_cell(number_text(summary.stddev, digits), "", "std. deviation") +
+            html_cell(percent_text(summary.acceptable_fraction), "", "acceptable %") + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string_view verdict_class(std::string_view verdict) {
+  if (verdict == "better") {
+    return "word good";
+  }
+  return verdict == "worse" ? "word bad" : verdict == "mixed" ? "word mixed" : "word soft";
+}
+
+std::string metric_table(const QualityReport& before, const QualityReport& after) {
+  std::string html =
+      "<table class=\"stack\">\n<thead><tr><th></th><th class=\"group start\" colspan=\"2\">min</th>"
+      "<th class=\"group start\" colspan=\"2\">mean</th><th class=\"group start\" colspan=\"2\">max</th>"
+      "<th class=\"group start\" colspan=\"2\">acceptable %</th><th></th></tr>\n<tr><th>metric</th>";
+  for (int group = 0; group < 4; ++group) {
+    html += "<th class=\"start\">before</th><th>after</th>";
+  }
+  html += "<th></th></tr></thead>\n<tbody>\n";
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& from = before[metric.metric];
+    const MetricSummary& to = after[metric.metric];
+    const int digits = decimals(metric.metric);
+    // The bad end of the range is what decides: it stands out, in enough digits to see a change.
+    const auto end_of_range = [&](std::string_view label, double MetricSummary::*value, bool is_bad_end) {
+      const TextPair texts = is_bad_end ? distinct_texts(from.*value, to.*value, digits)
+                                        : TextPair{number_text(from.*value, digits), number_text(to.*value, digits)};
+      return html_cell(texts.before, "start", label) + html_cell(texts.after, is_bad_end ? "strong" : "");
+    };
+    const std::string_view judged = verdict(metric.metric, from, to);
+    html += "<tr>" + metric_name_cell(metric) + end_of_range("min", &MetricSummary::min, metric.larger_is_better) +
+            end_of_range("mean", &MetricSummary::mean, false) +
+            end_of_range("max", &MetricSummary::max, !metric.larger_is_better) +
+            html_cell(percent_text(from.acceptable_fraction), "start", "acceptable %") +
+            html_cell(percent_text(to.acceptable_fraction)) + html_cell(std::string(judged), verdict_class(judged)) +
+            "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string histogram(const PipelineResult& result) {
+  std::string html = "<figure>\n";
+  if (result.after) {
+    html +=
+        "<div class=\"legend\"><span><i class=\"before\"></i>before</span><span><i class=\"after\"></i>after</span>"
+        "</div>\n";
+  }
+  return html + shape_histogram_svg(result.before, after_of(result)) + "</figure>\n";
+}
+
+std::string worst_table(std::string_view title, const QualityReport& report) {
+  std::string html = fmt::format(
+      "<div>\n{}<table>\n<thead><tr><th>element</th><th>shape</th><th>centroid</th></tr>"
+      "</thead>\n<tbody>\n",
+      title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title));
+  for (const WorstElement& element : report.worst) {
+    html += "<tr>" + html_cell(std::to_string(element.triangle)) +
+            html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
+            html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
+                                  element.all_fixed ? "<small>all corners fixed</small>" : ""),
+                      "text") +
+            "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n</div>\n";
+}
+
+std::string worst_tables(const PipelineResult& result) {
+  const std::string tables = result.after ? worst_table("before", result.before) + worst_table("after", *result.after)
+                                          : worst_table("", result.before);
+  return "<div class=\"two\">\n" + tables + "</div>\n";
+}
+
+std::string gates_table(const std::vector<GateOutcome>& gates) {
+  std::string html = "<table>\n<thead><tr><th>demanded</th><th>is</th><th></th></tr></thead>\n<tbody>\n";
+  for (const GateOutcome& outcome : gates) {
+    html += "<tr>" + html_cell(escape_html(gate_text(outcome.gate)), "text") + html_cell(gate_value_text(outcome)) +
+            html_cell(outcome.passed ? "passed" : "failed", outcome.passed ? "word good" : "word bad") + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string row_table(const Rows& rows) {
+  std::string html = "<table>\n<tbody>\n";
+  for (const auto& [name, value] : rows) {
+    html += "<tr>" + html_cell(name) + html_cell(value, "text") + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+std::string optional_number(double value, std::string_view unit) {
+  return value < std::numeric_limits<double>::infinity() ? fmt::format("{}{}", value, unit) : std::string("none");
+}
+
+std::string options_table(const PipelineOptions& options, const SmoothingResult& smoothing) {
+  const SmoothingOptions& chosen = options.smoothing;
+  Rows rows{{"method", std::string(to_string(chosen.method))},
+            {"form", std::string(to_string(chosen.form))},
+            {"precision", std::string(to_string(chosen.precision))},
+            {"guard", chosen.guard ? "on" : "off"},
+            {"sweep limit", chosen.max_sweeps == 0 ? "none" : count_text(chosen.max_sweeps)},
+            {"tolerance", fmt::format("{}", chosen.tolerance)},
+            {"time limit", optional_number(chosen.time_limit_seconds, " s")},
+            {"quality target", chosen.target_quality ? fmt::format("{}", *chosen.target_quality) : "none"}};
+  if (options.fixed_array) {
+    rows.emplace_back("fixed by array", escape_html(*options.fixed_array));
+  }
+  if (options.fixed_ids) {
+    rows.emplace_back("fixed by file", escape_html(options.fixed_ids->string()));
+  }
+  if (ran_on_device(smoothing)) {
+    rows.emplace_back("backend", escape_html(smoothing.backend));
+    rows.emplace_back("execution", escape_html(to_string(chosen.execution)));
+    rows.emplace_back("layout", escape_html(to_string(chosen.layout)));
+    rows.emplace_back("order", escape_html(to_string(chosen.order)));
+    rows.emplace_back("topology", escape_html(to_string(chosen.topology)));
+  } else {
+    rows.emplace_back("backend", escape_html(fmt::format("{}, {} thread{}", smoothing.backend, smoothing.threads,
+                                                         smoothing.threads == 1 ? "" : "s")));
+  }
+  if (!smoothing.backend_note.empty()) {
+    rows.emplace_back("why this backend", escape_html(smoothing.backend_note));
+  }
+  rows.emplace_back("device", escape_html(smoothing.device));
+  return row_table(rows);
+}
+
+std::string outcome_table(const SmoothingResult& smoothing) {
+  Rows rows{{"stopped by", escape_html(to_string(smoothing.stop_reason))},
+            {"sweeps", count_text(smoothing.sweeps)},
+            {"vertex updates", count_text(smoothing.vertex_updates)},
+            {"vertices moved", count_text(smoothing.moved_vertices)},
+            {"vertices put back", count_text(smoothing.reverted_vertices)},
+            {"guard rounds", count_text(smoothing.guard_rounds)}};
+  if (ran_on_device(smoothing)) {
+    rows.emplace_back("kernel launches", launches_text(smoothing));
+    rows.emplace_back("device memory", bytes_text(smoothing.device_memory_bytes));
+  }
+  rows.emplace_back("reproducible", smoothing.reproducible ? "yes" : "no");
+  return row_table(rows);
+}
+
+std::string timings_table(const PipelineTimings& timings) {
+  const auto parts = timing_parts(timings);
+  double longest = 0;
+  for (const auto& [name, milliseconds] : parts) {
+    longest = std::max(longest, milliseconds);
+  }
+  std::string html = "<table>\n<tbody>\n";
+  for (const auto& [name, milliseconds] : parts) {
+    if (milliseconds > 0) {
+      std::string label(name);
+      std::ranges::replace(label, '_', ' ');
+      html += fmt::format(
+          "<tr><td>{}</td><td>{}</td><td class=\"meter\"><span style=\"width: {:.1f}%\"></span></td></tr>\n", label,
+          duration_text(milliseconds), 100 * milliseconds / longest);
+    }
+  }
+  return html +
+         fmt::format("<tr><td>total</td><td>{}</td><td></td></tr>\n</tbody>\n</table>\n", duration_text(timings.total));
+}
+
+std::string footer(const PipelineResult& result, const RunRecord& record) {
+  const std::string hash =
+      result.smoothing ? fmt::format("; coordinates <code>{}</code> (XXH64)", hash_text(result.coordinates_hash)) : "";
+  const std::string command =
+      record.command.empty() ? std::string{} : fmt::format("<div><code>{}</code></div>\n", escape_html(record.command));
+  return fmt::format("<footer>\n{}trismooth {}; input <code>{}</code>{}; peak memory {}</footer>\n", command, version(),
+                     escape_html(result.input.path.string()), hash, bytes_text(result.peak_memory_bytes));
+}
+
+std::string body(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  std::string html = header(options, result, record) + lead(result, record);
+  const QualityReport* const after = after_of(result);
+  if (result.before.triangles > 0) {
+    html += cards(result);
+  }
+  if (!record.gates.empty()) {
+    html += html_section("Gates", gates_table(record.gates));
+  }
+  if (result.before.triangles > 0) {
+    html +=
+        html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
+    html += html_section("Distribution of shape", histogram(result));
+  }
+  if (!result.regions_before.empty()) {
+    html += html_section("Quality by region", region_table_html(result));
+  }
+  html += html_section("What is held fixed", held_html(result.input));
+  if (result.smoothing && !result.smoothing->history.empty()) {
+    html += html_section("Convergence", "<figure>\n" + convergence_svg(result.smoothing->history) + "</figure>\n");
+  }
+  if (!result.before.worst.empty()) {
+    html += html_section("Worst elements", worst_tables(result));
+  }
+  if (!result.warnings.empty()) {
+    html += html_section("Warnings", html_list(result.warnings));
+  }
+  if (!result.losses.empty()) {
+    html += html_section("Not kept", html_list(result.losses));
+  }
+  if (!result.notes.empty()) {
+    html += html_section("Notes", html_list(result.notes));
+  }
+  if (result.smoothing) {
+    html += "<div class=\"two\">\n" + html_section("Options", options_table(options, *result.smoothing)) +
+            html_section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
+  }
+  return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);
+}
+
+}  // namespace
+
+std::string html_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  return html_page(result.input.path.filename().string(), body(options, result, record));
+}
+
+}  // namespace trismooth

@@ -1,0 +1,213 @@
+#include "trismooth/pipeline/report/json_report.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/report/timings.h"
+#include "trismooth/pipeline/version.h"
+#include "trismooth/quality/metrics.h"
+
+namespace trismooth {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_json(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number_json(const std::optional<double>& value) {
+  return value ? number_json(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::optional<std::string>& text) {
+  return text ? Json(*text) : Json(nullptr);
+}
+
+template <class Enum>
+Json name_of(Enum value) {
+  return std::string(to_string(value));
+}
+
+Json input_json(const InputSummary& input) {
+  const HeldVertices& held = input.held;
+  Json region_arrays = Json::array();
+  for (const RegionArray& array : input.region_arrays) {
+    region_arrays.push_back({{"name", array.name},
+                             {"reason", name_of(array.reason)},
+                             {"values", array.values},
+                             {"held_vertices", array.held_vertices}});
+  }
+  return {{"path", input.path.string()},
+          {"format", name_of(input.format)},
+          {"vertices", input.vertices},
+          {"triangles", input.triangles},
+          {"other_cells", input.other_cells},
+          {"regions", input.regions},
+          {"region_array", input.region_array.empty() ? Json(nullptr) : Json(input.region_array)},
+          {"components", input.components},
+          {"fixed_vertices", input.fixed_vertices},
+          {"free_vertices", input.free_vertices},
+          {"reoriented_triangles", input.reoriented_triangles},
+          {"region_arrays", std::move(region_arrays)},
+          {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
+          {"fixed_array_vertices", input.fixed_array_vertices},
+          {"fixed_ids_vertices", input.fixed_ids_vertices},
+          {"held",
+           {{"boundary", held.boundary},
+            {"interface", held.interface},
+            {"non_manifold", held.non_manifold},
+            {"bow_tie", held.bow_tie},
+            {"other_cells", held.other_cells},
+            {"unused", held.unused},
+            {"named", held.named},
+            {"several", held.several}}}};
+}
+
+Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
+  const SmoothingOptions& smoothing = options.smoothing;
+  const auto& written = options.written();
+  Json annotated = Json::array();
+  for (const Metric metric : options.annotated_metrics) {
+    annotated.push_back(std::string(info(metric).name));
+  }
+  const bool annotates = options.annotate || options.annotated.has_value();
+  return {{"output", written ? Json(written->string()) : Json(nullptr)},
+          {"method", name_of(smoothing.method)},
+          {"form", name_of(smoothing.form)},
+          {"layout", name_of(smoothing.layout)},
+          {"backend", result ? result->backend : "cpu"},
+          {"execution", name_of(smoothing.execution)},
+          {"order", name_of(smoothing.order)},
+          {"topology", name_of(smoothing.topology)},
+          {"precision", name_of(smoothing.precision)},
+          {"guard", smoothing.guard},
+          {"threads", result ? result->threads : smoothing.threads},
+          {"max_sweeps", smoothing.max_sweeps},
+          {"tolerance", number_json(smoothing.tolerance)},
+          {"time_limit", number_json(smoothing.time_limit_seconds)},
+          {"target_quality", number_json(smoothing.target_quality)},
+          {"region_array", options.region_arrays.empty() ? Json(nullptr) : Json(options.region_arrays.front())},
+          {"region_arrays", options.region_arrays},
+          {"fixed_array", text_or_null(options.fixed_array)},
+          {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
+          {"annotate", annotates},
+          {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
+}
+
+Json quality_json(const QualityReport& report) {
+  Json metrics = Json::object();
+  for (const MetricInfo& metric : all_metrics()) {
+    const MetricSummary& summary = report[metric.metric];
+    metrics[std::string(metric.name)] = {{"min", number_json(summary.min)},
+                                         {"mean", number_json(summary.mean)},
+                                         {"max", number_json(summary.max)},
+                                         {"stddev", number_json(summary.stddev)},
+                                         {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
+  }
+  Json worst = Json::array();
+  for (const WorstElement& element : report.worst) {
+    worst.push_back({{"cell", element.triangle},
+                     {"shape", number_json(element.shape)},
+                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
+                     {"all_fixed", element.all_fixed}});
+  }
+  return {{"triangles", report.triangles},
+          {"inverted", report.inverted},
+          {"degenerate", report.degenerate},
+          {"metrics", std::move(metrics)},
+          {"histogram", {{"shape", report.shape_histogram}}},
+          {"worst", std::move(worst)}};
+}
+
+Json gates_json(const std::vector<GateOutcome>& outcomes) {
+  Json gates = Json::array();
+  for (const GateOutcome& outcome : outcomes) {
+    gates.push_back({{"gate", gate_text(outcome.gate)},
+                     {"name", outcome.gate.name},
+                     {"comparison", name_of(outcome.gate.comparison)},
+                     {"bound", number_json(outcome.gate.bound)},
+                     {"value", number_json(outcome.value)},
+                     {"passed", outcome.passed}});
+  }
+  return gates;
+}
+
+/// The report with the quality of each region.
+Json quality_json(const QualityReport& report, const std::vector<std::string>& names,
+                  const std::vector<RegionQuality>& qualities) {
+  Json regions = Json::array();
+  for (std::size_t r = 0; r < qualities.size(); ++r) {
+    const RegionQuality& quality = qualities[r];
+    regions.push_back({{"region", names[r]},
+                       {"triangles", quality.triangles},
+                       {"inverted", quality.inverted},
+                       {"shape", {{"min", number_json(quality.min_shape)}, {"mean", number_json(quality.mean_shape)}}},
+                       {"min_angle", {{"min", number_json(quality.min_angle)}}}});
+  }
+  Json json = quality_json(report);
+  json["regions"] = std::move(regions);
+  return json;
+}
+
+Json smoothing_json(const SmoothingResult& smoothing) {
+  Json history = Json::array();
+  for (const SweepRecord& record : smoothing.history) {
+    history.push_back({{"sweep", record.sweep},
+                       {"evaluated", record.evaluated},
+                       {"moved", record.moved},
+                       {"max_relative_move", number_json(record.max_relative_move)},
+                       {"min_shape", number_json(record.min_shape)}});
+  }
+  return {{"sweeps", smoothing.sweeps},
+          {"stop_reason", name_of(smoothing.stop_reason)},
+          {"vertex_updates", smoothing.vertex_updates},
+          {"moved_vertices", smoothing.moved_vertices},
+          {"reverted_vertices", smoothing.reverted_vertices},
+          {"device", smoothing.device},
+          {"backend_note", smoothing.backend_note.empty() ? Json(nullptr) : Json(smoothing.backend_note)},
+          {"reproducible", smoothing.reproducible},
+          {"kernel_launches", smoothing.kernel_launches},
+          {"child_launches", smoothing.child_launches},
+          {"device_memory_bytes", smoothing.device_memory_bytes},
+          {"guard_rounds", smoothing.guard_rounds},
+          {"history", std::move(history)}};
+}
+
+Json timings_json(const PipelineTimings& timings) {
+  Json json = Json::object();
+  for (const auto& [name, milliseconds] : timing_parts(timings)) {
+    json[std::string(name)] = number_json(milliseconds);
+  }
+  json["total"] = number_json(timings.total);
+  return json;
+}
+
+}  // namespace
+
+std::string json_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
+  const Json report{
+      {"trismooth", std::string(version())},
+      {"date", record.date},
+      {"command", record.command},
+      {"input", input_json(result.input)},
+      {"options", options_json(options, result.smoothing)},
+      {"before", quality_json(result.before, result.region_names, result.regions_before)},
+      {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
+      {"gates", gates_json(record.gates)},
+      {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
+      {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
+      {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},
+      {"warnings", result.warnings},
+      {"timings_ms", timings_json(result.timings_ms)},
+      {"peak_memory_bytes", result.peak_memory_bytes}};
+  constexpr int indent = 2;
+  return report.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace trismooth

@@ -1,0 +1,198 @@
+#include "trismooth/pipeline/report/text_report.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/report/held_text.h"
+#include "trismooth/pipeline/report/labelled_line.h"
+#include "trismooth/pipeline/report/region_table.h"
+#include "trismooth/quality/quality_table.h"
+#include "trismooth/smoothing/backend.h"
+
+namespace trismooth {
+
+namespace {
+
+std::string counted(std::int64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string input_lines(const InputSummary& input, TextDetail detail) {
+  std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),
+                                 counted(input.triangles, "triangle", "triangles"));
+  if (input.other_cells > 0) {
+    what += ", " + counted(input.other_cells, "other cell", "other cells");
+  }
+  if (input.components > 1) {
+    what += fmt::format(", {} components", input.components);
+  }
+  std::string text = labelled_line("input:", what);
+  if (input.reoriented_triangles > 0 && detail == TextDetail::all) {
+    text += labelled_line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
+                                          counted(input.reoriented_triangles, "triangle is", "triangles are")));
+  }
+  if (!input.region_array.empty() && detail == TextDetail::all) {
+    text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
+                                                  input.region_arrays.size() > 1 ? "s" : "", input.region_array));
+  }
+  return text + labelled_line("fixed:", held_text(input));
+}
+
+/// What a run that moved nothing should say, or nothing.
+std::string_view why_nothing_moved(const PipelineResult& result) {
+  if (result.smoothing->moved_vertices > 0) {
+    return {};
+  }
+  if (result.input.triangles == 0) {
+    return "nothing to smooth: the mesh has no triangles";
+  }
+  if (result.input.free_vertices == 0) {
+    return "nothing to smooth: every vertex is fixed";
+  }
+  if (result.smoothing->reverted_vertices > 0) {
+    return "nothing moved: every move would have made an element worse and was taken back";
+  }
+  return "nothing moved: no vertex could be improved";
+}
+
+std::string who_smoothed(const SmoothingResult& smoothing) {
+  return ran_on_device(smoothing)
+             ? smoothing.backend
+             : fmt::format("{} with {}", smoothing.backend, counted(smoothing.threads, "thread", "threads"));
+}
+
+std::string device_line(const SmoothingOptions& options, const SmoothingResult& smoothing) {
+  return labelled_line("device:", fmt::format("{}, {} execution, {} layout; launches: {}; {} of its memory",
+                                              smoothing.device, to_string(options.execution), to_string(options.layout),
+                                              launches_text(smoothing), bytes_text(smoothing.device_memory_bytes)));
+}
+
+/// The method, who ran it, and what else the user must know of that.
+std::string method_lines(const SmoothingOptions& options, const PipelineResult& result, TextDetail detail) {
+  const SmoothingResult& smoothing = *result.smoothing;
+  const PipelineTimings& timings = result.timings_ms;
+  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.commit;
+  std::string text = labelled_line(
+      "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", to_string(options.method), to_string(options.form),
+                                to_string(options.precision), who_smoothed(smoothing), duration_text(smoothing_time)));
+  if (!smoothing.backend_note.empty()) {
+    text += labelled_line("", smoothing.backend_note);
+  }
+  if (detail == TextDetail::all && ran_on_device(smoothing)) {
+    text += device_line(options, smoothing);
+  }
+  if (!smoothing.reproducible) {
+    text += labelled_line("order:", fmt::format("{}: {}", to_string(options.order), not_reproducible_text()));
+  }
+  return text;
+}
+
+std::string result_lines(const PipelineResult& result, TextDetail detail) {
+  const SmoothingResult& smoothing = *result.smoothing;
+  std::string text = fmt::format("{} moved in {}", counted(smoothing.moved_vertices, "vertex", "vertices"),
+                                 counted(smoothing.sweeps, "sweep", "sweeps"));
+  if (smoothing.reverted_vertices > 0) {
+    text += fmt::format(", {} put back", smoothing.reverted_vertices);
+  }
+  std::string reason(to_string(smoothing.stop_reason));
+  std::ranges::replace(reason, '_', ' ');
+  std::string lines = labelled_line("result:", text + "; stopped by " + reason);
+  if (detail == TextDetail::all) {
+    if (smoothing.reverted_vertices > 0) {
+      lines += labelled_line("", fmt::format("put back where they had made an element worse, in {}",
+                                             counted(smoothing.guard_rounds, "round", "rounds")));
+    }
+    lines += labelled_line("", std::string(describe(smoothing.stop_reason)));
+  }
+  return lines;
+}
+
+std::string inverted_line(const PipelineResult& result) {
+  const std::int64_t before = result.before.inverted;
+  const std::int64_t now = result.after ? result.after->inverted : before;
+  if (now == 0) {
+    return result.after && before > 0 ? fmt::format("No inverted triangles remain ({} before).\n", before)
+                                      : std::string{};
+  }
+  if (!result.after) {
+    return fmt::format("{} inverted.\n", counted(now, "triangle is", "triangles are"));
+  }
+  return fmt::format("{} ({} before).\n", counted(now, "inverted triangle remains", "inverted triangles remain"),
+                     before);
+}
+
+}  // namespace
+
+std::string_view describe(StopReason reason) {
+  switch (reason) {
+    case StopReason::fixed_point:
+      return "no vertex moved any more";
+    case StopReason::tolerance:
+      return "every move was within the tolerance";
+    case StopReason::sweep_limit:
+      return "the sweep limit was reached";
+    case StopReason::time_limit:
+      return "the time was up";
+    case StopReason::quality_target:
+      return "the quality target was reached";
+    case StopReason::cancelled:
+      break;
+  }
+  return "it was cancelled";
+}
+
+std::string duration_text(double milliseconds) {
+  if (milliseconds < 9.95) {
+    return fmt::format("{:.2f} ms", milliseconds);
+  }
+  return milliseconds < 999.5 ? fmt::format("{:.0f} ms", milliseconds) : fmt::format("{:.1f} s", milliseconds / 1000);
+}
+
+bool ran_on_device(const SmoothingResult& smoothing) {
+  return smoothing.backend != cpu_backend().name();
+}
+
+std::string launches_text(const SmoothingResult& smoothing) {
+  std::string text = fmt::format("{} by the host", smoothing.kernel_launches);
+  if (smoothing.child_launches > 0) {
+    text += fmt::format(", {} by the device", smoothing.child_launches);
+  }
+  return text;
+}
+
+std::string_view not_reproducible_text() {
+  return "threads saw each other's moves in no fixed order; another run gives another result";
+}
+
+std::string text_report(const PipelineOptions& options, const PipelineResult& result, TextDetail detail) {
+  std::string text = input_lines(result.input, detail);
+  if (result.smoothing) {
+    text += method_lines(options.smoothing, result, detail);
+    text += result_lines(result, detail);
+  }
+  const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
+  text += '\n' +
+          (is_summary ? format_summary(result.before, *result.after)
+                      : format_table(result.before, result.after ? &*result.after : nullptr)) +
+          '\n';
+  if (result.smoothing) {
+    if (const std::string_view why = why_nothing_moved(result); !why.empty()) {
+      text += fmt::format("{}\n", why);
+    }
+  }
+  text += inverted_line(result);
+  if (!result.smoothing && result.region_names.size() <= few_regions) {
+    text += region_table(result);
+  } else if (!result.smoothing) {
+    text += fmt::format("{} regions: --verbose shows the worst of them, a report has them all\n",
+                        result.region_names.size());
+  }
+  if (const auto& written = options.written()) {
+    text += labelled_line("written:", written->string());
+  }
+  return text;
+}
+
+}  // namespace trismooth

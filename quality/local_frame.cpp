@@ -1,9 +1,0 @@
-#include "trismooth/quality/local_frame.h"
-
-namespace trismooth {
-
-LocalFrame local_frame(std::span<const Point2<double>> stored) {
-  return local_frame(stored, [](std::size_t) { return true; });
-}
-
-}  // namespace trismooth

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+
+namespace trismooth {
+
+/// What the commit took back.
+struct GuardOutcome {
+  std::vector<std::int32_t> reverted;  ///< vertices, ascending
+  std::int64_t rounds = 0;             ///< rounds that took something back
+};
+
+/// The never-worse commit. `before` and `after` are the coordinates as they were stored and as they would be, both in
+/// the local frame, one for every vertex. In rounds: let T be the smallest quality before among the elements of the
+/// vertices that are elsewhere now; all moved vertices of all elements that offend (see offends) go back to where they
+/// were, at once; until none offends. Afterwards no element that was valid is invalid, and none is both worse than it
+/// was and worse than the worst element around the vertices that stay moved was. T is one number for the whole mesh; it
+/// is found again in every round, for it rises when the vertices around that element have gone back. Elements are
+/// evaluated in float64 in canonical corner order (smallest input index first), so each gives the same bits from every
+/// vertex, in the report too. Ends: each round returns a vertex. Complexity: one pass over the elements of moved
+/// vertices; a round costs what it takes back (times log n), not the mesh.
+GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
+                              std::span<Point2<double>> after, Workers& workers);
+
+}  // namespace trismooth

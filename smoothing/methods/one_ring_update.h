@@ -1,0 +1,56 @@
+#pragma once
+
+#include "trismooth/base/point2.h"
+
+namespace trismooth {
+
+/// What a method says of one vertex: a new position, or none. A method is a type with one static function
+///
+///     template <class T, class Ring> Move<T> update(Point2<T> position, const Ring& ring);
+///
+/// where ring.size() is the number of neighbours and ring[i] the position of neighbour i, counter-clockwise. Every
+/// backend calls exactly this function; a new method is one new header and an entry in methods.h. A method that uses
+/// the smallest shape quotient around the vertex has another one that takes it as a third argument: see
+/// update_with_minimum().
+template <class T>
+struct Move {
+  Point2<T> position;
+  bool moved;
+};
+
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> stay(Point2<T> position) {
+  return {position, false};
+}
+
+/// A move to `target`, unless that is where the vertex is or no finite point.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> move_to(Point2<T> position, Point2<T> target) {
+  const bool finite = target.x - target.x == T(0) && target.y - target.y == T(0);
+  return finite && !(target == position) ? Move<T>{target, true} : stay(position);
+}
+
+/// The Laplacian position: the mean of the neighbours, summed in ring order (the paper's equations 1 and 2).
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE Point2<T> laplacian_position(const Ring& ring) {
+  Point2<T> sum = ring[0];
+  for (int i = 1; i < ring.size(); ++i) {
+    const Point2<T> neighbour = ring[i];
+    sum.x += neighbour.x;
+    sum.y += neighbour.y;
+  }
+  const T weight = T(1) / static_cast<T>(ring.size());
+  return {sum.x * weight, sum.y * weight};
+}
+
+/// The update of a vertex whose smallest shape quotient is stored, by the methods that have a use for it.
+template <class Update, class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(Point2<T> position, const Ring& ring, T minimum) {
+  if constexpr (requires { Update::template update<T>(position, ring, minimum); }) {
+    return Update::template update<T>(position, ring, minimum);
+  } else {
+    return Update::template update<T>(position, ring);
+  }
+}
+
+}  // namespace trismooth

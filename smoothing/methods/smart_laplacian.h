@@ -1,0 +1,81 @@
+#pragma once
+
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
+
+namespace trismooth {
+
+/// Calls `visit(quotient)` with the shape quotient of each triangle (v, n_i, n_i+1) around `position`, evaluated in
+/// this corner order. Edge vectors and squares are shared between triangles; the operations are those of
+/// shape_quotient.
+template <class T, class Ring, class Visit>
+constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
+  const int size = ring.size();
+  const Point2<T> first = ring[0];
+  const Point2<T> first_spoke = first - position;
+  const T first_squared = squared_length(first_spoke);
+  Point2<T> neighbour = first;
+  Point2<T> spoke = first_spoke;
+  T squared = first_squared;
+  for (int i = 1; i < size; ++i) {
+    const Point2<T> next = ring[i];
+    const Point2<T> next_spoke = next - position;
+    const T next_squared = squared_length(next_spoke);
+    visit(shape_quotient(spoke, next_spoke, squared, squared_length(next - neighbour), next_squared));
+    neighbour = next;
+    spoke = next_spoke;
+    squared = next_squared;
+  }
+  visit(shape_quotient(spoke, first_spoke, squared, squared_length(first - neighbour), first_squared));
+}
+
+/// The smallest shape quotient of the triangles around `position`. Without branches, here and below: on a CPU a wrong
+/// guess costs more than the divisions that an early exit saves.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring& ring) {
+  T worst = 1;  // no quotient is above 1 / (2 sqrt(3))
+  for_ring_quotients(position, ring, [&](T quotient) { worst = quotient < worst ? quotient : worst; });
+  return worst;
+}
+
+/// Whether the smallest shape quotient of the triangles around `position` is larger than `bound`, that is, every one of
+/// them is. A quotient that is no number is not.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE bool is_better_than(T bound, Point2<T> position, const Ring& ring) {
+  bool better = true;
+  for_ring_quotients(position, ring, [&](T quotient) { better &= quotient > bound; });
+  return better;
+}
+
+/// How many of the triangles around `position` are inverted.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE int inverted_triangles(Point2<T> position, const Ring& ring) {
+  int inverted = 0;
+  for_ring_quotients(position, ring, [&](T quotient) { inverted += quotient < T(0) ? 1 : 0; });
+  return inverted;
+}
+
+/// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
+/// quality of the vertex's triangles gets strictly larger, and no more of them are inverted than before.
+struct SmartLaplacian {
+  template <class T, class Ring>
+  static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
+    return update(position, ring, worst_quotient(position, ring));
+  }
+
+  /// The same where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
+  template <class T, class Ring>
+  static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
+    const Point2<T> target = laplacian_position<T>(ring);
+    if (!is_better_than(before, target, ring)) {
+      return stay(position);
+    }
+    // Where nothing was inverted, a larger minimum says that nothing is.
+    if (before < T(0) && inverted_triangles(target, ring) > inverted_triangles(position, ring)) {
+      return stay(position);
+    }
+    return move_to(position, target);
+  }
+};
+
+}  // namespace trismooth

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+
+namespace trismooth {
+
+/// The colours of Form B.
+struct Colouring {
+  std::vector<std::int32_t> colours;  ///< one a vertex of the view, from 0; -1 for those without a ring
+  std::int32_t count = 0;             ///< colours used
+};
+
+/// Greedy colouring of the free vertices in the order of splitmix64(input index): each gets the smallest colour that no
+/// neighbour before it has. Vertices of one colour share no edge. In that order the dependences are short as a rule, so
+/// it is done in parallel (Jones and Plassmann 1993), and where they are long, serially; the colours are those of the
+/// serial algorithm, whatever the numbering of the view and the number of threads. Complexity: linear, n log n where
+/// the dependences are long.
+Colouring colour_free_vertices(const RingView& rings, Workers& workers);
+
+/// The serial algorithm for the rest: colours the free vertices whose colour is -1 in the order of splitmix64(input
+/// index). One colour a vertex of the view; those that come before an uncoloured neighbour have theirs already.
+/// Complexity: a scan of `colours`, and n log n in the vertices that are left and their neighbours.
+void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours);
+
+}  // namespace trismooth

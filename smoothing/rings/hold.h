@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/base/host_device.h"
+
+/// Why a vertex is held fixed: bits of one byte a vertex.
+namespace trismooth::hold {
+
+inline constexpr std::uint8_t boundary = 1;      ///< on an edge with one triangle
+inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three triangles or more
+inline constexpr std::uint8_t bow_tie = 4;       ///< its triangles form more than one fan
+inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
+inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
+inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
+inline constexpr std::uint8_t named = 64;        ///< named by the user
+
+/// Whether a vertex held for these reasons is of no cell at all. It stays where it is, and nothing depends on where.
+constexpr TRISMOOTH_HOST_DEVICE bool is_unused(std::uint8_t reasons) {
+  return (reasons & (isolated | other_cell)) == isolated;
+}
+
+}  // namespace trismooth::hold

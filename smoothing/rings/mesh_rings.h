@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+
+namespace trismooth {
+
+/// All that is to be known of a mesh's connectivity, whoever found it (the host or a device: the same in every number).
+struct MeshRings {
+  std::vector<std::uint8_t> fixed;     ///< per vertex: why it is fixed, bits of namespace hold; 0 is free
+  std::vector<std::uint8_t> reversed;  ///< per triangle: 1 where it is listed clockwise in the consistent orientation
+  std::int32_t components = 0;         ///< connected through edges with exactly two triangles
+  std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
+  OneRings rings;                         ///< of the free vertices
+  std::string note;                       ///< what the user is to know of how they were found, or empty
+};
+
+/// Answers the rings of a mesh of which the rest is known: its topology, and all of MeshRings but the rings.
+using RingFinder = std::function<OneRings(const TriangleTopology& topology, const MeshRings& found)>;
+
+/// Finds it on the host. `points` are in the local frame, one for every vertex. `find_rings` finds the rings; without
+/// it they come from the triangle list. Throws MeshError and std::invalid_argument as connect_triangles() and
+/// fixed_vertices() do.
+MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                          const Constraints& constraints, Workers& workers, const RingFinder& find_rings = {});
+
+}  // namespace trismooth

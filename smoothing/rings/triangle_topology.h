@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/rings/hold.h"
+
+namespace trismooth {
+
+/// How triangles hang together. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
+struct TriangleTopology {
+  static constexpr std::int32_t no_twin = -1;     ///< a boundary edge
+  static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
+
+  std::int32_t vertex_count = 0;
+  std::vector<std::int32_t> twins;      ///< per halfedge: the other triangle's halfedge on the edge
+  std::vector<std::uint8_t> parity;     ///< per triangle: 1 where it is listed against its component's lowest triangle
+  std::vector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
+  std::int32_t components = 0;          ///< connected through edges with exactly two triangles
+  std::vector<std::int32_t> corner;     ///< per vertex: the lowest halfedge that starts there; -1: isolated
+  std::vector<std::int32_t> degree;     ///< per vertex: its triangles
+  std::vector<std::uint8_t> hold;       ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
+};
+
+/// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index out of
+/// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
+/// linear, but for sorting the edges of each vertex.
+TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
+
+/// The orientation of every triangle.
+struct Orientation {
+  std::vector<std::uint8_t> reversed;     ///< 1 where the triangle is listed clockwise in the consistent orientation
+  std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
+};
+
+/// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
+/// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows.
+Orientation orient(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                   std::span<const Point2<double>> points);
+
+/// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative
+/// value where there is none. A corner is named by the halfedge that starts there.
+inline std::int32_t corner_across(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                  std::int32_t vertex, std::int32_t across) {
+  const std::int32_t twin = topology.twins[across];
+  if (twin < 0) {
+    return twin;
+  }
+  const std::int32_t triangle = twin / 3;
+  const std::int32_t i = twin % 3;
+  return triangles[triangle][i] == vertex ? twin : 3 * triangle + (i + 1) % 3;
+}
+
+/// The corner after `corner` around its vertex, counter-clockwise in the orientation `reversed` (either `parity` or
+/// Orientation::reversed), or a negative value at the end of an open fan.
+inline std::int32_t next_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                std::span<const std::uint8_t> reversed, std::int32_t corner) {
+  const std::int32_t t = corner / 3;
+  const std::int32_t i = corner % 3;
+  return corner_across(topology, triangles, triangles[t][i], reversed[t] != 0 ? corner : 3 * t + (i + 2) % 3);
+}
+
+/// The same, clockwise.
+inline std::int32_t previous_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                    std::span<const std::uint8_t> reversed, std::int32_t corner) {
+  const std::int32_t t = corner / 3;
+  const std::int32_t i = corner % 3;
+  return corner_across(topology, triangles, triangles[t][i], reversed[t] != 0 ? 3 * t + (i + 2) % 3 : corner);
+}
+
+/// The neighbour with which the corner's triangle begins, counter-clockwise around the corner's vertex.
+inline std::int32_t leading_neighbour(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
+                                      std::int32_t corner) {
+  const std::int32_t triangle = corner / 3;
+  return triangles[triangle][(corner % 3 + (reversed[triangle] != 0 ? 2 : 1)) % 3];
+}
+
+}  // namespace trismooth

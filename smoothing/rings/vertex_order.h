@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+
+namespace trismooth {
+
+/// The vertices in the order in which the smoothing stores them: free ones first, each kind along a Hilbert curve, so
+/// that neighbours are near each other in memory. Purely internal: no result depends on it.
+/// `points` are in the local frame. Complexity: n log n.
+std::vector<std::int32_t> hilbert_order(std::span<const Point2<double>> points, const OneRings& rings,
+                                        Workers& workers);
+
+}  // namespace trismooth

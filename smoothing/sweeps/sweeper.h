@@ -1,0 +1,225 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/methods/methods.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/rings/packed_rings.h"
+#include "trismooth/smoothing/sweeps/gathered_ring.h"
+#include "trismooth/smoothing/sweeps/stop_rule.h"
+#include "trismooth/smoothing/sweeps/sweep_tally.h"
+
+namespace trismooth {
+
+/// Runs sweeps in working precision T over packed points, to a stop. Form A writes into a second buffer and swaps;
+/// Form B writes in place, batch by batch. A vertex is marked when it or a neighbour moves and evaluated only if it is
+/// marked: the update is a function of the closed neighbourhood alone, so an unchanged one gives the same answer, which
+/// was "stay" or has been followed.
+template <class T>
+class Sweeper {
+ public:
+  Sweeper(const PackedRings& rings, const SmoothingOptions& options, Workers& workers)
+      : rings_(rings), view_(rings.view()), options_(options), workers_(workers) {}
+
+  /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
+  /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
+  void run(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+    visit_method(options_.method, [&]<class Update>(Update) {
+      workers_.run([&] { run_with<Update>(points, fixed_quotient, result); });
+    });
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::int64_t grain = 1024;
+
+  template <class Update>
+  void run_with(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+    const auto start = Clock::now();
+    const bool swaps = options_.form == Form::swap;
+    const auto free_count = static_cast<std::size_t>(rings_.free_count());
+    marked_.assign(free_count, 1);
+    if (swaps) {
+      other_points_ = points;
+      other_marked_.assign(free_count, 0);
+    }
+    if (reached_target(points, fixed_quotient)) {
+      result.stop_reason = StopReason::quality_target;
+      return;
+    }
+    for (;;) {
+      const SweepTally<T> tally = swaps ? sweep<Update>(points, other_points_, marked_, other_marked_)
+                                        : sweep<Update>(points, points, marked_, marked_);
+      if (swaps) {
+        points.swap(other_points_);
+        marked_.swap(other_marked_);
+      }
+      SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
+                         static_cast<double>(std::sqrt(tally.max_relative_squared))};
+      if (measures_shape()) {
+        record.min_shape = min_shape(points, fixed_quotient);
+      }
+      result.vertex_updates += tally.evaluated;
+      result.history.push_back(record);
+      if (const auto reason = reason_to_stop(tally, record, start)) {
+        result.stop_reason = *reason;
+        return;
+      }
+    }
+  }
+
+  std::optional<StopReason> reason_to_stop(const SweepTally<T>& tally, const SweepRecord& record,
+                                           Clock::time_point start) const {
+    const bool stopped = options_.progress && options_.progress(record) == Progress::stop;
+    if (const auto reason = reason_in_sweep(tally.moved, tally.within_tolerance, record.min_shape,
+                                            options_.target_quality.value_or(no_target))) {
+      return reason;
+    }
+    if (stopped) {
+      return StopReason::cancelled;
+    }
+    if (record.sweep == options_.max_sweeps) {
+      return StopReason::sweep_limit;
+    }
+    if (std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_seconds) {
+      return StopReason::time_limit;
+    }
+    return std::nullopt;
+  }
+
+  template <class Update>
+  SweepTally<T> sweep(const std::vector<Point2<T>>& from, std::vector<Point2<T>>& to, std::vector<std::uint8_t>& marked,
+                      std::vector<std::uint8_t>& marked_next) {
+    SweepTally<T> total;
+    std::mutex joining;
+    for (std::size_t batch = 0; batch + 1 < rings_.batches.size(); ++batch) {
+      const std::int32_t first = rings_.batches[batch];
+      workers_.for_blocks(rings_.batches[batch + 1] - first, grain, [&](std::int64_t begin, std::int64_t end) {
+        SweepTally<T> tally;
+        update_block<Update>(first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from, to,
+                             marked, marked_next, tally);
+        const std::lock_guard lock(joining);
+        total.join(tally);
+      });
+    }
+    return total;
+  }
+
+  template <class Update>
+  void update_block(std::int32_t begin, std::int32_t end, std::span<const Point2<T>> from, std::span<Point2<T>> to,
+                    std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next, SweepTally<T>& tally) {
+    RingGatherer<T> gatherer;
+    const bool all = options_.evaluation == Evaluation::all;
+    const T tolerance = static_cast<T>(options_.tolerance);
+    const auto next = [&](std::int32_t v) { return all || v == end ? v : next_marked(marked, v, end); };
+    for (std::int32_t v = next(begin); v < end;) {
+      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next one is
+      // known.
+      const std::int32_t following = next(v + 1);
+      if (following < end) {
+        prefetch_ring(from, following);
+      }
+      // No other thread touches this mark now.
+      marked[v] = 0;
+      const Point2<T> position = from[v];
+      const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
+        const Move<T> move = Update::template update<T>(position, ring);
+        to[v] = move.position;
+        if (move.moved) {
+          tally.join(tally_of_move(position, move.position, ring, tolerance));
+        }
+        return move.moved;
+      });
+      ++tally.evaluated;
+      if (moved) {
+        mark_neighbourhood(v, marked_next);
+      }
+      v = following;
+    }
+  }
+
+  /// Asks for the positions of a ring before they are needed: on large meshes waiting for them is a third of the time.
+  /// Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and stores nothing.
+  [[gnu::always_inline]] void prefetch_ring(std::span<const Point2<T>> points, std::int32_t v) const {
+    for (const std::int32_t neighbour : view_[v]) {
+      __builtin_prefetch(&points[neighbour]);
+    }
+  }
+
+  /// The first marked vertex of [v, end), or end; eight at a time where none is marked.
+  static std::int32_t next_marked(std::span<const std::uint8_t> marked, std::int32_t v, std::int32_t end) {
+    std::uint64_t eight = 0;
+    while (v + 8 <= end) {
+      std::memcpy(&eight, marked.data() + v, sizeof(eight));
+      if (eight != 0) {
+        break;
+      }
+      v += 8;
+    }
+    while (v < end && marked[v] == 0) {
+      ++v;
+    }
+    return v;
+  }
+
+  void mark_neighbourhood(std::int32_t v, std::span<std::uint8_t> marked) const {
+    const auto mark = [&](std::int32_t vertex) {
+      // Threads may mark the same vertex at the same time, with the same value.
+      std::atomic_ref<std::uint8_t> flag(marked[vertex]);
+      if (flag.load(std::memory_order_relaxed) == 0) {
+        flag.store(1, std::memory_order_relaxed);
+      }
+    };
+    mark(v);
+    for (const std::int32_t neighbour : view_[v]) {
+      if (neighbour < rings_.free_count()) {
+        mark(neighbour);
+      }
+    }
+  }
+
+  bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
+
+  bool reached_target(std::span<const Point2<T>> points, double fixed_quotient) {
+    return options_.target_quality && min_shape(points, fixed_quotient) >= *options_.target_quality;
+  }
+
+  /// The smallest shape of all triangles, seen from their free vertices.
+  double min_shape(std::span<const Point2<T>> points, double fixed_quotient) {
+    T smallest = std::numeric_limits<T>::infinity();
+    std::mutex joining;
+    workers_.for_blocks(rings_.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
+      RingGatherer<T> gatherer;
+      T worst = std::numeric_limits<T>::infinity();
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        worst = std::min(worst, gatherer.with_ring(points, view_[v],
+                                                   [&](const auto& ring) { return worst_quotient(points[v], ring); }));
+      }
+      const std::lock_guard lock(joining);
+      smallest = std::min(smallest, worst);
+    });
+    return min_shape_of(static_cast<double>(smallest), fixed_quotient);
+  }
+
+  const PackedRings& rings_;
+  RingView view_;
+  const SmoothingOptions& options_;
+  Workers& workers_;
+  std::vector<Point2<T>> other_points_;
+  std::vector<std::uint8_t> marked_;
+  std::vector<std::uint8_t> other_marked_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,64 @@
+#include "trismooth/base/enum_text.h"
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+#include "catch.h"
+
+using trismooth::parse_enum;
+using trismooth::to_string;
+using trismooth::valid_texts;
+
+namespace {
+
+template <class Enum>
+std::string complaint(std::string_view text) {
+  try {
+    parse_enum<Enum>(text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("every text reads back as its value, and no two are alike", "", trismooth::Method, trismooth::Form,
+                   trismooth::Layout, trismooth::Execution, trismooth::Order, trismooth::Precision,
+                   trismooth::StopReason) {
+  std::set<std::string_view> texts;
+  std::set<TestType> values;
+  for (const auto& [value, text] : trismooth::EnumText<TestType>::texts) {
+    CHECK(to_string(value) == text);
+    CHECK(parse_enum<TestType>(text) == value);
+    CHECK(texts.insert(text).second);
+    CHECK(values.insert(value).second);
+    // A misspelt one is refused with a message that lists this and all others.
+    const std::string said = complaint<TestType>(std::string(text) + "x");
+    CHECK(said.find(text) != std::string::npos);
+    CHECK(said.find(valid_texts<TestType>()) != std::string::npos);
+  }
+}
+
+TEST_CASE("the texts are those of the command line and the JSON report") {
+  CHECK(valid_texts<trismooth::Method>() == "smart, laplacian, weighted");
+  CHECK(valid_texts<trismooth::Form>() == "a, b");
+  CHECK(valid_texts<trismooth::Layout>() == "aos, soa");
+  CHECK(valid_texts<trismooth::Execution>() == "resident, single-block, cdp");
+  CHECK(valid_texts<trismooth::Order>() == "colour, unordered");
+  CHECK(valid_texts<trismooth::Precision>() == "double, single");
+  CHECK(to_string(trismooth::Form::swap) == "a");
+  CHECK(to_string(trismooth::StopReason::quality_target) == "quality_target");
+}
+
+TEST_CASE("a bad value's message says what it is and which are valid") {
+  CHECK(complaint<trismooth::Form>("c") == "unknown form 'c'; valid are a, b");
+  CHECK(complaint<trismooth::Method>("") == "unknown method ''; valid are smart, laplacian, weighted");
+  CHECK(complaint<trismooth::Method>("Smart") == "unknown method 'Smart'; valid are smart, laplacian, weighted");
+  CHECK(complaint<trismooth::Precision>("half") == "unknown precision 'half'; valid are double, single");
+}

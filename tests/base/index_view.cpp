@@ -1,0 +1,120 @@
+#include "trismooth/base/index_view.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "trismooth/base/errors.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using test_meshes::Mesh;
+using trismooth::IndexView;
+using trismooth::Triangle;
+
+namespace {
+
+static_assert(std::is_convertible_v<const std::vector<std::int32_t>&, IndexView>);
+static_assert(std::is_convertible_v<std::vector<std::size_t>, IndexView>);
+static_assert(std::is_convertible_v<std::span<const std::uint32_t>, IndexView>);
+static_assert(std::is_convertible_v<std::vector<std::array<long long, 3>>&, IndexView>);
+static_assert(std::is_convertible_v<const Eigen::Matrix3Xi&, IndexView>);
+static_assert(!std::is_convertible_v<std::vector<double>&, IndexView>);
+static_assert(!std::is_convertible_v<std::vector<std::uint8_t>&, IndexView>);
+static_assert(!std::is_convertible_v<std::vector<std::array<int, 4>>&, IndexView>);
+static_assert(!std::is_convertible_v<Eigen::MatrixXi&, IndexView>);
+
+std::vector<Triangle> seen(const IndexView& view) {
+  std::vector<Triangle> converted;
+  const auto triangles = view.triangles(std::numeric_limits<std::int32_t>::max(), converted);
+  REQUIRE(view.size() == triangles.size());
+  return {triangles.begin(), triangles.end()};
+}
+
+template <class T>
+void check_type(const Mesh& mesh) {
+  const std::vector<std::int32_t> indices = mesh.indices();
+  const std::vector<T> numbers(indices.begin(), indices.end());
+  CHECK(seen(numbers) == mesh.triangles);
+  CHECK(seen(std::span(numbers)) == mesh.triangles);
+  std::vector<std::array<T, 3>> triples;
+  Eigen::Matrix<T, 3, Eigen::Dynamic> columns(3, static_cast<Eigen::Index>(mesh.triangles.size()));
+  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> rows(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
+  for (const Triangle& t : mesh.triangles) {
+    const auto row = static_cast<Eigen::Index>(triples.size());
+    triples.push_back({static_cast<T>(t[0]), static_cast<T>(t[1]), static_cast<T>(t[2])});
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      columns(k, row) = rows(row, k) = triples.back()[static_cast<std::size_t>(k)];
+    }
+  }
+  CHECK(seen(triples) == mesh.triangles);
+  CHECK(seen(columns) == mesh.triangles);
+  CHECK(seen(columns.transpose()) == mesh.triangles);
+  CHECK(seen(trismooth::triangle_rows(rows)) == mesh.triangles);
+  using Map = Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+  CHECK(seen(Map(numbers.data(), static_cast<Eigen::Index>(triples.size()), 3)) == mesh.triangles);
+}
+
+std::string refusal(const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const std::invalid_argument& error) {
+    return std::string("argument: ") + error.what();
+  } catch (const trismooth::MeshError& error) {
+    return std::string("mesh: ") + error.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("vertex numbers of every type, in every form of memory, are the same triangles") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(5, 6, 0.3, 3), 5);
+  check_type<std::int32_t>(mesh);
+  check_type<std::uint32_t>(mesh);
+  check_type<std::int64_t>(mesh);
+  check_type<std::uint64_t>(mesh);
+  check_type<long long>(mesh);
+  check_type<std::size_t>(mesh);
+}
+
+TEST_CASE("triangles of int32 are read where they are") {
+  const Mesh mesh = test_meshes::star(5);
+  const std::vector<std::int32_t> indices = mesh.indices();
+  std::vector<Triangle> converted;
+  CHECK(static_cast<const void*>(IndexView(indices).triangles(6, converted).data()) == indices.data());
+  CHECK(static_cast<const void*>(IndexView(mesh.triangles).triangles(6, converted).data()) == mesh.triangles.data());
+  CHECK(converted.empty());
+}
+
+TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
+  std::vector<double> xy = test_meshes::star(5).xy();
+  const std::vector<double> before = xy;
+  const auto refuses = [&](const auto& triangles, const std::string& expected) {
+    CHECK(refusal([&] { smooth(trismooth::xy_points(xy), triangles); }) == expected);
+  };
+  refuses(std::vector<std::int64_t>{0, 1, 2, 0, 2, (std::int64_t{1} << 32) + 3},
+          "mesh: triangle 1 names vertex 4294967299 of 6");
+  refuses(std::vector<std::uint64_t>{0, 1, ~std::uint64_t{0}},
+          "mesh: triangle 0 names vertex 18446744073709551615 of 6");
+  refuses(std::vector<std::uint32_t>{0, 1, ~std::uint32_t{0}}, "mesh: triangle 0 names vertex 4294967295 of 6");
+  refuses(std::vector<std::int64_t>{0, 1, -1}, "mesh: triangle 0 names vertex -1 of 6");
+  refuses(std::vector<std::size_t>{0, 1, 6}, "mesh: triangle 0 names vertex 6 of 6");
+  refuses(std::vector<std::size_t>{0, 1, 2, 3}, "argument: triangles has 4 entries, not three a triangle");
+  CHECK(refusal([&] {
+          const Eigen::MatrixXi quads = Eigen::MatrixXi::Zero(2, 4);
+          smooth(trismooth::xy_points(xy), trismooth::triangle_rows(quads));
+        }) == "argument: triangles: 4 vertex numbers each, expected three");
+  CHECK(xy == before);
+  CHECK(refusal([] { trismooth::plan(std::int64_t{1} << 31, std::vector<int>{}); }) ==
+        "mesh: more than 2147483647 vertices");
+}
