@@ -21,11 +21,12 @@ concept Index = std::integral<std::remove_cv_t<T>> && !std::same_as<std::remove_
                 (sizeof(T) == sizeof(std::int32_t) || sizeof(T) == sizeof(std::int64_t));
 
 template <class R>
-concept IndexNumbers = Numbers<R> && Index<NumberOf<R>>;
+concept IndexNumbers = Numbers<R> && Index<NumberOf<R>> && Lasting<R>;
 template <class R>
-concept IndexTuples = Tuples<R> && Index<TupleNumberOf<R>> && NumberTuple<std::ranges::range_value_t<R>>::size == 3;
+concept IndexTuples =
+    Tuples<R> && Index<TupleNumberOf<R>> && Lasting<R> && NumberTuple<std::ranges::range_value_t<R>>::size == 3;
 template <class M>
-concept IndexMatrix = Matrix<M> && Index<MatrixNumberOf<M>>;
+concept IndexMatrix = Matrix<M> && Index<MatrixNumberOf<M>> && Lasting<M>;
 template <class M>
 concept TriangleMatrix = IndexMatrix<M> &&(ColumnsOf<M, 3, 3> || RowsOf<M, 3, 3>);
 
@@ -37,7 +38,8 @@ concept TriangleMatrix = IndexMatrix<M> &&(ColumnsOf<M, 3, 3> || RowsOf<M, 3, 3>
 ///
 /// It is made without a word from numbers one behind the other, three for each triangle (std::vector<std::int32_t>,
 /// std::span<const std::size_t>, ...), from triples of them (std::vector<std::array<int, 3>>, ...) and from Eigen
-/// matrices whose type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...).
+/// matrices whose type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...). A
+/// temporary that owns its numbers is not taken: they would be gone with it.
 class IndexView {
  public:
   /// Throws std::invalid_argument unless there are three for each triangle.
@@ -68,12 +70,12 @@ class IndexView {
   }
 
   /// Triangles.
-  std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
   /// The triangles as the library holds them: the caller's own memory where it has that form, else converted into
   /// `converted`. Throws MeshError for a number that is not one of the vertices and has no place in 32 bits; of all
   /// others it is found later. Complexity: constant or linear.
-  std::span<const Triangle> triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
+  [[nodiscard]] std::span<const Triangle> triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
 
  private:
   static void require_whole_triangles(std::size_t numbers);
@@ -92,11 +94,11 @@ class IndexView {
 /// An Eigen matrix of indices with a triangle a row (libigl's F) or a column, where its type does not tell (MatrixXi).
 /// Throws std::invalid_argument unless these have three numbers.
 template <array_layout::IndexMatrix M>
-IndexView triangle_rows(M&& matrix) {
+[[nodiscard]] IndexView triangle_rows(M&& matrix) {
   return IndexView(array_layout::matrix_rows(matrix));
 }
 template <array_layout::IndexMatrix M>
-IndexView triangle_columns(M&& matrix) {
+[[nodiscard]] IndexView triangle_columns(M&& matrix) {
   return IndexView(array_layout::matrix_columns(matrix));
 }
 

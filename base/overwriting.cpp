@@ -4,6 +4,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "trismooth/base/workers.h"
+
 namespace trismooth {
 
 std::byte* ScratchBytes::get(std::size_t size) {

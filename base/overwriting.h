@@ -5,9 +5,9 @@
 #include <memory>
 #include <span>
 
-#include "trismooth/base/workers.h"
-
 namespace trismooth {
+
+class Workers;
 
 /// Memory that grows to what is asked for and is never cleared.
 class ScratchBytes {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
@@ -18,8 +19,8 @@ constexpr std::int64_t grain = 1 << 15;
 
 }  // namespace
 
-PointView::PointView(std::byte* first, std::size_t size, std::size_t components, std::ptrdiff_t point_stride,
-                     std::ptrdiff_t component_stride, Storage storage)
+ConstPointView::ConstPointView(const std::byte* first, std::size_t size, std::size_t components,
+                               std::ptrdiff_t point_stride, std::ptrdiff_t component_stride, Storage storage)
     : first_(first),
       size_(size),
       components_(components),
@@ -45,7 +46,7 @@ PointView::PointView(std::byte* first, std::size_t size, std::size_t components,
   }
 }
 
-std::vector<Point2<double>> PointView::read(Workers& workers) const {
+std::vector<Point2<double>> ConstPointView::read(Workers& workers) const {
   std::vector<Point2<double>> points(size_);
   std::atomic<std::size_t> first_bad = std::numeric_limits<std::size_t>::max();
   workers.for_blocks(static_cast<std::int64_t>(size_), grain, [&](std::int64_t begin, std::int64_t end) {
@@ -66,24 +67,30 @@ std::vector<Point2<double>> PointView::read(Workers& workers) const {
 }
 
 void PointView::write(std::span<const Point2<double>> points, Workers& workers) const {
-  workers.for_blocks(static_cast<std::int64_t>(size_), grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(static_cast<std::int64_t>(size()), grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
-      if (storage_ == Storage::float32) {
-        at<float>(v, 0) = static_cast<float>(points[v].x);
-        at<float>(v, 1) = static_cast<float>(points[v].y);
+      if (storage() == Storage::float32) {
+        number_at<float>(v, 0) = static_cast<float>(points[v].x);
+        number_at<float>(v, 1) = static_cast<float>(points[v].y);
       } else {
-        at<double>(v, 0) = points[v].x;
-        at<double>(v, 1) = points[v].y;
+        number_at<double>(v, 0) = points[v].x;
+        number_at<double>(v, 1) = points[v].y;
       }
     }
   });
 }
 
-std::span<Point2<double>> PointView::as_pairs() const {
+bool ConstPointView::are_pairs() const {
   static_assert(sizeof(Point2<double>) == 2 * sizeof(double));
-  const bool are_pairs = storage_ == Storage::float64 && components_ == 2 && component_stride_ == sizeof(double) &&
-                         point_stride_ == sizeof(Point2<double>);
-  return are_pairs ? std::span(reinterpret_cast<Point2<double>*>(first_), size_) : std::span<Point2<double>>();
+  return storage_ == Storage::float64 && components_ == 2 && component_stride_ == sizeof(double) &&
+         point_stride_ == sizeof(Point2<double>);
+}
+
+std::span<Point2<double>> PointView::as_pairs() const {
+  if (!are_pairs()) {
+    return {};
+  }
+  return {reinterpret_cast<Point2<double>*>(const_cast<std::byte*>(at(0, 0))), size()};
 }
 
 namespace array_layout {

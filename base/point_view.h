@@ -10,15 +10,19 @@
 #include "trismooth/base/array_layout.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
+class Workers;
+
 namespace array_layout {
 
-/// Coordinates that can be written.
+/// Coordinates that can be read, or written as well.
 template <class T>
-concept Coordinate = std::same_as<T, float> || std::same_as<T, double>;
+concept Coordinate = std::same_as < std::remove_const_t<T>,
+float > || std::same_as<std::remove_const_t<T>, double>;
+template <class T>
+concept WritableCoordinate = Coordinate<T> && !std::is_const_v<T>;
 
 template <class R>
 concept CoordinateNumbers = Numbers<R> && Coordinate<NumberOf<R>> && Lasting<R>;
@@ -32,62 +36,66 @@ concept PointMatrix = CoordinateMatrix<M> &&(ColumnsOf<M, 2, 3> || RowsOf<M, 2, 
 
 }  // namespace array_layout
 
-/// The points of a mesh where the caller keeps them: two or three numbers each, `float` or `double`, any distance
-/// apart. Nothing is copied to make one. Cheap to copy itself; the caller owns the memory and keeps it meanwhile.
+/// The points of a mesh where the caller keeps them, for reading: two or three numbers each, `float` or `double`, any
+/// distance apart. Nothing is copied to make one. Cheap to copy itself; the caller owns the memory and keeps it
+/// meanwhile.
 ///
 /// It is made without a word from what says by its type how many numbers a point has:
 ///
-///     std::vector<std::array<double, 2>>, std::span<trismooth::Point2<float>>, double[100][3],
+///     std::vector<std::array<double, 2>>, std::span<const trismooth::Point2<float>>, double[100][3],
 ///     std::vector<Eigen::Vector3d>, Eigen::Matrix2Xd, Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3>>, ...
 ///
 /// A plain array of numbers does not say: xy_points() or xyz_points() has to. A temporary that owns its numbers is not
 /// taken: they would be gone with it.
-class PointView {
+class ConstPointView {
  public:
   template <class R>
-  requires array_layout::CoordinateTuples<R> PointView(R&& points) : PointView(array_layout::tuple_rows(points)) {}
+  requires array_layout::CoordinateTuples<R> ConstPointView(R&& points)
+      : ConstPointView(array_layout::tuple_rows(points)) {}
 
   template <class M>
-  requires array_layout::PointMatrix<M> PointView(M&& matrix) : PointView(array_layout::rows_by_type<2, 3>(matrix)) {}
+  requires array_layout::PointMatrix<M> ConstPointView(M&& matrix)
+      : ConstPointView(array_layout::rows_by_type<2, 3>(matrix)) {}
 
   /// One point a row. Throws std::invalid_argument where a row has not two or three numbers, where there are points but
   /// no memory, and where a number is not aligned as its type must be.
   template <class T>
   requires array_layout::Coordinate<T>
-  explicit PointView(const NumberRows<T>& rows)
-      : PointView(reinterpret_cast<std::byte*>(rows.first), rows.rows, rows.columns, rows.row_stride,
-                  rows.column_stride, std::same_as<T, float> ? Storage::float32 : Storage::float64) {}
+  explicit ConstPointView(const NumberRows<T>& rows)
+      : ConstPointView(reinterpret_cast<const std::byte*>(rows.first), rows.rows, rows.columns, rows.row_stride,
+                       rows.column_stride,
+                       std::same_as<std::remove_const_t<T>, float> ? Storage::float32 : Storage::float64) {}
 
   /// Points.
-  std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
   /// Numbers of each: 2 or 3.
-  std::size_t components() const { return components_; }
-  Storage storage() const { return storage_; }
+  [[nodiscard]] std::size_t components() const { return components_; }
+  /// The type of the numbers.
+  [[nodiscard]] Storage storage() const { return storage_; }
 
   /// x and y of all points. Throws MeshError for the first point with a number, z included, that is not finite.
   /// Complexity: linear, on all `workers`.
-  std::vector<Point2<double>> read(Workers& workers) const;
+  [[nodiscard]] std::vector<Point2<double>> read(Workers& workers) const;
   /// z of point `v`; of points with three components.
-  double z(std::size_t v) const { return number(v, 2); }
-  /// Writes x and y of all points, rounded to storage(); z stays. Linear, on all `workers`.
-  void write(std::span<const Point2<double>> points, Workers& workers) const;
-  /// All points, where the memory is an array of them: pairs of double without a gap. Else nothing.
-  std::span<Point2<double>> as_pairs() const;
+  [[nodiscard]] double z(std::size_t v) const { return number(v, 2); }
+
+ protected:
+  ConstPointView(const std::byte* first, std::size_t size, std::size_t components, std::ptrdiff_t point_stride,
+                 std::ptrdiff_t component_stride, Storage storage);
+
+  const std::byte* at(std::size_t v, std::size_t k) const {
+    return first_ + static_cast<std::ptrdiff_t>(v) * point_stride_ + static_cast<std::ptrdiff_t>(k) * component_stride_;
+  }
+  /// Whether the memory is an array of Point2<double>, without a gap.
+  bool are_pairs() const;
 
  private:
-  PointView(std::byte* first, std::size_t size, std::size_t components, std::ptrdiff_t point_stride,
-            std::ptrdiff_t component_stride, Storage storage);
-
-  template <class T>
-  T& at(std::size_t v, std::size_t k) const {
-    return *reinterpret_cast<T*>(first_ + static_cast<std::ptrdiff_t>(v) * point_stride_ +
-                                 static_cast<std::ptrdiff_t>(k) * component_stride_);
-  }
   double number(std::size_t v, std::size_t k) const {
-    return storage_ == Storage::float32 ? static_cast<double>(at<float>(v, k)) : at<double>(v, k);
+    return storage_ == Storage::float32 ? static_cast<double>(*reinterpret_cast<const float*>(at(v, k)))
+                                        : *reinterpret_cast<const double*>(at(v, k));
   }
 
-  std::byte* first_;
+  const std::byte* first_;
   std::size_t size_;
   std::size_t components_;
   std::ptrdiff_t point_stride_;
@@ -95,38 +103,73 @@ class PointView {
   Storage storage_;
 };
 
+/// The same for points that are written as well: made from numbers that are not const.
+class PointView : public ConstPointView {
+ public:
+  template <class R>
+  requires array_layout::CoordinateTuples<R> && array_layout::WritableCoordinate<array_layout::TupleNumberOf<R>>
+  PointView(R&& points) : ConstPointView(array_layout::tuple_rows(points)) {}
+
+  template <class M>
+  requires array_layout::PointMatrix<M> && array_layout::WritableCoordinate<array_layout::MatrixNumberOf<M>> PointView(
+      M&& matrix)
+      : ConstPointView(array_layout::rows_by_type<2, 3>(matrix)) {}
+
+  /// As that of ConstPointView.
+  template <class T>
+  requires array_layout::WritableCoordinate<T>
+  explicit PointView(const NumberRows<T>& rows) : ConstPointView(rows) {}
+
+  /// Writes x and y of all points, rounded to storage(); z stays. Complexity: linear, on all `workers`.
+  void write(std::span<const Point2<double>> points, Workers& workers) const;
+  /// All points, where the memory is an array of them: pairs of double without a gap. Else nothing.
+  [[nodiscard]] std::span<Point2<double>> as_pairs() const;
+
+ private:
+  // It was made from memory that can be written.
+  template <class T>
+  T& number_at(std::size_t v, std::size_t k) const {
+    return *reinterpret_cast<T*>(const_cast<std::byte*>(at(v, k)));
+  }
+};
+
 namespace array_layout {
 
 /// Throws std::invalid_argument unless numbers come out even.
 void require_whole_points(std::size_t numbers, std::size_t components);
 
+/// Points of numbers of type T: to be written, unless T is const.
+template <Coordinate T>
+using PointsOf = std::conditional_t<std::is_const_v<T>, ConstPointView, PointView>;
+
 template <Numbers R>
-PointView flat_points(R& numbers, std::size_t components) {
+PointsOf<NumberOf<R>> flat_points(R& numbers, std::size_t components) {
   require_whole_points(number_count(numbers), components);
-  return PointView(flat_rows(numbers, components));
+  return PointsOf<NumberOf<R>>(flat_rows(numbers, components));
 }
 
 /// Throws std::invalid_argument for points that overlap.
 void require_apart(std::size_t points, std::ptrdiff_t stride_bytes, std::size_t point_bytes);
 
 template <Coordinate T>
-PointView strided_points(T* first, std::size_t count, std::ptrdiff_t stride_bytes, std::size_t components) {
+PointsOf<T> strided_points(T* first, std::size_t count, std::ptrdiff_t stride_bytes, std::size_t components) {
   require_apart(count, stride_bytes, components * sizeof(T));
-  return PointView(NumberRows<T>{first, count, components, stride_bytes, sizeof(T)});
+  return PointsOf<T>(NumberRows<T>{first, count, components, stride_bytes, sizeof(T)});
 }
 
 }  // namespace array_layout
 
 /// An array of float or double (std::vector, std::span, Eigen::VectorXd, a map of one, ...) as points: x and y of every
-/// vertex, one behind the other. Throws std::invalid_argument for an odd number of them.
+/// vertex, one behind the other. To be read alone where the numbers are const. Throws std::invalid_argument for an odd
+/// number of them.
 template <array_layout::CoordinateNumbers R>
-PointView xy_points(R&& numbers) {
+[[nodiscard]] array_layout::PointsOf<array_layout::NumberOf<R>> xy_points(R&& numbers) {
   return array_layout::flat_points(numbers, 2);
 }
 
 /// The same of x, y and z of every vertex. Throws std::invalid_argument unless there are three for each.
 template <array_layout::CoordinateNumbers R>
-PointView xyz_points(R&& numbers) {
+[[nodiscard]] array_layout::PointsOf<array_layout::NumberOf<R>> xyz_points(R&& numbers) {
   return array_layout::flat_points(numbers, 3);
 }
 
@@ -134,25 +177,27 @@ PointView xyz_points(R&& numbers) {
 /// structs, as in xy_points(&nodes[0].x, nodes.size(), sizeof(Node)). A negative stride runs backwards. Throws
 /// std::invalid_argument where points would overlap or be out of alignment.
 template <array_layout::Coordinate T>
-PointView xy_points(T* first, std::size_t count, std::ptrdiff_t stride_bytes = 2 * sizeof(T)) {
+[[nodiscard]] array_layout::PointsOf<T> xy_points(T* first, std::size_t count,
+                                                  std::ptrdiff_t stride_bytes = 2 * sizeof(T)) {
   return array_layout::strided_points(first, count, stride_bytes, 2);
 }
 
 /// The same with y and z next to x.
 template <array_layout::Coordinate T>
-PointView xyz_points(T* first, std::size_t count, std::ptrdiff_t stride_bytes = 3 * sizeof(T)) {
+[[nodiscard]] array_layout::PointsOf<T> xyz_points(T* first, std::size_t count,
+                                                   std::ptrdiff_t stride_bytes = 3 * sizeof(T)) {
   return array_layout::strided_points(first, count, stride_bytes, 3);
 }
 
 /// An Eigen matrix with a point a row (libigl's V) or a column, where its type does not tell (MatrixXd). Throws
 /// std::invalid_argument unless these have two or three numbers.
 template <array_layout::CoordinateMatrix M>
-PointView point_rows(M&& matrix) {
-  return PointView(array_layout::matrix_rows(matrix));
+[[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_rows(M&& matrix) {
+  return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_rows(matrix));
 }
 template <array_layout::CoordinateMatrix M>
-PointView point_columns(M&& matrix) {
-  return PointView(array_layout::matrix_columns(matrix));
+[[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_columns(M&& matrix) {
+  return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_columns(matrix));
 }
 
 }  // namespace trismooth

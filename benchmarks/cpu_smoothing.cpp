@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/experiments/spread.h"

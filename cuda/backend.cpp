@@ -6,6 +6,7 @@
 
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/overwriting.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
@@ -14,7 +15,6 @@
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

@@ -10,6 +10,7 @@
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/packing/coordinates.h"
@@ -17,7 +18,6 @@
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/runtime/memory_need.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

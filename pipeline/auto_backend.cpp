@@ -1,12 +1,13 @@
 #include "trismooth/pipeline/auto_backend.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/local_frame.h"
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
@@ -25,12 +26,14 @@ class NotedSmoother final : public PreparedSmoother {
   NotedSmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
       : smoother_(std::move(smoother)), note_(std::move(note)) {}
 
-  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
-                         double fixed_quotient) override {
-    SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
+    SmoothingResult result = smoother_->smooth(points, storage, frame);
     result.backend_note = joined_notes(note_, result.backend_note);
     return result;
   }
+
+  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
 
  private:
   std::unique_ptr<PreparedSmoother> smoother_;
@@ -41,43 +44,47 @@ class NotedSmoother final : public PreparedSmoother {
 class FallingBackSmoother final : public PreparedSmoother {
  public:
   FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, double device_start_ms, const Backend& cpu,
-                      OneRings rings, SmoothingOptions options)
-      : smoother_(std::move(device)),
-        device_start_ms_(device_start_ms),
-        cpu_(cpu),
-        rings_(std::move(rings)),
-        options_(std::move(options)) {}
+                      const MeshRings& mesh, std::span<const Triangle> triangles, const SmoothingOptions& options)
+      : smoother_(std::move(device)), device_start_ms_(device_start_ms), cpu_(cpu), mesh_(mesh), options_(options) {
+    if (options.measures_shape()) {
+      triangles_.assign(triangles.begin(), triangles.end());
+    }
+  }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
-                         double fixed_quotient) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
     if (!fell_back_) {
       // A device that fails on the way back has written some of them.
       const std::vector<Point2<double>> before(points.begin(), points.end());
       try {
-        SmoothingResult result = smoother_->smooth(points, frame, storage, fixed_quotient);
+        SmoothingResult result = smoother_->smooth(points, storage, frame);
         result.timings.prepare += std::exchange(device_start_ms_, 0);
         return result;
       } catch (const DeviceError& error) {
         std::ranges::copy(before, points.begin());
-        fall_back(before, frame, failure_note(error));
+        fall_back(frame ? *frame : local_frame_of_cells(before, mesh_.fixed), before, failure_note(error));
       }
     }
-    return smoother_->smooth(points, frame, storage, fixed_quotient);
+    return smoother_->smooth(points, storage, frame);
   }
 
+  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
+
  private:
-  void fall_back(const std::vector<Point2<double>>& points, const LocalFrame& frame, std::string note) {
-    std::vector<Point2<double>> local(points.size());
-    std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
-    smoother_ = std::make_unique<NotedSmoother>(cpu_.prepare(rings_, local, options_), std::move(note));
-    rings_ = {};
+  void fall_back(const LocalFrame& frame, std::span<const Point2<double>> points, std::string note) {
+    const LocalPoints local = entered(frame, points);
+    smoother_ =
+        std::make_unique<NotedSmoother>(cpu_.prepare(mesh_, triangles_, local.points, options_), std::move(note));
+    mesh_ = {};
+    triangles_ = {};
     fell_back_ = true;
   }
 
   std::unique_ptr<PreparedSmoother> smoother_;
   double device_start_ms_;
   const Backend& cpu_;
-  OneRings rings_;
+  MeshRings mesh_;
+  std::vector<Triangle> triangles_;  ///< where they are needed
   SmoothingOptions options_;
   bool fell_back_ = false;
 };
@@ -95,40 +102,41 @@ std::int64_t count_free(const OneRings& rings) {
 AutoBackend::AutoBackend(CudaSupport cuda, const Backend& cpu, std::int64_t free_vertices)
     : cuda_(std::move(cuda)), cpu_(cpu), free_vertices_(free_vertices) {}
 
-std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const OneRings& rings, std::span<const Point2<double>> points,
+std::unique_ptr<PreparedSmoother> AutoBackend::prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                                       std::span<const Point2<double>> local,
                                                        const SmoothingOptions& options) const {
-  if (!is_large(count_free(rings))) {
-    return cpu_.prepare(rings, points, options);
+  if (!is_large(count_free(mesh.rings))) {
+    return cpu_.prepare(mesh, triangles, local, options);
   }
   // The first to ask starts CUDA, which can take longer than the smoothing.
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::string note = cuda_.problem();
-  const double start_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double start_ms = watch.milliseconds();
   if (note.empty()) {
     try {
-      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(rings, points, options), start_ms, cpu_,
-                                                   rings, options);
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(mesh, triangles, local, options), start_ms,
+                                                   cpu_, mesh, triangles, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }
   } else {
     note.insert(0, "no CUDA device: ");
   }
-  return std::make_unique<NotedSmoother>(cpu_.prepare(rings, points, options), note);
+  return std::make_unique<NotedSmoother>(cpu_.prepare(mesh, triangles, local, options), note);
 }
 
-std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>> points,
+std::optional<MeshRings> AutoBackend::find_rings(std::span<const Point2<double>> local,
                                                  std::span<const Triangle> triangles, const Constraints& constraints,
                                                  const SmoothingOptions& options) const {
-  if (!is_large(std::ssize(points)) || !cuda_.problem().empty()) {
-    return cpu_.find_rings(points, triangles, constraints, options);
+  if (!is_large(std::ssize(local)) || !cuda_.problem().empty()) {
+    return cpu_.find_rings(local, triangles, constraints, options);
   }
   try {
-    return cuda_.backend->find_rings(points, triangles, constraints, options);
+    return cuda_.backend->find_rings(local, triangles, constraints, options);
   } catch (const DeviceError& error) {
     // Found here, whoever else could have: so the note is with the rings that it is about.
     Workers workers(options.threads);
-    MeshRings found = find_mesh_rings(points, triangles, constraints, workers);
+    MeshRings found = find_mesh_rings(local, triangles, constraints, workers);
     found.note = "the CPU found the rings: " + failure_note(error);
     return found;
   }

@@ -26,12 +26,13 @@ class AutoBackend final : public Backend {
   /// "auto". Results name the backend that was taken.
   std::string name() const override { return "auto"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
+  std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                            std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;
 
   /// Before the rings are found, the vertices count as free. Where CUDA fails, the rings found by the host have the
   /// note of it.
-  std::optional<MeshRings> find_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+  std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override;
 
  private:

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "trismooth/smoothing/rings/hold.h"
+#include "trismooth/base/hold.h"
 
 namespace trismooth {
 

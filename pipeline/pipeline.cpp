@@ -1,13 +1,13 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 #include <sys/resource.h>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/local_frame.h"
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
@@ -20,18 +20,13 @@
 #include "trismooth/pipeline/input/region_arrays.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
-#include "trismooth/smoothing/smooth.h"
+#include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::int64_t peak_memory_bytes() {
   rusage usage{};
@@ -50,7 +45,7 @@ class Run {
   explicit Run(const PipelineOptions& options) : options_(options), workers_(options.smoothing.threads) {}
 
   PipelineResult run() {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     options_.smoothing.validate();
     require_known_formats(options_);
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
@@ -71,7 +66,7 @@ class Run {
     } else if (options_.annotated) {
       timed(Stage::write, result_.timings_ms.write, [&] { write(*options_.annotated, true); });
     }
-    result_.timings_ms.total = milliseconds_since(start);
+    result_.timings_ms.total = watch.milliseconds();
     result_.peak_memory_bytes = peak_memory_bytes();
     return std::move(result_);
   }
@@ -86,9 +81,9 @@ class Run {
   template <class Body>
   void timed(Stage stage, double& milliseconds, const Body& body) {
     begin(stage);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     body();
-    milliseconds += milliseconds_since(start);
+    milliseconds += watch.milliseconds();
   }
 
   void read() {
@@ -147,7 +142,7 @@ class Run {
       return one_rings(halfedges.mesh, known.fixed, {}, workers_, halfedges.copies_of);
     };
     try {
-      return rings_for(options_.smoothing, local_, mesh_.triangles, constraints, workers_, by_halfedges);
+      return rings_for(options_.smoothing, local_.points, mesh_.triangles, constraints, workers_, by_halfedges);
     } catch (const MeshError& error) {
       throw ReadError(options_.input, error.what());
     }
@@ -172,9 +167,7 @@ class Run {
   }
 
   void enter_frame() {
-    frame_ = local_frame(mesh_.points, [this](std::size_t v) { return mesh_.in_cell[v] != 0; });
-    local_.resize(mesh_.points.size());
-    std::ranges::transform(mesh_.points, local_.begin(), [&](Point2<double> p) { return frame_.enter(p); });
+    local_ = entered(local_frame(mesh_.points, [this](std::size_t v) { return mesh_.in_cell[v] != 0; }), mesh_.points);
   }
 
   QualityReport check() {
@@ -184,7 +177,7 @@ class Run {
       const Triangle& corners = mesh_.triangles[static_cast<std::size_t>(element.triangle)];
       element.all_fixed = std::ranges::all_of(corners, [this](std::int32_t v) { return found_.fixed[v] != 0; });
       element.triangle = mesh_.cells[static_cast<std::size_t>(element.triangle)];
-      element.centroid = frame_.leave(element.centroid);
+      element.centroid = local_.frame.leave(element.centroid);
     }
     return report;
   }
@@ -192,16 +185,14 @@ class Run {
   std::vector<RegionQuality> check_regions() const {
     const std::int32_t count = regions_.count();
     return count < 2 ? std::vector<RegionQuality>{}
-                     : region_quality({local_, mesh_.triangles, found_.reversed, frame_.exponent}, regions_.of_triangle,
-                                      count, options_.smoothing.threads);
+                     : region_quality(view(), regions_.of_triangle, count, options_.smoothing.threads);
   }
 
   void warn_of_precision() {
     if (options_.smoothing.precision != Precision::single_precision) {
       return;
     }
-    const PrecisionLoss loss =
-        single_precision_loss({local_, mesh_.triangles, found_.reversed}, options_.smoothing.threads);
+    const PrecisionLoss loss = single_precision_loss(view(), options_.smoothing.threads);
     if (!loss.any()) {
       return;
     }
@@ -222,12 +213,8 @@ class Run {
       metrics_before_ = metrics_of_cells("_before");
     }
     const std::vector<Point2<double>> input_points = mesh_.points;
-    const bool wants_shape = options_.smoothing.target_quality || options_.smoothing.record_min_shape;
-    const double fixed_quotient = wants_shape
-                                      ? smallest_fixed_quotient(local_, mesh_.triangles, found_.reversed, found_.fixed)
-                                      : std::numeric_limits<double>::infinity();
-    SmoothingResult smoothing = smooth_in_plane(found_.rings, mesh_.plane, document_.points, mesh_.points, frame_,
-                                                local_, fixed_quotient, storage_of(document_), options_.smoothing);
+    SmoothingResult smoothing = smooth_in_plane(found_, mesh_.triangles, mesh_.plane, document_.points, mesh_.points,
+                                                local_, storage_of(document_), options_.smoothing);
     smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
@@ -288,7 +275,7 @@ class Run {
     }
   }
 
-  TriangleView view() const { return {local_, mesh_.triangles, found_.reversed, frame_.exponent}; }
+  TriangleView view() const { return {local_.points, mesh_.triangles, found_.reversed, local_.frame.exponent}; }
 
   std::vector<DataArray> metrics_of_cells(std::string_view suffix = {}) const {
     return metric_annotations(options_.annotated_metrics, view(), mesh_.cells, document_.cells.size(), suffix);
@@ -310,8 +297,7 @@ class Run {
   PipelineResult result_;
   MeshDocument document_;
   PlanarMesh mesh_;
-  LocalFrame frame_;
-  std::vector<Point2<double>> local_;  ///< mesh_.points in the local frame
+  LocalPoints local_;  ///< mesh_.points in their local frame: those of the input, after the smoothing of the result
   Regions regions_;
   MeshRings found_;
   std::vector<double> input_points_;       ///< for annotations of a smoothing

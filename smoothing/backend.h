@@ -9,13 +9,19 @@
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
+#include "trismooth/base/storage.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
 
-/// A mesh that a backend has made ready for smoothing, as often as the caller likes. Owns all it needs.
+class Workers;
+
+/// A mesh that a backend has made ready for smoothing, as often as the caller likes, whatever its coordinates are by
+/// then. Owns all it needs.
 class PreparedSmoother {
  public:
   PreparedSmoother() = default;
@@ -24,32 +30,19 @@ class PreparedSmoother {
   virtual ~PreparedSmoother() = default;
 
   /// Smooths the vertices' stored coordinates in place: sweeps in the local frame, and unless options.guard is off the
-  /// never-worse commit. `frame` is local_frame() of the vertices that cells use, which the caller knows. Results are
-  /// rounded to `storage`; vertices that do not move keep their bits. Coordinates are finite (the caller has checked).
-  /// `fixed_quotient` is smallest_fixed_quotient() of the mesh. Where it throws DeviceError, some of the points may
-  /// have been written.
-  virtual SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
-                                 double fixed_quotient) = 0;
-};
-
-/// A mesh whose connectivity a backend has analysed by itself, for coordinates that change. Owns all it needs.
-class PreparedMesh {
- public:
-  PreparedMesh() = default;
-  PreparedMesh(const PreparedMesh&) = delete;
-  PreparedMesh& operator=(const PreparedMesh&) = delete;
-  virtual ~PreparedMesh() = default;
-
-  /// As SmoothingPlan::smooth(): the points, one for every vertex, smoothed in place, and untouched where it throws:
-  /// see Overwriting for results that come in pieces.
-  virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) = 0;
+  /// never-worse guard. Results are rounded to `storage`; vertices that do not move keep their bits. `frame` is the
+  /// local frame of the vertices that cells use, for a caller who has found it already; without it, it is found here.
+  /// Who made the mesh ready by prepare() has seen to it that all coordinates are finite; prepare_mesh() leaves that to
+  /// this call, which throws MeshError. Where it throws DeviceError, points prepared by prepare() may have been written
+  /// in part, those prepared by prepare_mesh() are untouched.
+  virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                                 const std::optional<LocalFrame>& frame) = 0;
 
   /// Why each vertex is fixed, as MeshRings::fixed.
   virtual std::vector<std::uint8_t> fixed() const = 0;
 };
 
-/// Whoever runs the sweeps: the CPU, a GPU. Given the same rings, points and options, every backend gives the same
-/// bits.
+/// Whoever runs the sweeps: the CPU, a GPU. Given the same mesh, points and options, every backend gives the same bits.
 class Backend {
  public:
   Backend() = default;
@@ -60,33 +53,48 @@ class Backend {
   /// "cpu", "cuda".
   virtual std::string name() const = 0;
 
-  /// Makes a mesh ready: renumbering, colouring, whatever the backend needs. `points` are where the vertices are, in
-  /// the local frame; they steer the order in memory and no result. Throws std::invalid_argument for options that the
-  /// backend does not have.
-  virtual std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
+  /// Makes a mesh ready whose rings are known: renumbering, colouring, whatever the backend needs. `triangles` are
+  /// those of the mesh; they are looked at only where options.measures_shape(). `local` are the vertices in the local
+  /// frame; they steer the order in memory and no result. Throws std::invalid_argument for options that the backend
+  /// does not have.
+  virtual std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                                    std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
   /// Finds the rings of a mesh with the backend's own means: what find_mesh_rings() finds, in every number, with the
   /// same errors. Nothing where the backend leaves that to the host. For Topology::device. With
   /// Execution::single_block the CUDA backend finds the neighbours by one thread, as the paper does.
-  virtual std::optional<MeshRings> find_rings(std::span<const Point2<double>> /*points*/,
+  virtual std::optional<MeshRings> find_rings(std::span<const Point2<double>> /*local*/,
                                               std::span<const Triangle> /*triangles*/,
                                               const Constraints& /*constraints*/,
                                               const SmoothingOptions& /*options*/) const {
     return std::nullopt;
   }
 
-  /// Analyses a mesh with the backend's own means and keeps what was found where the sweeps run. Null where the backend
-  /// leaves that to the host. For Topology::device. Arguments and errors as those of SmoothingPlan's constructor.
-  virtual std::unique_ptr<PreparedMesh> prepare_mesh(std::int32_t /*vertex_count*/,
-                                                     std::span<const Triangle> /*triangles*/,
-                                                     const Constraints& /*constraints*/,
-                                                     const SmoothingOptions& /*options*/) const {
+  /// Makes a mesh ready whose rings are not known: the backend analyses it with its own means, and keeps what was found
+  /// where the sweeps run. Null where the backend leaves that to the host. For Topology::device. Arguments and errors
+  /// as those of SmoothingPlan's constructor.
+  virtual std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t /*vertex_count*/,
+                                                         std::span<const Triangle> /*triangles*/,
+                                                         const Constraints& /*constraints*/,
+                                                         const SmoothingOptions& /*options*/) const {
     return nullptr;
   }
 };
 
 /// The CPU backend. Layout and execution mean nothing to it; Order::unordered is refused.
 const Backend& cpu_backend();
+
+/// The backend that the options name, or the CPU's.
+const Backend& backend_of(const SmoothingOptions& options);
+
+/// The rings of a mesh as the options want them found: by their backend where they say Topology::device and it finds
+/// rings, else on the host, by find_mesh_rings() with `workers` and `find_rings`. The same numbers either way.
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
+                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                    const RingFinder& find_rings = {});
+
+/// Two notes for the user as one, "first; second"; each may be empty.
+std::string joined_notes(const std::string& first, const std::string& second);
 
 }  // namespace trismooth

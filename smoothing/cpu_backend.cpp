@@ -1,14 +1,17 @@
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <stdexcept>
 #include <utility>
 
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/local_points.h"
 #include "trismooth/base/processor_name.h"
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/guard/never_worse.h"
+#include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/sweeper.h"
 
@@ -18,31 +21,22 @@ namespace {
 
 constexpr std::int64_t vertex_grain = 8192;
 
-class Stopwatch {
- public:
-  /// Milliseconds since the last call, or since the start.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double elapsed = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return elapsed;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 class CpuSmoother final : public PreparedSmoother {
  public:
-  CpuSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
-      : options_(options), workers_(options.threads) {
-    Stopwatch watch;
-    rings_ = pack_rings(rings, points, options.form, workers_);
-    prepare_ms_ = watch.lap();
+  CpuSmoother(const MeshRings& mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+              const SmoothingOptions& options)
+      : options_(options), workers_(options.threads), fixed_(mesh.fixed) {
+    const Stopwatch watch;
+    rings_ = pack_rings(mesh.rings, local, options.form, workers_);
+    if (options.measures_shape()) {
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
+    }
+    prepare_ms_ = watch.milliseconds();
   }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
-                         double fixed_quotient) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& known_frame) override {
+    const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     SmoothingResult result;
     result.backend = "cpu";
     result.device = processor_name();
@@ -50,19 +44,22 @@ class CpuSmoother final : public PreparedSmoother {
     result.free_vertices = rings_.free_count();
     result.colours = rings_.colours;
     if (options_.precision == Precision::double_precision) {
-      smooth_in<double>(points, frame, storage, fixed_quotient, result);
+      smooth_in<double>(points, storage, frame, result);
     } else {
-      smooth_in<float>(points, frame, storage, fixed_quotient, result);
+      smooth_in<float>(points, storage, frame, result);
     }
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
 
+  std::vector<std::uint8_t> fixed() const override { return fixed_; }
+
  private:
   template <class T>
-  void smooth_in(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage, double fixed_quotient,
-                 SmoothingResult& result) {
+  void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, SmoothingResult& result) {
     Stopwatch watch;
+    const double fixed_quotient =
+        fixed_triangles_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });
     std::vector<Point2<double>> before(points.size());
     std::vector<Point2<T>> working(points.size());
     for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
@@ -123,21 +120,24 @@ class CpuSmoother final : public PreparedSmoother {
 
   SmoothingOptions options_;
   Workers workers_;
+  std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
   PackedRings rings_;
-  double prepare_ms_ = 0;  ///< until a call has reported it
+  FixedTriangles fixed_triangles_;  ///< where they are asked for
+  double prepare_ms_ = 0;           ///< until a call has reported it
 };
 
 class CpuBackend final : public Backend {
  public:
   std::string name() const override { return "cpu"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
+  std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                            std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     options.validate();
     if (options.order == Order::unordered) {
       throw std::invalid_argument("order 'unordered' exists for CUDA only");
     }
-    return std::make_unique<CpuSmoother>(rings, points, options);
+    return std::make_unique<CpuSmoother>(mesh, triangles, local, options);
   }
 };
 

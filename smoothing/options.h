@@ -122,6 +122,9 @@ struct SmoothingOptions {
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
   const Backend* backend = nullptr;
 
+  /// Whether the smallest shape of the mesh is found after every sweep: for a quality target or for the record.
+  [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
+
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
   /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident.
   void validate() const;

@@ -41,11 +41,6 @@ struct SweepRecord {
   double min_shape = std::numeric_limits<double>::quiet_NaN();  ///< after the sweep; NaN where it was not asked for
 };
 
-/// Both notes, of which each may be empty.
-inline std::string joined_notes(const std::string& first, const std::string& second) {
-  return first + (first.empty() || second.empty() ? "" : "; ") + second;
-}
-
 /// A vertex that the commit took back, and where it had been moved to (in the caller's coordinates).
 struct RevertedVertex {
   std::int32_t vertex = 0;

@@ -1,34 +1,23 @@
 #include "trismooth/smoothing/smooth.h"
 
-#include <algorithm>
-#include <limits>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/local_frame.h"
+#include "trismooth/base/heights.h"
+#include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/smoothing/heights.h"
-#include "trismooth/smoothing/rings/hold.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
-
-const Backend& backend_of(const SmoothingOptions& options) {
-  return options.backend != nullptr ? *options.backend : cpu_backend();
-}
-
-MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> points,
-                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
-                    const RingFinder& find_rings) {
-  if (options.topology == Topology::device) {
-    if (auto found = backend_of(options).find_rings(points, triangles, constraints, options)) {
-      return *std::move(found);
-    }
-  }
-  return find_mesh_rings(points, triangles, constraints, workers, find_rings);
-}
 
 class SmoothingPlan::Implementation {
  public:
@@ -39,8 +28,9 @@ class SmoothingPlan::Implementation {
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
     const std::span<const Triangle> listed = indices.triangles(vertex_count, triangles_);
     if (options.topology == Topology::device) {
-      mesh_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
-      if (mesh_ != nullptr) {
+      smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
+      is_analysed_by_backend_ = smoother_ != nullptr;
+      if (is_analysed_by_backend_) {
         triangles_ = {};
         return;
       }
@@ -49,20 +39,21 @@ class SmoothingPlan::Implementation {
       triangles_.assign(listed.begin(), listed.end());
     }
     topology_ = connect_triangles(vertex_count_, triangles_, workers_);
-    fixed_ = fixed_vertices(topology_, triangles_, constraints);
+    mesh_.fixed = fixed_vertices(topology_, triangles_, constraints);
   }
 
   SmoothingResult smooth(const PointView& points, Storage storage) {
     require_a_point_a_vertex(points);
     const Storage stored = points.storage() == Storage::float32 ? Storage::float32 : storage;
-    if (mesh_ != nullptr && !points.as_pairs().empty()) {
-      return mesh_->smooth(points.as_pairs(), stored);
+    if (is_analysed_by_backend_ && !points.as_pairs().empty()) {
+      return smoother_->smooth(points.as_pairs(), stored, std::nullopt);
     }
     std::vector<Point2<double>> copy = points.read(workers_);
     if (points.components() == 3) {
-      require_one_height(points, copy, [this] { return mesh_ != nullptr ? mesh_->fixed() : fixed_; });
+      require_one_height(points, copy, [this] { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_.fixed; });
     }
-    SmoothingResult result = mesh_ != nullptr ? mesh_->smooth(copy, stored) : smooth_on_host(copy, stored);
+    SmoothingResult result =
+        is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt) : smooth_oriented(copy, stored);
     points.write(copy, workers_);
     return result;
   }
@@ -83,39 +74,38 @@ class SmoothingPlan::Implementation {
     }
   }
 
-  SmoothingResult smooth_on_host(std::vector<Point2<double>>& points, Storage storage) {
-    const LocalFrame frame = local_frame(points, [&](std::size_t v) { return !hold::is_unused(fixed_[v]); });
-    std::vector<Point2<double>> local(points.size());
-    std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
-    Orientation orientation = orient(topology_, triangles_, local);
-    if (smoother_ == nullptr || orientation.reversed != reversed_) {
+  /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
+  SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage) {
+    const LocalPoints local = entered(local_frame_of_cells(points, mesh_.fixed), points);
+    Orientation orientation = orient(topology_, triangles_, local.points);
+    if (smoother_ == nullptr || orientation.reversed != mesh_.reversed) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
-      reversed_ = std::move(orientation.reversed);
-      smoother_ =
-          backend_of(options_).prepare(one_rings(topology_, triangles_, reversed_, fixed_, workers_), local, options_);
+      mesh_.reversed = std::move(orientation.reversed);
+      mesh_.rings = one_rings(topology_, triangles_, mesh_.reversed, mesh_.fixed, workers_);
+      smoother_ = backend_of(options_).prepare(mesh_, triangles_, local.points, options_);
+      mesh_.rings = {};
     }
-    const double fixed_quotient = options_.target_quality || options_.record_min_shape
-                                      ? smallest_fixed_quotient(local, triangles_, reversed_, fixed_)
-                                      : std::numeric_limits<double>::infinity();
-    return smoother_->smooth(points, frame, storage, fixed_quotient);
+    return smoother_->smooth(points, storage, local.frame);
   }
 
   SmoothingOptions options_;
   Workers workers_;
   std::int32_t vertex_count_ = 0;
-  std::unique_ptr<PreparedMesh> mesh_;  ///< of a backend that analyses meshes itself; what follows is empty then
+  std::unique_ptr<PreparedSmoother> smoother_;
+  bool is_analysed_by_backend_ = false;  ///< what follows is empty then
   std::vector<Triangle> triangles_;
   TriangleTopology topology_;
-  std::vector<std::uint8_t> fixed_;
-  std::vector<std::uint8_t> reversed_;
-  std::unique_ptr<PreparedSmoother> smoother_;
+  MeshRings mesh_;  ///< but for the rings, which the smoother has
 };
 
 SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                              const SmoothingOptions& options)
     : implementation_(std::make_unique<Implementation>(vertex_count, triangles, constraints, options)) {}
+
+SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options)
+    : SmoothingPlan(vertex_count, triangles, Constraints{}, options) {}
 
 SmoothingPlan::SmoothingPlan(SmoothingPlan&&) noexcept = default;
 SmoothingPlan& SmoothingPlan::operator=(SmoothingPlan&&) noexcept = default;
@@ -133,9 +123,17 @@ SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const 
   return {vertex_count, triangles, constraints, options};
 }
 
+SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options) {
+  return {vertex_count, triangles, options};
+}
+
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const Constraints& constraints,
                        const SmoothingOptions& options) {
   return plan(static_cast<std::int64_t>(points.size()), triangles, constraints, options).smooth(points);
+}
+
+SmoothingResult smooth(const PointView& points, const IndexView& triangles, const SmoothingOptions& options) {
+  return smooth(points, triangles, Constraints{}, options);
 }
 
 }  // namespace trismooth

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/primitives/largest_key.cuh"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
-#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth::cuda {
 

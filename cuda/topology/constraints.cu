@@ -1,8 +1,8 @@
+#include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/constraints.h"
 #include "trismooth/cuda/topology/vertex_fan.h"
-#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth::cuda {
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/topology.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

@@ -1,12 +1,12 @@
 #include <bit>
 #include <cstddef>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/large_fans.h"
 #include "trismooth/cuda/topology/vertex_fan.h"
-#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth::cuda {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/error.h"
@@ -11,7 +12,6 @@
 #include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth::cuda {
 

@@ -4,10 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #include "trismooth/smoothing/rings/one_rings.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 namespace trismooth {
 

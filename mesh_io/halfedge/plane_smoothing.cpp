@@ -1,11 +1,12 @@
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/guard/never_worse.h"
-#include "trismooth/smoothing/smooth.h"
 
 namespace trismooth {
 
@@ -20,14 +21,13 @@ bool is_finite(Point2<double> point) {
 }
 
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
-void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
-                     std::vector<Point2<double>>& points, const LocalFrame& frame,
-                     const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
-                     SmoothingResult& result) {
-  const auto start = std::chrono::steady_clock::now();
+void guard_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
+                    std::vector<Point2<double>>& points, const LocalPoints& local,
+                    const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
+                    SmoothingResult& result) {
+  const Stopwatch watch;
   std::vector<Eigen::Vector3d> stored(points.size());
-  std::vector<Point2<double>> before(points.size());
-  std::ranges::transform(points, before.begin(), [&](Point2<double> p) { return frame.enter(p); });
+  const std::vector<Point2<double>>& before = local.points;
   std::vector<Point2<double>> after = before;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (moved[v] == points[v]) {
@@ -38,7 +38,7 @@ void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double
     // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
     const Point2<double> place = plane.project(stored[v]);
     if (is_finite(stored[v]) && is_finite(place)) {
-      after[v] = frame.enter(place);
+      after[v] = local.frame.enter(place);
     }
   }
   if (options.guard) {
@@ -58,25 +58,24 @@ void commit_in_space(const OneRings& rings, const Plane& plane, std::span<double
       ++result.moved_vertices;
     }
   }
-  result.timings.commit += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.timings.commit += watch.milliseconds();
 }
 
 }  // namespace
 
-SmoothingResult smooth_in_plane(const OneRings& rings, const Plane& plane, std::span<double> xyz,
-                                std::vector<Point2<double>>& points, const LocalFrame& frame,
-                                std::span<const Point2<double>> local, double fixed_quotient, Storage storage,
-                                const SmoothingOptions& options) {
+SmoothingResult smooth_in_plane(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+                                std::span<double> xyz, std::vector<Point2<double>>& points, const LocalPoints& local,
+                                Storage storage, const SmoothingOptions& options) {
   SmoothingOptions in_plane = options;
   in_plane.guard = options.guard && plane.aligned;
-  const auto smoother = backend_of(options).prepare(rings, local, in_plane);
+  const auto smoother = backend_of(options).prepare(mesh, triangles, local.points, in_plane);
   if (!plane.aligned) {
     std::vector<Point2<double>> moved = points;
-    SmoothingResult result = smoother->smooth(moved, frame, Storage::float64, fixed_quotient);
-    commit_in_space(rings, plane, xyz, points, frame, moved, storage, options, result);
+    SmoothingResult result = smoother->smooth(moved, Storage::float64, local.frame);
+    guard_in_space(mesh.rings, plane, xyz, points, local, moved, storage, options, result);
     return result;
   }
-  SmoothingResult result = smoother->smooth(points, frame, storage, fixed_quotient);
+  SmoothingResult result = smoother->smooth(points, storage, local.frame);
   for (std::size_t v = 0; v < points.size(); ++v) {
     Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
     if (const Point2<double> before = plane.project(point); !(before == points[v])) {

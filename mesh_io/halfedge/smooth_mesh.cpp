@@ -5,9 +5,11 @@
 #include <stdexcept>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/local_frame.h"
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+#include "trismooth/smoothing/backend.h"
 
 namespace trismooth {
 
@@ -52,8 +54,7 @@ CellList cells_of(std::span<const Triangle> triangles) {
 struct InPlane {
   Plane plane;
   std::vector<Point2<double>> points;
-  LocalFrame frame;
-  std::vector<Point2<double>> local;
+  LocalPoints local;
 
   InPlane(const PlaneFit& fit, std::span<const double> xyz, std::span<const std::uint8_t> in_cell) : plane(fit.plane) {
     if (!fit.is_planar()) {
@@ -64,9 +65,7 @@ struct InPlane {
       throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
     }
     points = *std::move(projected);
-    frame = local_frame(points, [&](std::size_t v) { return in_cell[v] != 0; });
-    local.resize(points.size());
-    std::ranges::transform(points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
+    local = entered(local_frame(points, [&](std::size_t v) { return in_cell[v] != 0; }), points);
   }
 };
 
@@ -87,16 +86,15 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   InPlane placed(fit_plane(xyz, in_cell, cells_of(triangles)), xyz, in_cell);
 
   Workers workers(options.threads);
-  const MeshRings found = rings_for(options, placed.local, triangles, constraints, workers,
+  const MeshRings found = rings_for(options, placed.local.points, triangles, constraints, workers,
                                     [&](const TriangleTopology& /*topology*/, const MeshRings& known) {
                                       return one_rings(mesh, known.fixed, known.reversed, workers);
                                     });
   if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
     placed = InPlane(*fit, xyz, in_cell);
   }
-  const double fixed_quotient = smallest_fixed_quotient(placed.local, triangles, found.reversed, found.fixed);
-  SmoothingResult result = smooth_in_plane(found.rings, placed.plane, xyz, placed.points, placed.frame, placed.local,
-                                           fixed_quotient, Storage::float64, options);
+  SmoothingResult result =
+      smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, Storage::float64, options);
   result.backend_note = joined_notes(found.note, result.backend_note);
   for (std::size_t v = 0; v < placed.points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/guard_minima.h"
 
 namespace trismooth {

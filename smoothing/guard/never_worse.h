@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// What the commit took back.
 struct GuardOutcome {

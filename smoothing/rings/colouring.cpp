@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// The colours of Form B.
 struct Colouring {

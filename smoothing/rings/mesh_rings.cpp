@@ -3,7 +3,10 @@
 #include <utility>
 
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
 
 namespace trismooth {
 

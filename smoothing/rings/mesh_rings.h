@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// All that is to be known of a mesh's connectivity, whoever found it (the host or a device: the same in every number).
 struct MeshRings {

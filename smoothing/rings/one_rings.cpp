@@ -1,8 +1,6 @@
 #include "trismooth/smoothing/rings/one_rings.h"
 
-#include <limits>
-
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
@@ -25,18 +23,6 @@ OneRings one_rings(const TriangleTopology& topology, std::span<const Triangle> t
     }
   });
   return rings;
-}
-
-double smallest_fixed_quotient(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                               std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
-    if (fixed[corners[0]] != 0 && fixed[corners[1]] != 0 && fixed[corners[2]] != 0) {
-      smallest = std::min(smallest, shape_quotient(points[corners[0]], points[corners[1]], points[corners[2]]));
-    }
-  }
-  return smallest;
 }
 
 }  // namespace trismooth

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/smoothing/rings/triangle_topology.h"
+#include "trismooth/base/triangle_topology.h"
 
 namespace trismooth {
 
@@ -62,10 +62,5 @@ struct OneRings {
 /// The one-rings of the vertices whose `fixed` byte is 0. Complexity: linear.
 OneRings one_rings(const TriangleTopology& topology, std::span<const Triangle> triangles,
                    std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers);
-
-/// The smallest shape quotient of the triangles without a free vertex; infinity where there is none. The smoothing
-/// cannot change it, so a quality target above it is never reached.
-double smallest_fixed_quotient(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                               std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed);
 
 }  // namespace trismooth

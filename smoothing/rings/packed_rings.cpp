@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
 

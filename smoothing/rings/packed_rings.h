@@ -4,11 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within

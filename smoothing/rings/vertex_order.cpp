@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include "trismooth/base/hilbert_curve.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// The vertices in the order in which the smoothing stores them: free ones first, each kind along a Hilbert curve, so
 /// that neighbours are near each other in memory. Purely internal: no result depends on it.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/options.h"
@@ -42,12 +42,11 @@ class Sweeper {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   static constexpr std::int64_t grain = 1024;
 
   template <class Update>
   void run_with(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const bool swaps = options_.form == Form::swap;
     const auto free_count = static_cast<std::size_t>(rings_.free_count());
     marked_.assign(free_count, 1);
@@ -68,12 +67,12 @@ class Sweeper {
       }
       SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
                          static_cast<double>(std::sqrt(tally.max_relative_squared))};
-      if (measures_shape()) {
+      if (options_.measures_shape()) {
         record.min_shape = min_shape(points, fixed_quotient);
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
-      if (const auto reason = reason_to_stop(tally, record, start)) {
+      if (const auto reason = reason_to_stop(tally, record, watch)) {
         result.stop_reason = *reason;
         return;
       }
@@ -81,7 +80,7 @@ class Sweeper {
   }
 
   std::optional<StopReason> reason_to_stop(const SweepTally<T>& tally, const SweepRecord& record,
-                                           Clock::time_point start) const {
+                                           const Stopwatch& watch) const {
     const bool stopped = options_.progress && options_.progress(record) == Progress::stop;
     if (const auto reason = reason_in_sweep(tally.moved, tally.within_tolerance, record.min_shape,
                                             options_.target_quality.value_or(no_target))) {
@@ -93,7 +92,7 @@ class Sweeper {
     if (record.sweep == options_.max_sweeps) {
       return StopReason::sweep_limit;
     }
-    if (std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_seconds) {
+    if (watch.seconds() >= options_.time_limit_seconds) {
       return StopReason::time_limit;
     }
     return std::nullopt;
@@ -189,8 +188,6 @@ class Sweeper {
       }
     }
   }
-
-  bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
 
   bool reached_target(std::span<const Point2<T>> points, double fixed_quotient) {
     return options_.target_quality && min_shape(points, fixed_quotient) >= *options_.target_quality;

@@ -7,6 +7,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,7 +26,20 @@ using trismooth::Triangle;
 namespace {
 
 static_assert(std::is_convertible_v<const std::vector<std::int32_t>&, IndexView>);
-static_assert(std::is_convertible_v<std::vector<std::size_t>, IndexView>);
+// Temporaries that own their numbers are gone before anybody can look.
+static_assert(!std::is_convertible_v<std::vector<std::size_t>, IndexView>);
+static_assert(!std::is_convertible_v<const std::vector<std::int32_t>, IndexView>);
+static_assert(!std::is_convertible_v<std::array<std::int32_t, 3>, IndexView>);
+static_assert(!std::is_convertible_v<std::vector<Triangle>, IndexView>);
+static_assert(!std::is_convertible_v<Eigen::Matrix3Xi, IndexView>);
+static_assert(std::is_convertible_v<std::vector<std::size_t>&, IndexView>);
+template <class Matrix>
+concept TakenByRows = requires(Matrix&& matrix) {
+  trismooth::triangle_rows(std::forward<Matrix>(matrix));
+  trismooth::triangle_columns(std::forward<Matrix>(matrix));
+};
+static_assert(TakenByRows<Eigen::MatrixXi&> && TakenByRows<Eigen::Map<Eigen::MatrixXi>>);
+static_assert(!TakenByRows<Eigen::MatrixXi>);
 static_assert(std::is_convertible_v<std::span<const std::uint32_t>, IndexView>);
 static_assert(std::is_convertible_v<std::vector<std::array<long long, 3>>&, IndexView>);
 static_assert(std::is_convertible_v<const Eigen::Matrix3Xi&, IndexView>);
@@ -42,7 +57,7 @@ std::vector<Triangle> seen(const IndexView& view) {
 
 template <class T>
 void check_type(const Mesh& mesh) {
-  const std::vector<std::int32_t> indices = mesh.indices();
+  const auto indices = mesh.indices();
   const std::vector<T> numbers(indices.begin(), indices.end());
   CHECK(seen(numbers) == mesh.triangles);
   CHECK(seen(std::span(numbers)) == mesh.triangles);
@@ -89,7 +104,7 @@ TEST_CASE("vertex numbers of every type, in every form of memory, are the same t
 
 TEST_CASE("triangles of int32 are read where they are") {
   const Mesh mesh = test_meshes::star(5);
-  const std::vector<std::int32_t> indices = mesh.indices();
+  const std::vector<std::int32_t> indices(mesh.indices().begin(), mesh.indices().end());
   std::vector<Triangle> converted;
   CHECK(static_cast<const void*>(IndexView(indices).triangles(6, converted).data()) == indices.data());
   CHECK(static_cast<const void*>(IndexView(mesh.triangles).triangles(6, converted).data()) == mesh.triangles.data());
@@ -115,6 +130,6 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(quads));
         }) == "argument: triangles: 4 vertex numbers each, expected three");
   CHECK(xy == before);
-  CHECK(refusal([] { trismooth::plan(std::int64_t{1} << 31, std::vector<int>{}); }) ==
+  CHECK(refusal([] { static_cast<void>(trismooth::plan(std::int64_t{1} << 31, std::span<const int>{})); }) ==
         "mesh: more than 2147483647 vertices");
 }

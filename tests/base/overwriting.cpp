@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/workers.h"
+
 #include "catch.h"
 
 using trismooth::Overwriting;

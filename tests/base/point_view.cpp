@@ -1,6 +1,7 @@
 #include "trismooth/base/point_view.h"
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +22,7 @@
 #include "support/test_meshes.h"
 
 using test_meshes::Mesh;
+using trismooth::ConstPointView;
 using trismooth::IndexView;
 using trismooth::MeshError;
 using trismooth::plan;
@@ -64,7 +67,18 @@ concept Wrapped = requires(Numbers&& numbers) {
   xy_points(std::forward<Numbers>(numbers));
 };
 static_assert(Wrapped<Doubles&> && Wrapped<std::span<float>> && Wrapped<Eigen::VectorXd&>);
-static_assert(!Wrapped<Doubles> && !Wrapped<const Doubles&> && !Wrapped<Eigen::VectorXd>);
+static_assert(!Wrapped<Doubles> && !Wrapped<const Doubles> && !Wrapped<Eigen::VectorXd>);
+// What is const can be read and not smoothed.
+static_assert(Wrapped<const Doubles&> && Wrapped<std::span<const float>> && Wrapped<const Eigen::VectorXd&>);
+static_assert(std::same_as<decltype(xy_points(std::declval<const Doubles&>())), ConstPointView>);
+static_assert(std::same_as<decltype(xy_points(std::declval<Doubles&>())), PointView>);
+static_assert(std::same_as<decltype(xyz_points(std::declval<const float*>(), 1)), ConstPointView>);
+static_assert(!Smoothable<ConstPointView> && Smoothable<PointView>);
+static_assert(std::convertible_to<const std::vector<std::array<double, 2>>&, ConstPointView>);
+static_assert(std::convertible_to<const Eigen::Matrix2Xd&, ConstPointView>);
+static_assert(std::convertible_to<PointView, ConstPointView> && !std::convertible_to<ConstPointView, PointView>);
+static_assert(!std::convertible_to<std::vector<std::array<double, 2>>, ConstPointView>);
+static_assert(!std::convertible_to<Eigen::Matrix2Xd, ConstPointView>);
 // Types that say how many numbers a point has.
 static_assert(Smoothable<std::vector<std::array<double, 2>>&> && Smoothable<std::vector<std::array<float, 3>>&>);
 static_assert(Smoothable<std::span<Point2<float>>> && Smoothable<double (&)[5][3]>);
@@ -324,7 +338,7 @@ TEST_CASE(
 
 TEST_CASE("what is wrong with an argument is said in its own terms, and nothing is written") {
   const Mesh mesh = sample();
-  const std::vector<std::int32_t> triangles = mesh.indices();
+  const auto triangles = mesh.indices();
   std::vector<double> numbers(2 * mesh.points.size() + 1, 0.25);
   const std::vector<double> before = numbers;
   CHECK(refusal([&] { smooth(xy_points(numbers), triangles); }) ==
@@ -341,11 +355,12 @@ TEST_CASE("what is wrong with an argument is said in its own terms, and nothing 
   CHECK(refusal([&] { smooth(few, triangles); }).starts_with("mesh: triangle 0 names vertex "));
   double* const nothing = nullptr;
   CHECK(refusal([&] { smooth(xy_points(nothing, 5), triangles); }) == "argument: points: a null pointer for 5 points");
-  CHECK(refusal([&] { xy_points(numbers.data(), 5, 12); }) ==
+  CHECK(refusal([&] { smooth(xy_points(numbers.data(), 5, 12), triangles); }) ==
         "argument: points: a stride of 12 bytes for points of 16");
-  CHECK(refusal([&] { xy_points(numbers.data(), 5, 20); }) ==
+  CHECK(refusal([&] { smooth(xy_points(numbers.data(), 5, 20), triangles); }) ==
         "argument: points: numbers must lie at multiples of 8 bytes, their size");
-  CHECK(refusal([&] { xy_points(reinterpret_cast<double*>(reinterpret_cast<std::byte*>(numbers.data()) + 4), 5); }) ==
+  auto* const crooked = reinterpret_cast<double*>(reinterpret_cast<std::byte*>(numbers.data()) + 4);
+  CHECK(refusal([&] { smooth(xy_points(crooked, 5), triangles); }) ==
         "argument: points: numbers must lie at multiples of 8 bytes, their size");
   Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(6, 4);
   CHECK(refusal([&] { smooth(trismooth::point_rows(wide), triangles); }) ==
@@ -407,7 +422,7 @@ TEST_CASE("the first vertex with a coordinate that is not finite is named, howev
   for (const int threads : {1, 2, 5}) {
     SmoothingOptions options;
     options.threads = threads;
-    CHECK(refusal([&] { smooth(points, std::vector<int>{}, {}, options); }) ==
+    CHECK(refusal([&] { smooth(points, std::span<const int>{}, options); }) ==
           "mesh: vertex 70001 has a coordinate that is not finite");
   }
 }

@@ -17,7 +17,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "trismooth/base/local_frame.h"
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
@@ -26,6 +27,7 @@
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace {
@@ -67,10 +69,7 @@ class TestMesh {
 class DelaunayMesh final : public TestMesh {
  public:
   explicit DelaunayMesh(std::int64_t vertices) : mesh_(random_delaunay_mesh(vertices, 1)) {
-    const LocalFrame frame = local_frame(mesh_.points);
-    for (const Point2<double> p : mesh_.points) {
-      local_.push_back(frame.enter(p));
-    }
+    local_ = entered(local_frame(mesh_.points), mesh_.points);
     Workers workers(0);
     std::vector<double> xyz;
     for (const Point2<double> p : mesh_.points) {
@@ -78,27 +77,26 @@ class DelaunayMesh final : public TestMesh {
     }
     const TriangleTopology topology =
         connect_triangles(static_cast<std::int32_t>(mesh_.points.size()), mesh_.triangles, workers);
-    const Orientation orientation = orient(topology, mesh_.triangles, local_);
-    fixed_ = fixed_vertices(topology, mesh_.triangles, {});
-    const HalfedgeMesh halfedges = build_halfedge_mesh(xyz, mesh_.triangles, topology, orientation.reversed);
-    halfedge_rings_ = one_rings(halfedges.mesh, fixed_, {}, workers, halfedges.copies_of);
+    by_halfedges_.fixed = fixed_vertices(topology, mesh_.triangles, {});
+    by_halfedges_.reversed = orient(topology, mesh_.triangles, local_.points).reversed;
+    const HalfedgeMesh halfedges = build_halfedge_mesh(xyz, mesh_.triangles, topology, by_halfedges_.reversed);
+    by_halfedges_.rings = one_rings(halfedges.mesh, by_halfedges_.fixed, {}, workers, halfedges.copies_of);
     SmoothingOptions options;
-    parallel_rings_ = cuda::backend().find_rings(local_, mesh_.triangles, {}, options)->rings;
+    in_parallel_ = *cuda::backend().find_rings(local_.points, mesh_.triangles, {}, options);
     options.execution = Execution::single_block;
-    one_thread_rings_ = cuda::backend().find_rings(local_, mesh_.triangles, {}, options)->rings;
+    by_one_thread_ = *cuda::backend().find_rings(local_.points, mesh_.triangles, {}, options);
   }
 
   std::string name() const override { return fmt::format("delaunay {}", mesh_.points.size()); }
 
   Outcome smooth(const SmoothingOptions& options) override {
-    const OneRings& device_rings = options.execution == Execution::single_block ? one_thread_rings_ : parallel_rings_;
-    const OneRings& rings = options.topology == Topology::device ? device_rings : halfedge_rings_;
-    const Backend& backend = options.backend != nullptr ? *options.backend : cpu_backend();
+    const MeshRings& by_device = options.execution == Execution::single_block ? by_one_thread_ : in_parallel_;
+    const MeshRings& found = options.topology == Topology::device ? by_device : by_halfedges_;
     smoothed_ = mesh_.points;
     Outcome outcome;
-    outcome.result =
-        backend.prepare(rings, local_, options)
-            ->smooth(smoothed_, local_frame(mesh_.points), Storage::float64, std::numeric_limits<double>::infinity());
+    outcome.result = backend_of(options)
+                         .prepare(found, mesh_.triangles, local_.points, options)
+                         ->smooth(smoothed_, Storage::float64, local_.frame);
     outcome.committed = hash(smoothed_);
     uncommitted_ = smoothed_;
     for (const auto& [vertex, position] : outcome.result.reverted) {
@@ -115,7 +113,7 @@ class DelaunayMesh final : public TestMesh {
       if (!std::isfinite(smoothed_[v].x) || !std::isfinite(smoothed_[v].y)) {
         return "not finite";
       }
-      if (fixed_[v] != 0 && moved(v)) {
+      if (by_halfedges_.fixed[v] != 0 && moved(v)) {
         return "a fixed vertex moved";
       }
     }
@@ -146,13 +144,12 @@ class DelaunayMesh final : public TestMesh {
   }
 
   RandomMesh mesh_;
-  std::vector<Point2<double>> local_;
+  LocalPoints local_;
   std::vector<Point2<double>> smoothed_;
   std::vector<Point2<double>> uncommitted_;
-  std::vector<std::uint8_t> fixed_;
-  OneRings halfedge_rings_;
-  OneRings parallel_rings_;
-  OneRings one_thread_rings_;
+  MeshRings by_halfedges_;
+  MeshRings in_parallel_;
+  MeshRings by_one_thread_;
 };
 
 /// A mesh file, through the whole pipeline.

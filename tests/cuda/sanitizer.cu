@@ -19,6 +19,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/packing/packing.h"
@@ -104,7 +105,7 @@ constexpr std::int64_t most_sweeps = 4;
 
 /// All executions that this program has, on one mesh, against the CPU.
 void compare_executions(const test_meshes::Mesh& mesh) {
-  const std::vector<std::int32_t> triangles = mesh.indices();
+  const auto triangles = mesh.indices();
   for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
     for (const Form form : {Form::swap, Form::in_place}) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {

@@ -15,6 +15,7 @@
 #include <cuda_runtime_api.h>
 
 #include "trismooth/base/rounding.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
@@ -511,7 +512,7 @@ TEST_CASE("pointers that no kernel could use are refused by name before one runs
   if (reads_host_memory == 0) {
     alignas(16) static double pageable[288];
     CHECK(refusal([&] { plan.smooth(pageable); }) == "xy" + host_message);
-    const std::vector<std::int32_t> indices = mesh.indices();
+    const auto indices = mesh.indices();
     CHECK(refusal([&] {
             cuda::Plan({mesh.vertex_count(), triangle_count, indices.data(), {}}, {});
           }) == "DeviceMesh::triangles" + host_message);
@@ -570,7 +571,7 @@ TEST_CASE("arrays of the host in every form are the CPU's bits where the device 
     triples.push_back({p.x, p.y, -2});
     floats.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
   }
-  const std::vector<std::int32_t> indices = mesh.indices();
+  const auto indices = mesh.indices();
   const std::vector<std::size_t> wide(indices.begin(), indices.end());
   auto expected_triples = triples;
   auto expected_floats = floats;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/hold.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
@@ -18,7 +19,6 @@
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
-#include "trismooth/smoothing/rings/hold.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

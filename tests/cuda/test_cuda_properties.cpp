@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/rounding.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"

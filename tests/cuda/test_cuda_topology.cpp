@@ -13,14 +13,17 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/topology.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
+#include "trismooth/smoothing/rings/fixed_triangles.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"
@@ -28,6 +31,7 @@
 using test_meshes::Mesh;
 using test_meshes::Random;
 using trismooth::Constraints;
+using trismooth::FixedTriangles;
 using trismooth::MeshError;
 using trismooth::MeshRings;
 using trismooth::OneRings;
@@ -409,12 +413,13 @@ TEST_CASE("triangles with an index out of range or a vertex twice are refused wi
 
 TEST_CASE("constraints that do not fit are refused with the host's message, after the triangles") {
   const Mesh mesh = test_meshes::star(6);
+  const std::vector<std::int32_t> out_of_range{0, 1000};
   const std::vector<std::int32_t> too_high{0, 7, -1};
   const std::vector<std::int32_t> negative{0, -1, 7};
   const std::vector<std::uint8_t> short_flags(3, 1);
   const std::vector<std::int32_t> long_regions(7, 1);
   for (const Mesh& any : {mesh, test_meshes::together(mesh, test_meshes::moebius_band(5), {9, 9})}) {
-    require_same_error(any, {.fixed_ids = std::vector<std::int32_t>{0, 1000}});
+    require_same_error(any, {.fixed_ids = out_of_range});
     require_same_error(any, {.fixed = short_flags});
     require_same_error(any, {.other_cells = short_flags});
     require_same_error(any, {.regions = long_regions});
@@ -457,7 +462,9 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
     rings.neighbours.download(found.neighbours);
     require_same(found, expected.rings);
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          trismooth::smallest_fixed_quotient(positions.points, positions.triangles, expected.reversed, expected.fixed));
+          FixedTriangles(positions.triangles, expected.reversed, expected.fixed).smallest_quotient([&](std::int32_t v) {
+            return positions.points[v];
+          }));
     return changed;
   };
   CHECK(orient_by(mesh));
@@ -480,7 +487,8 @@ TEST_CASE("the smallest quotient of the triangles without a free vertex is the h
                                   NeighbourFinding::one_thread);
     CHECK(topology.orient(points.data()));
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          trismooth::smallest_fixed_quotient(mesh.points, mesh.triangles, expected.reversed, expected.fixed));
+          FixedTriangles(mesh.triangles, expected.reversed, expected.fixed)
+              .smallest_quotient([&points_of = mesh.points](std::int32_t v) { return points_of[v]; }));
   }
   cuda::Context context;
   cuda::DeviceTopology nothing(context, 0, 0, nullptr, {}, NeighbourFinding::parallel);

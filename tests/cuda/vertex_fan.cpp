@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

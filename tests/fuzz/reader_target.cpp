@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
@@ -76,17 +77,12 @@ void check_written_back(const MeshDocument& document, std::string_view bytes) {
 /// The mesh in the document as the pipeline makes it, with what a smoothing of it needs.
 struct Prepared {
   trismooth::PlanarMesh mesh;
-  std::vector<Point2<double>> local;
+  trismooth::LocalPoints local;
   trismooth::Regions regions;
-  trismooth::LocalFrame frame;
   std::vector<std::uint8_t> fixed;
   trismooth::MeshRings found;
 
-  void enter_frame() {
-    frame = fuzz::frame_of_used(mesh.points, mesh.in_cell);
-    local.resize(mesh.points.size());
-    std::ranges::transform(mesh.points, local.begin(), [&](Point2<double> p) { return frame.enter(p); });
-  }
+  void enter_frame() { local = trismooth::entered(fuzz::frame_of_used(mesh.points, mesh.in_cell), mesh.points); }
 
   trismooth::Constraints constraints() const {
     return {.fixed = fixed, .other_cells = mesh.in_other_cell, .regions = regions.of_triangle};
@@ -112,7 +108,7 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
     return trismooth::one_rings(halfedges.mesh, known.fixed, {}, workers, halfedges.copies_of);
   };
   const auto find = [&](const trismooth::RingFinder& finder) {
-    return trismooth::find_mesh_rings(prepared.local, mesh.triangles, prepared.constraints(), workers, finder);
+    return trismooth::find_mesh_rings(prepared.local.points, mesh.triangles, prepared.constraints(), workers, finder);
   };
   try {
     prepared.found = find({});
@@ -160,9 +156,8 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   const std::vector<double> stored_before = document.points;
   const auto storage = document.moved_point_type() == trismooth::ScalarType::float32 ? trismooth::Storage::float32
                                                                                      : trismooth::Storage::float64;
-  const trismooth::SmoothingResult result =
-      trismooth::smooth_in_plane(prepared->found.rings, mesh.plane, document.points, mesh.points, prepared->frame,
-                                 prepared->local, std::numeric_limits<double>::infinity(), storage, options);
+  const trismooth::SmoothingResult result = trismooth::smooth_in_plane(
+      prepared->found, mesh.triangles, mesh.plane, document.points, mesh.points, prepared->local, storage, options);
   require_guarantees(document);
   std::vector<Point2<double>> after(before.size());
   for (std::size_t v = 0; v < after.size(); ++v) {

@@ -11,6 +11,7 @@
 #include <OpenMesh/Tools/Utils/MeshCheckerT.hh>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/constraints.h"
 
 #include "catch.h"

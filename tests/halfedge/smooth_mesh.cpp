@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 
 #include "catch.h"

@@ -2,6 +2,7 @@
 // without a lookup table, strips. The same mesh is read, and the same bytes are written back.
 
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_input.h"
+
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "vtk_legacy_files.h"

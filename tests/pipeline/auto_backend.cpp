@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 

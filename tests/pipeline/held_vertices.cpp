@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/smoothing/rings/hold.h"
+#include "trismooth/base/hold.h"
 
 #include "catch.h"
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
@@ -79,24 +80,22 @@ struct Smoothed {
 /// Smooths the document's points in place, as a run over a file does.
 Smoothed smooth(MeshDocument& document, const RandomMesh& mesh, const SmoothingOptions& options) {
   trismooth::PlanarMesh planar = trismooth::planar_mesh(document, "mesh");
-  trismooth::LocalFrame frame;
-  std::vector<Point2<double>> local;
+  trismooth::LocalPoints local;
   const auto enter_frame = [&] {
-    frame = test_meshes::used_frame(planar.points, planar.triangles, planar.in_other_cell);
-    local.clear();
-    std::ranges::transform(planar.points, std::back_inserter(local), [&](Point2<double> p) { return frame.enter(p); });
+    local = trismooth::entered(test_meshes::used_frame(planar.points, planar.triangles, planar.in_other_cell),
+                               planar.points);
   };
   enter_frame();
   trismooth::Workers workers(1);
   const auto found = trismooth::find_mesh_rings(
-      local, planar.triangles,
+      local.points, planar.triangles,
       {.fixed = mesh.fixed, .fixed_ids = mesh.fixed_ids, .other_cells = planar.in_other_cell, .regions = mesh.regions},
       workers);
   if (trismooth::settle_plane(planar, document, found.fixed, "mesh")) {
     enter_frame();
   }
-  return {trismooth::smooth_in_plane(found.rings, planar.plane, document.points, planar.points, frame, local,
-                                     std::numeric_limits<double>::infinity(), Storage::float64, options),
+  return {trismooth::smooth_in_plane(found, planar.triangles, planar.plane, document.points, planar.points, local,
+                                     Storage::float64, options),
           planar.plane.aligned};
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("runs repeated, plans used again, flat arrays, and evaluating all give
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.record_min_shape = random.below(2) == 0;
       const Run expected = run(mesh, options);
-      const std::vector<std::int32_t> indices = mesh.mesh.indices();
+      const auto indices = mesh.mesh.indices();
       auto plan = trismooth::plan(mesh.mesh.vertex_count(), indices, mesh.constraints(), options);
       for (int times = 0; times < 2; ++times) {
         Run planned{mesh.mesh.xy(), {}};

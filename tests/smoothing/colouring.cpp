@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/workers.h"
+
 #include "catch.h"
 #include "support/hostile_meshes.h"
 #include "support/naive_smoothing.h"

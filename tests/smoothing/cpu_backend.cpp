@@ -1,16 +1,22 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
 
 using test_meshes::Mesh;
@@ -269,12 +275,19 @@ TEST_CASE("layout and execution mean nothing to the CPU") {
   CHECK(smoothed(grid(), options).xy == expected);
 }
 
+namespace {
+
+/// A mesh as backends take it, listed counter-clockwise.
+trismooth::MeshRings found_in(const Mesh& mesh) {
+  Workers workers(1);
+  return trismooth::find_mesh_rings(mesh.points, mesh.triangles, {}, workers);
+}
+
+}  // namespace
+
 TEST_CASE("the points that a mesh is made ready with steer its order in memory and no result") {
   const Mesh& mesh = grid();
-  Workers workers(1);
-  const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
-  const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
-  const auto rings = trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers);
+  const trismooth::MeshRings found = found_in(mesh);
   const trismooth::LocalFrame frame = trismooth::local_frame(mesh.points);
   std::vector<Point> elsewhere = mesh.points;
   test_meshes::Random random(1);
@@ -284,19 +297,59 @@ TEST_CASE("the points that a mesh is made ready with steer its order in memory a
       SmoothingOptions options;
       options.form = form;
       options.precision = precision;
-      const auto ordered = trismooth::cpu_backend().prepare(rings, mesh.points, options);
-      const auto disordered = trismooth::cpu_backend().prepare(rings, elsewhere, options);
+      const auto ordered = trismooth::cpu_backend().prepare(found, mesh.triangles, mesh.points, options);
+      const auto disordered = trismooth::cpu_backend().prepare(found, mesh.triangles, elsewhere, options);
       // Twice: a prepared mesh can be smoothed as often as one likes.
       for (int i = 0; i < 2; ++i) {
         std::vector<Point> a = mesh.points;
         std::vector<Point> b = mesh.points;
-        const SmoothingResult of_a = ordered->smooth(a, frame, Storage::float64, 0);
-        const SmoothingResult of_b = disordered->smooth(b, frame, Storage::float64, 0);
+        const SmoothingResult of_a = ordered->smooth(a, Storage::float64, frame);
+        const SmoothingResult of_b = disordered->smooth(b, Storage::float64, frame);
         CHECK(a == b);
         CHECK(of_a.sweeps == of_b.sweeps);
         CHECK(of_a.vertex_updates == of_b.vertex_updates);
         CHECK_FALSE(a == mesh.points);
       }
     }
+  }
+}
+
+TEST_CASE("a prepared mesh finds the local frame of what cells use where nobody tells it") {
+  Mesh mesh = grid();
+  // Far away, and of no cell: it has no say.
+  mesh.points.push_back({1e9, -1e9});
+  for (Point& p : mesh.points) {
+    p = {3 * p.x + 50, 3 * p.y - 70};
+  }
+  const trismooth::MeshRings found = found_in(mesh);
+  const auto cells = std::span(mesh.points).first(mesh.points.size() - 1);
+  const trismooth::LocalFrame frame = trismooth::local_frame(cells);
+  const auto smoother = trismooth::cpu_backend().prepare(found, mesh.triangles, mesh.points, {});
+  std::vector<Point> told = mesh.points;
+  std::vector<Point> untold = mesh.points;
+  CHECK(smoother->smooth(told, Storage::float64, frame).moved_vertices > 0);
+  smoother->smooth(untold, Storage::float64, std::nullopt);
+  CHECK(told == untold);
+}
+
+TEST_CASE("a prepared mesh says why its vertices are fixed") {
+  const trismooth::MeshRings found = found_in(grid());
+  CHECK(trismooth::cpu_backend().prepare(found, grid().triangles, grid().points, {})->fixed() == found.fixed);
+}
+
+TEST_CASE("a prepared mesh knows its triangles without a free vertex, wherever they are by then") {
+  // Two triangles of a strip, one of them flat: no vertex is free, so the smallest shape is theirs.
+  Mesh strip{{{0, 0}, {1, 0}, {0.5, 0.1}, {1.5, 1}}, {{0, 1, 2}, {2, 1, 3}}};
+  SmoothingOptions options;
+  options.record_min_shape = true;
+  const auto smoother = trismooth::cpu_backend().prepare(found_in(strip), strip.triangles, strip.points, options);
+  for (const double height : {0.1, 0.2}) {
+    strip.points[2].y = height;
+    const double expected = 2 * std::sqrt(3.0) *
+                            std::min(naive::element_quotient(strip.points, strip.triangles[0]),
+                                     naive::element_quotient(strip.points, strip.triangles[1]));
+    const SmoothingResult result = smoother->smooth(strip.points, Storage::float64, std::nullopt);
+    REQUIRE(result.history.size() == 1);
+    CHECK(result.history[0].min_shape == Approx(expected).epsilon(1e-14));
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trismooth/base/rounding.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/smooth.h"
 

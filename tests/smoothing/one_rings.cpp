@@ -7,6 +7,10 @@
 #include <set>
 #include <vector>
 
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/rings/fixed_triangles.h"
+
 #include "catch.h"
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
@@ -30,6 +34,13 @@ Analysed analysed(const Mesh& mesh, int threads = 1) {
   const TriangleTopology topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
   const auto reversed = trismooth::orient(topology, mesh.triangles, mesh.points).reversed;
   return {trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers), reversed, topology.hold};
+}
+
+double smallest_fixed_quotient(const Mesh& mesh) {
+  const Analysed found = analysed(mesh);
+  return trismooth::FixedTriangles(mesh.triangles, found.reversed, found.hold).smallest_quotient([&](std::int32_t v) {
+    return mesh.points[v];
+  });
 }
 
 /// The triangle in consistent orientation, beginning with its smallest index.
@@ -108,9 +119,8 @@ TEST_CASE("the smallest fixed quotient is that of the triangles whose three corn
     }
   }
   REQUIRE(std::isfinite(expected));
-  CHECK(trismooth::smallest_fixed_quotient(mesh.points, mesh.triangles, reversed, hold) == expected);
+  CHECK(smallest_fixed_quotient(mesh) == expected);
 
   const Mesh star = test_meshes::star(6);
-  CHECK(std::isinf(
-      trismooth::smallest_fixed_quotient(star.points, star.triangles, analysed(star).reversed, analysed(star).hold)));
+  CHECK(std::isinf(smallest_fixed_quotient(star)));
 }

@@ -6,6 +6,8 @@
 #include <set>
 #include <vector>
 
+#include "trismooth/base/workers.h"
+
 #include "catch.h"
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"

@@ -13,10 +13,11 @@
 #include <vector>
 
 #include "trismooth/base/overwriting.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/rings/triangle_topology.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/smooth.h"
 
 /// A device that a test can count the calls of and make fail, on any machine.
@@ -43,14 +44,15 @@ class FakeBackend final : public trismooth::Backend {
 
   std::string name() const override { return "cuda"; }
 
-  std::unique_ptr<trismooth::PreparedSmoother> prepare(const trismooth::OneRings& rings,
-                                                       std::span<const trismooth::Point2<double>> points,
+  std::unique_ptr<trismooth::PreparedSmoother> prepare(const trismooth::MeshRings& mesh,
+                                                       std::span<const trismooth::Triangle> triangles,
+                                                       std::span<const trismooth::Point2<double>> local,
                                                        const trismooth::SmoothingOptions& options) const override {
     ++prepared;
-    fail_at(Failure::prepare, points.size());
+    fail_at(Failure::prepare, local.size());
     trismooth::SmoothingOptions on_cpu = options;
     on_cpu.order = trismooth::Order::colour;  // the CPU has no other
-    return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(rings, points, on_cpu));
+    return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(mesh, triangles, local, on_cpu));
   }
 
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
@@ -64,10 +66,10 @@ class FakeBackend final : public trismooth::Backend {
   }
 
   /// Keeps the mesh "on the device", and brings results back in pieces.
-  std::unique_ptr<trismooth::PreparedMesh> prepare_mesh(std::int32_t vertex_count,
-                                                        std::span<const trismooth::Triangle> triangles,
-                                                        const trismooth::Constraints& constraints,
-                                                        const trismooth::SmoothingOptions& options) const override {
+  std::unique_ptr<trismooth::PreparedSmoother> prepare_mesh(std::int32_t vertex_count,
+                                                            std::span<const trismooth::Triangle> triangles,
+                                                            const trismooth::Constraints& constraints,
+                                                            const trismooth::SmoothingOptions& options) const override {
     ++prepared;
     fail_at(Failure::prepare, static_cast<std::size_t>(vertex_count));
     return std::make_unique<Mesh>(*this, vertex_count, triangles, constraints, options);
@@ -86,20 +88,22 @@ class FakeBackend final : public trismooth::Backend {
     Smoother(const FakeBackend& backend, std::unique_ptr<PreparedSmoother> cpu)
         : backend_(backend), cpu_(std::move(cpu)) {}
 
-    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points, const trismooth::LocalFrame& frame,
-                                      trismooth::Storage storage, double fixed_quotient) override {
+    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points, trismooth::Storage storage,
+                                      const std::optional<trismooth::LocalFrame>& frame) override {
       ++backend_.smoothed;
-      trismooth::SmoothingResult result = cpu_->smooth(points, frame, storage, fixed_quotient);
+      trismooth::SmoothingResult result = cpu_->smooth(points, storage, frame);
       backend_.spoil(points, result);  // with the points written already
       return result;
     }
+
+    std::vector<std::uint8_t> fixed() const override { return cpu_->fixed(); }
 
    private:
     const FakeBackend& backend_;
     std::unique_ptr<PreparedSmoother> cpu_;
   };
 
-  class Mesh final : public trismooth::PreparedMesh {
+  class Mesh final : public trismooth::PreparedSmoother {
    public:
     Mesh(const FakeBackend& backend, std::int32_t vertex_count, std::span<const trismooth::Triangle> triangles,
          const trismooth::Constraints& constraints, const trismooth::SmoothingOptions& options)
@@ -113,8 +117,8 @@ class FakeBackend final : public trismooth::Backend {
       plan_ = std::make_unique<trismooth::SmoothingPlan>(vertex_count, triangles, constraints, on_cpu);
     }
 
-    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points,
-                                      trismooth::Storage storage) override {
+    trismooth::SmoothingResult smooth(std::span<trismooth::Point2<double>> points, trismooth::Storage storage,
+                                      const std::optional<trismooth::LocalFrame>& /*frame*/) override {
       ++backend_.smoothed;
       std::vector<trismooth::Point2<double>> on_device(points.begin(), points.end());
       trismooth::SmoothingResult result = plan_->smooth(on_device, storage);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,12 +34,8 @@ struct Mesh {
     }
     return flat;
   }
-  std::vector<std::int32_t> indices() const {
-    std::vector<std::int32_t> flat;
-    for (const Triangle& t : triangles) {
-      flat.insert(flat.end(), t.begin(), t.end());
-    }
-    return flat;
+  std::span<const std::int32_t> indices() const {
+    return {reinterpret_cast<const std::int32_t*>(triangles.data()), 3 * triangles.size()};
   }
 };
 

@@ -14,7 +14,7 @@ namespace trismooth {
 /// `points` have three components and are finite, `pairs` are x and y of them. `fixed` answers why each vertex is fixed
 /// (bits of namespace hold), which tells the vertices that nobody uses; it is asked only where heights differ at all.
 /// Complexity: linear.
-void require_one_height(const PointView& points, std::span<const Point2<double>> pairs,
+void require_one_height(const ConstPointView& points, std::span<const Point2<double>> pairs,
                         const std::function<std::vector<std::uint8_t>()>& fixed);
 
 }  // namespace trismooth

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
-#include "trismooth/smoothing/rings/hold.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// How triangles hang together. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
 struct TriangleTopology {
@@ -31,17 +32,6 @@ struct TriangleTopology {
 /// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
 /// linear, but for sorting the edges of each vertex.
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
-
-/// The orientation of every triangle.
-struct Orientation {
-  std::vector<std::uint8_t> reversed;     ///< 1 where the triangle is listed clockwise in the consistent orientation
-  std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
-};
-
-/// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
-/// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows.
-Orientation orient(const TriangleTopology& topology, std::span<const Triangle> triangles,
-                   std::span<const Point2<double>> points);
 
 /// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative
 /// value where there is none. A corner is named by the halfedge that starts there.

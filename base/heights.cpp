@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/heights.h"
+#include "trismooth/base/heights.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/smoothing/rings/hold.h"
+#include "trismooth/base/hold.h"
 
 namespace trismooth {
 
@@ -34,7 +34,7 @@ std::string text_of(double value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-bool all_equal(const PointView& points) {
+bool all_equal(const ConstPointView& points) {
   for (std::size_t v = 1; v < points.size(); ++v) {
     if (!(points.z(v) == points.z(0))) {
       return false;
@@ -45,7 +45,7 @@ bool all_equal(const PointView& points) {
 
 }  // namespace
 
-void require_one_height(const PointView& points, std::span<const Point2<double>> pairs,
+void require_one_height(const ConstPointView& points, std::span<const Point2<double>> pairs,
                         const std::function<std::vector<std::uint8_t>()>& fixed) {
   if (all_equal(points)) {
     return;

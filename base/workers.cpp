@@ -1,0 +1,58 @@
+#include "trismooth/base/workers.h"
+
+#include <cstddef>
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "trismooth/base/worker_threads.h"
+
+namespace trismooth {
+
+namespace {
+
+int threads_for(int wanted) {
+  return allowed_threads(checked_threads(wanted) > 0 ? wanted : tbb::this_task_arena::max_concurrency());
+}
+
+}  // namespace
+
+struct Workers::Arena {
+  explicit Arena(int threads) : arena(threads) {
+    if (threads > tbb::this_task_arena::max_concurrency()) {
+      limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+    }
+  }
+
+  std::unique_ptr<tbb::global_control> limit;  ///< where there are to be more threads than cores
+  tbb::task_arena arena;
+};
+
+Workers::Workers(int threads) : count_(threads_for(threads)), arena_(std::make_unique<Arena>(count_)) {}
+
+Workers::~Workers() = default;
+
+void Workers::start() {
+  const int allowed = start_worker_threads(count_);
+  if (allowed < count_) {
+    count_ = allowed;
+    arena_->arena.initialize(allowed);  // unless it is at work already
+  }
+}
+
+void Workers::enter(const Callee<>& function) {
+  arena_->arena.execute([&] { function(); });
+}
+
+void Workers::share_out(std::int64_t size, std::int64_t grain, const Callee<std::int64_t, std::int64_t>& body) {
+  start();
+  arena_->arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, static_cast<std::size_t>(grain)),
+                      [&](const auto& range) { body(range.begin(), range.end()); });
+  });
+}
+
+}  // namespace trismooth

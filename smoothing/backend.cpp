@@ -1,0 +1,26 @@
+#include "trismooth/smoothing/backend.h"
+
+#include <utility>
+
+namespace trismooth {
+
+const Backend& backend_of(const SmoothingOptions& options) {
+  return options.backend != nullptr ? *options.backend : cpu_backend();
+}
+
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
+                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                    const RingFinder& find_rings) {
+  if (options.topology == Topology::device) {
+    if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
+      return *std::move(found);
+    }
+  }
+  return find_mesh_rings(local, triangles, constraints, workers, find_rings);
+}
+
+std::string joined_notes(const std::string& first, const std::string& second) {
+  return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/constraints.h"
+
+namespace trismooth {
+
+/// Why each vertex is fixed: the bits of namespace hold; 0 is a free vertex. Checks the constraints as
+/// check_constraints() does. Complexity: linear.
+std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                         const Constraints& constraints);
+
+}  // namespace trismooth
