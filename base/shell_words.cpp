@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/utf8.h"
+
 namespace trismooth {
 
 namespace {
@@ -15,27 +17,12 @@ bool is_harmless(char c) {
          harmless.find(c) != std::string_view::npos;
 }
 
-/// Bytes of the printable character of UTF-8 that `text` begins with; 0 where it begins with a control character or
-/// with what is no UTF-8 (see The Unicode Standard, table 3-7).
+/// Bytes of the printable character of UTF-8 that `text` begins with; 0 where it begins with a control character (C0,
+/// delete, C1) or with what is no UTF-8.
 std::size_t printable_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const auto follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xbf) {
-    return byte(i) >= low && byte(i) <= high;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) {
-    return first >= 0x20 && first != 0x7f ? 1 : 0;
-  }
-  if (first >= 0xc2 && first <= 0xdf) {
-    return follows(1, first == 0xc2 ? 0xa0 : 0x80) ? 2 : 0;  // below that are the control characters C1
-  }
-  if (first >= 0xe0 && first <= 0xef) {
-    return follows(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf) && follows(2) ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    return follows(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf) && follows(2) && follows(3) ? 4 : 0;
-  }
-  return 0;
+  const auto [length, code] = first_utf8_character(text);
+  const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+  return is_control ? 0 : length;
 }
 
 bool is_printable(std::string_view text) {

@@ -4,7 +4,6 @@
 //     cpu_smoothing --vertices 100000 1000000 --threads 1 2 --form b --precision double --runs 7
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -15,11 +14,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
+#include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/smooth.h"
 
 namespace {
@@ -37,9 +38,9 @@ struct Settings {
 };
 
 double milliseconds(const std::function<void()>& body) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   body();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return watch.milliseconds();
 }
 
 /// Times of one kind of work over several runs.

@@ -1,12 +1,12 @@
 #include "gpu_smoothing_session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 #include <cuda_runtime_api.h>
 #include <fmt/format.h>
 
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"
@@ -124,9 +124,9 @@ std::int32_t vertex_count_of(const RandomMesh& mesh) {
 }
 
 double milliseconds_of(const std::function<void()>& function) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   function();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return watch.milliseconds();
 }
 
 std::uint64_t most_memory_used() {

@@ -1,12 +1,16 @@
 #include "trismooth/cuda/backend.h"
 
-#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/overwriting.h"
-#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
@@ -15,6 +19,8 @@
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/rings/fixed_triangles.h"
 
 namespace trismooth::cuda {
 
@@ -55,19 +61,27 @@ DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
 
 class RingSmoother final : public PreparedSmoother {
  public:
-  RingSmoother(const OneRings& rings, std::span<const Point2<double>> points, const SmoothingOptions& options)
+  RingSmoother(const MeshRings& mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+               const SmoothingOptions& options)
       : copier_(context_, options.threads),
-        stored_(context_, with_room_for(rings, options, points.size())),
-        frame_(context_, 1) {
-    const auto start = std::chrono::steady_clock::now();
+        stored_(context_, with_room_for(mesh.rings, options, local.size())),
+        frame_(context_, 1),
+        fixed_(mesh.fixed) {
+    const Stopwatch watch;
     smoother_ = make_device_smoother(
-        context_, pack_rings(context_, uploaded(copier_, rings), copier_.uploaded(points), options), options);
+        context_, pack_rings(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options), options);
+    if (options.measures_shape()) {
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
+    }
     context_.synchronize();
-    prepare_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    prepare_ms_ = watch.milliseconds();
   }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, const LocalFrame& frame, Storage storage,
-                         double fixed_quotient) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& known_frame) override {
+    const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
+    const double fixed_quotient =
+        fixed_triangles_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });
     frame_.upload({&frame, 1});
     SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, nullptr, [&] {
       return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
@@ -75,6 +89,8 @@ class RingSmoother final : public PreparedSmoother {
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
+
+  std::vector<std::uint8_t> fixed() const override { return fixed_; }
 
  private:
   static std::size_t with_room_for(const OneRings& rings, const SmoothingOptions& options, std::size_t vertices) {
@@ -87,12 +103,14 @@ class RingSmoother final : public PreparedSmoother {
   HostCopier copier_;
   DeviceBuffer<Point2<double>> stored_;
   DeviceBuffer<LocalFrame> frame_;
+  std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
+  FixedTriangles fixed_triangles_;   ///< where they are asked for
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;  ///< until a call has reported it
 };
 
-/// A mesh of the host with its topology found and kept on the device.
-class TriangleSmoother final : public PreparedMesh {
+/// A mesh of the host with its topology found and kept on the device, which finds the local frame there as well.
+class TriangleSmoother final : public PreparedSmoother {
  public:
   TriangleSmoother(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
                    const SmoothingOptions& options)
@@ -107,7 +125,8 @@ class TriangleSmoother final : public PreparedMesh {
     constraints_ = {};
   }
 
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage) override {
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& /*frame*/) override {
     SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, &kept_,
                                                 [&] { return plan_.smooth(&stored_.data()->x, storage); });
     // The plan counts what it has taken itself.
@@ -138,22 +157,23 @@ class CudaBackend final : public Backend {
  public:
   std::string name() const override { return "cuda"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(const OneRings& rings, std::span<const Point2<double>> points,
+  std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                            std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     options.validate();
     require_device();
-    return std::make_unique<RingSmoother>(rings, points, options);
+    return std::make_unique<RingSmoother>(mesh, triangles, local, options);
   }
 
-  std::optional<MeshRings> find_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+  std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
     require_device();
-    return find_rings_on_device(points, triangles, constraints, neighbour_finding(options.execution));
+    return find_rings_on_device(local, triangles, constraints, neighbour_finding(options.execution));
   }
 
-  std::unique_ptr<PreparedMesh> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
-                                             const Constraints& constraints,
-                                             const SmoothingOptions& options) const override {
+  std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                                                 const Constraints& constraints,
+                                                 const SmoothingOptions& options) const override {
     options.validate();
     require_device();
     return std::make_unique<TriangleSmoother>(vertex_count, triangles, constraints, options);

@@ -1,7 +1,6 @@
 #include "trismooth/cuda/device_mesh.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
@@ -78,12 +78,12 @@ class Plan::Implementation {
 
  private:
   SmoothingResult smooth_stored(Point2<double>* stored, Storage storage) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
-    const std::chrono::duration<double, std::milli> preparing = std::chrono::steady_clock::now() - start;
+    const double preparing_ms = watch.milliseconds();
     SmoothingResult result = smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
-    result.timings.prepare = preparing.count();
+    result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
   }
@@ -100,7 +100,7 @@ class Plan::Implementation {
     if (const std::int32_t vertex = extent_.extent().first_not_finite; vertex >= 0) {
       throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
     }
-    if (options_.target_quality || options_.record_min_shape) {
+    if (options_.measures_shape()) {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
     if (smoother_ == nullptr) {

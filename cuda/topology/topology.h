@@ -37,7 +37,7 @@ class DeviceTopology {
   /// The one-rings of the free vertices in the orientation found last.
   DeviceRings rings() const;
 
-  /// trismooth::smallest_fixed_quotient() in the orientation found last.
+  /// trismooth::FixedTriangles::smallest_quotient() in the orientation found last.
   double smallest_fixed_quotient(const Point2<double>* local_points) const;
 
   std::int32_t vertex_count() const { return corners_.view().vertex_count; }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -1,13 +1,13 @@
 #include "trismooth/pipeline/experiments/experiment.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <map>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/stopwatch.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/errors.h"
@@ -33,11 +33,11 @@ Run run_once(const RandomMesh& mesh, const SmoothingOptions& options, std::vecto
              SmoothingResult& result) {
   const auto points = flat_points(mesh);
   xy.assign(points.begin(), points.end());
-  const auto start = std::chrono::steady_clock::now();
-  result = smooth(xy_points(xy), flat_triangles(mesh), {}, options);
-  const std::chrono::duration<double, std::milli> together = std::chrono::steady_clock::now() - start;
+  const Stopwatch watch;
+  result = smooth(xy_points(xy), flat_triangles(mesh), options);
+  const double together = watch.milliseconds();
   return {result.timings.transfer_in + result.timings.transfer_out, result.timings.smooth + result.timings.commit,
-          together.count(), result.sweeps};
+          together, result.sweeps};
 }
 
 template <class Value>

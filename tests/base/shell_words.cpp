@@ -18,6 +18,12 @@ TEST_CASE("what needs no quotes has none, and nothing that a terminal obeys is l
   CHECK(shell_word("\xc3\xb6") == "'\xc3\xb6'");
   CHECK(shell_word("\xe2\x82") == "$'\\342\\202'");
   CHECK(shell_word("\xed\xa0\x80") == "$'\\355\\240\\200'");
+  CHECK(shell_word("\xc2\xa0") == "'\xc2\xa0'");
+  CHECK(shell_word("\x7f") == "$'\\177'");
+  CHECK(shell_word(std::string(1, '\0')) == "$'\\000'");
+  CHECK(shell_word("\xe0\x9f\xbf") == "$'\\340\\237\\277'");
+  CHECK(shell_word("\xf4\x90\x80\x80") == "$'\\364\\220\\200\\200'");
+  CHECK(shell_word("\xf0\x9f\x98\x80\n") == "$'\xf0\x9f\x98\x80\\012'");
   for (const char* harmless : {"plain", "--form=a", "a/b-c_d.e:f,g@h%i+j", "inverted==0"}) {
     CHECK(shell_word(harmless) == harmless);
   }

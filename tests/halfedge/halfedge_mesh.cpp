@@ -12,7 +12,8 @@
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/constraints.h"
+#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
 
 #include "catch.h"
 #include "support/planar_samples.h"

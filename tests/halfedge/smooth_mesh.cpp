@@ -15,6 +15,7 @@
 #include "trismooth/base/errors.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/quality/orientation.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
@@ -107,7 +108,7 @@ TEST_CASE("a halfedge mesh along two axes is smoothed to the bits of the flat ar
   for (const Sample& sample : planar_samples::manifold_samples()) {
     CAPTURE(sample.name);
     std::vector<double> xy = sample.xy();
-    const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.flat_triangles(), {}, options);
+    const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.triangles, options);
 
     TriangleMesh mesh = mesh_of(sample, [&](const Eigen::Vector3d& p) {
       Eigen::Vector3d placed = Eigen::Vector3d::Constant(-7.1);
@@ -141,7 +142,7 @@ TEST_CASE("constraints hold in a halfedge mesh as they do in flat arrays") {
   const trismooth::Constraints constraints{.fixed = fixed, .fixed_ids = ids, .other_cells = {}, .regions = regions};
 
   std::vector<double> xy = sample.xy();
-  const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.flat_triangles(), constraints);
+  const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.triangles, constraints);
   TriangleMesh mesh = mesh_of(sample);
   const SmoothingResult result = trismooth::smooth(mesh, constraints, {});
   CHECK(result.free_vertices == expected.free_vertices);

@@ -10,6 +10,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/quality/orientation.h"
 
 #include "catch.h"
 #include "properties/for_random_meshes.h"

@@ -29,13 +29,6 @@ struct Sample {
     }
     return result;
   }
-  std::vector<std::int32_t> flat_triangles() const {
-    std::vector<std::int32_t> result;
-    for (const trismooth::Triangle& t : triangles) {
-      result.insert(result.end(), t.begin(), t.end());
-    }
-    return result;
-  }
 };
 
 /// n x n squares cut by random diagonals, counter-clockwise; inner vertices jittered by up to `jitter` edge lengths.
