@@ -30,11 +30,14 @@ struct CellList {
   std::vector<std::int32_t> connectivity;  ///< vertex indices from 0
   std::vector<std::uint8_t> types;         ///< one cell_type a cell
 
+  /// Cells.
   std::size_t size() const { return types.size(); }
+  /// The vertices of a cell; valid until cells are appended.
   std::span<const std::int32_t> operator[](std::size_t cell) const {
     return std::span(connectivity)
         .subspan(static_cast<std::size_t>(offsets[cell]), static_cast<std::size_t>(offsets[cell + 1] - offsets[cell]));
   }
+  /// Adds a cell behind the last. Constant time, but for growth.
   void append(std::uint8_t type, std::span<const std::int32_t> vertices) {
     connectivity.insert(connectivity.end(), vertices.begin(), vertices.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));

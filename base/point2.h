@@ -11,15 +11,19 @@ struct Point2 {
   T x;
   T y;
 
+  /// By value: -0 equals 0, NaN equals nothing.
   friend constexpr TRISMOOTH_HOST_DEVICE bool operator==(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+  /// The vector from b to a.
   friend constexpr TRISMOOTH_HOST_DEVICE Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 };
 
+/// Twice the signed area between two vectors: positive where b is counter-clockwise of a.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T cross(Point2<T> a, Point2<T> b) {
   return a.x * b.y - a.y * b.x;
 }
 
+/// The square of a vector's length.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T squared_length(Point2<T> a) {
   return a.x * a.x + a.y * a.y;

@@ -21,7 +21,7 @@ struct TriangleView {
   int exponent = 0;                        ///< of the local frame: lengths in the file are local * 2^exponent
 };
 
-/// The corners in the order in which an element's quality is evaluated everywhere outside one-rings (report, commit):
+/// The corners in the order in which an element's quality is evaluated everywhere outside one-rings (report, guard):
 /// counter-clockwise in the consistent orientation, the smallest index first. So every evaluation of an element gives
 /// the same bits, however the file lists it.
 constexpr Triangle canonical_corners(Triangle triangle, bool reversed) {

@@ -19,7 +19,7 @@ Orientation orient(const TriangleTopology& topology, std::span<const Triangle> t
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Count& count = counts[topology.component[t]];
     // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes first:
-    // the sign that counts is that of its quality in every report and in the commit.
+    // the sign that counts is that of its quality in every report and in the guard.
     const auto [a, b, c] = canonical_corners(triangles[t], topology.parity[t] != 0);
     const double quotient = shape_quotient(points[a], points[b], points[c]);
     count.positive += quotient > 0 ? 1 : 0;

@@ -13,7 +13,7 @@
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
-#include "trismooth/smoothing/sweeps/sweeper.h"
+#include "trismooth/smoothing/sweeps/sweep_driver.h"
 
 namespace trismooth {
 
@@ -66,7 +66,7 @@ class CpuSmoother final : public PreparedSmoother {
       before[v] = frame.enter(points[rings_.input_index[v]]);
       working[v] = narrow<T>(before[v]);
     });
-    Sweeper<T>(rings_, options_, workers_).run(working, fixed_quotient, result);
+    SweepDriver<T>(rings_, options_, workers_).run(working, fixed_quotient, result);
     result.timings.smooth = watch.lap();
 
     // Where each vertex would be stored, and what that is in the local frame.

@@ -22,27 +22,41 @@ enum class Method : std::uint8_t {
 
 /// The paper's iteration forms.
 enum class Form : std::uint8_t {
-  swap,      ///< Form A: every move of a sweep is computed from the positions before the sweep (equation 1)
-  in_place,  ///< Form B: a move sees the neighbours already moved in this sweep (equation 2), colour by colour
+  swap,      ///< Form A (Jacobi): every move of a sweep is computed from the positions before the sweep (equation 1)
+  in_place,  ///< Form B (coloured Gauss-Seidel): a move sees the neighbours already moved in this sweep (equation 2);
+             ///< vertices are visited colour by colour, and no two of one colour share an edge
 };
 
-/// Data layout on the device (CUDA only).
-enum class Layout : std::uint8_t { aos, soa };
+/// How coordinates lie in the memory of the device (CUDA only).
+enum class Layout : std::uint8_t {
+  aos,  ///< an array of points: x and y of a vertex side by side
+  soa,  ///< an array of all x and one of all y
+};
 
 /// How the sweeps run on the device (CUDA only).
-enum class Execution : std::uint8_t { resident, single_block, cdp };
-
-/// The order of Form B: by colour (reproducible), or as threads happen to run (CUDA single-block and cdp only).
-enum class Order : std::uint8_t { colour, unordered };
-
-/// Who finds neighbours, orientation and constraints (CUDA only). The results are the same bit for bit.
-enum class Topology : std::uint8_t {
-  halfedge,  ///< the host: the halfedge mesh for files and halfedge meshes, triangle_topology.h for flat arrays
-  device,    ///< the device, in parallel, from the triangle list
+enum class Execution : std::uint8_t {
+  resident,      ///< the fastest: kernels that stay on the device until the smoothing stops
+  single_block,  ///< one block of threads for the whole mesh: the paper's GPU version
+  cdp,           ///< kernels started by a kernel (CUDA dynamic parallelism): the paper's CDP version
 };
 
-/// The working precision of the sweeps. The commit is always evaluated in double.
-enum class Precision : std::uint8_t { double_precision, single_precision };
+/// The order in which a sweep of Form B visits the vertices.
+enum class Order : std::uint8_t {
+  colour,     ///< by colour: the same result every time
+  unordered,  ///< as threads happen to run (CUDA single-block and cdp only): the result may differ from run to run
+};
+
+/// Who finds neighbours, orientation and constraints. The results are the same bit for bit.
+enum class Topology : std::uint8_t {
+  halfedge,  ///< the host: from halfedges for files and halfedge meshes, from the triangle list for flat arrays
+  device,    ///< the device, in parallel, from the triangle list; where the backend has none, the host
+};
+
+/// The working precision of the sweeps. The guard always evaluates in double.
+enum class Precision : std::uint8_t {
+  double_precision,  ///< float64
+  single_precision,  ///< float32: faster on most devices; the caller's coordinates keep their type
+};
 
 /// Which vertices a sweep evaluates. The result is the same bit for bit. The CUDA executions single_block and cdp
 /// evaluate all, as the paper does, whatever is asked for.
@@ -52,7 +66,10 @@ enum class Evaluation : std::uint8_t {
 };
 
 /// What a progress callback answers.
-enum class Progress : std::uint8_t { proceed, stop };
+enum class Progress : std::uint8_t {
+  proceed,  ///< go on
+  stop,     ///< end here: StopReason::cancelled
+};
 
 template <>
 struct EnumText<Method> {
@@ -106,7 +123,9 @@ struct SmoothingOptions {
   Topology topology = Topology::halfedge;
   Precision precision = Precision::double_precision;
   Evaluation evaluation = Evaluation::changed;
-  bool guard = true;               ///< take back what made an element worse: see never_worse.h
+  /// The never-worse guard: when the sweeps are over, the vertices go back whose moves made an element invalid, or
+  /// worse than it was and worse than the worst of all elements around moved vertices was.
+  bool guard = true;
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
@@ -114,7 +133,7 @@ struct SmoothingOptions {
   double time_limit_seconds = std::numeric_limits<double>::infinity();
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
   int threads = 0;                ///< 0: one for each core; most_threads() at most. The result does not depend on it
-  bool record_min_shape = false;  ///< fill SweepRecord::min_shape; costs a pass over the mesh a sweep
+  bool record_min_shape = false;  ///< fill SweepRecord::min_shape; costs a pass over the mesh after every sweep
   /// Called for every sweep in order, from the thread that called; `stop` ends the smoothing with a valid mesh, as that
   /// sweep left it. A device hands the records over in batches, some hundred times a second, so that a callback costs
   /// nothing; where it says stop the device has gone on meanwhile and makes the sweeps up to there again.

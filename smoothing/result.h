@@ -41,10 +41,10 @@ struct SweepRecord {
   double min_shape = std::numeric_limits<double>::quiet_NaN();  ///< after the sweep; NaN where it was not asked for
 };
 
-/// A vertex that the commit took back, and where it had been moved to (in the caller's coordinates).
+/// A vertex that the guard took back, and where the sweeps had moved it to.
 struct RevertedVertex {
-  std::int32_t vertex = 0;
-  Point2<double> position{};
+  std::int32_t vertex = 0;    ///< its number
+  Point2<double> position{};  ///< in the caller's coordinates
 };
 
 /// Milliseconds of the parts of one call.
@@ -53,25 +53,25 @@ struct SmoothingTimings {
   double transfer_in = 0;   ///< to the device
   double smooth = 0;        ///< the sweeps
   double transfer_out = 0;  ///< from the device
-  double commit = 0;        ///< the never-worse step
+  double commit = 0;        ///< the never-worse guard
 };
 
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.
 struct SmoothingResult {
   std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
   StopReason stop_reason = StopReason::fixed_point;
-  std::int64_t vertex_updates = 0;     ///< evaluations over all sweeps
-  std::int64_t moved_vertices = 0;     ///< vertices whose stored coordinates differ from the input's
-  std::int64_t reverted_vertices = 0;  ///< vertices that the commit put back
-  std::int64_t guard_rounds = 0;       ///< rounds of the commit, the last one, in which nothing offended, apart
-  std::int64_t free_vertices = 0;
-  std::int32_t colours = 0;  ///< of Form B; 0 for Form A
-  std::vector<SweepRecord> history;
+  std::int64_t vertex_updates = 0;       ///< evaluations over all sweeps
+  std::int64_t moved_vertices = 0;       ///< vertices whose stored coordinates differ from the input's
+  std::int64_t reverted_vertices = 0;    ///< vertices that the guard took back
+  std::int64_t guard_rounds = 0;         ///< rounds of the guard that took vertices back
+  std::int64_t free_vertices = 0;        ///< vertices that nothing holds fixed
+  std::int32_t colours = 0;              ///< of Form B; 0 for Form A
+  std::vector<SweepRecord> history;      ///< one record a sweep
   std::vector<RevertedVertex> reverted;  ///< ascending by vertex
   std::string backend;                   ///< "cpu", "cuda"
   std::string device;                    ///< the processor or GPU by name
-  int threads = 0;                       ///< CPU threads used
-  std::int64_t kernel_launches = 0;      ///< on a device, by the host: sweeps and commit
+  int threads = 0;                       ///< of the CPU; 0 where a device made the sweeps
+  std::int64_t kernel_launches = 0;      ///< on a device, by the host: sweeps and guard
   std::int64_t child_launches = 0;       ///< on a device, by the device (dynamic parallelism)
   std::int64_t device_memory_bytes = 0;  ///< the most that was allocated on the device at a time
   bool reproducible = true;              ///< false for Order::unordered

@@ -6,7 +6,7 @@
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/guard/guard_minima.h"
+#include "trismooth/smoothing/guard/guard_tree.h"
 
 namespace trismooth {
 
@@ -26,7 +26,7 @@ class Guard {
         after_(after),
         workers_(workers),
         block_count_((std::int64_t{rings.size()} + block_size - 1) / block_size),
-        minima_(static_cast<std::size_t>(block_count_)) {}
+        tree_(static_cast<std::size_t>(block_count_)) {}
 
   GuardOutcome run() {
     GuardOutcome outcome;
@@ -35,10 +35,10 @@ class Guard {
         measure(block);
       }
     });
-    minima_.update();
+    tree_.update();
     for (;;) {
       blocks_.clear();
-      minima_.find_below(minima_.total().before, blocks_);
+      tree_.find_below(tree_.total().before, blocks_);
       if (blocks_.empty()) {
         break;
       }
@@ -89,12 +89,12 @@ class Guard {
     for_elements(block, [&](const Triangle& /*element*/, double before, double worsened) {
       minimum.join({before, worsened});
     });
-    minima_[static_cast<std::size_t>(block)] = minimum;
+    tree_[static_cast<std::size_t>(block)] = minimum;
   }
 
   /// The moved corners of the offending elements in blocks_, each once.
   void find_offenders() {
-    const double threshold = minima_.total().before;
+    const double threshold = tree_.total().before;
     listed_.resize(static_cast<std::size_t>(rings_.size()), 0);
     offenders_.clear();
     std::mutex joining;
@@ -140,7 +140,7 @@ class Guard {
         measure(blocks_[static_cast<std::size_t>(i)]);
       }
     });
-    minima_.update(blocks_);
+    tree_.update(blocks_);
   }
 
   const RingView& rings_;
@@ -148,7 +148,7 @@ class Guard {
   std::span<Point2<double>> after_;
   Workers& workers_;
   std::int64_t block_count_;
-  GuardMinima minima_;
+  GuardTree tree_;
   std::vector<std::int32_t> blocks_;     ///< of this round: with an offender, then with elements that changed
   std::vector<std::uint8_t> listed_;     ///< per vertex: 1 where it has gone back
   std::vector<std::int32_t> offenders_;  ///< of this round

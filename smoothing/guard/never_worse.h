@@ -12,13 +12,13 @@ namespace trismooth {
 
 class Workers;
 
-/// What the commit took back.
+/// What the guard took back.
 struct GuardOutcome {
   std::vector<std::int32_t> reverted;  ///< vertices, ascending
   std::int64_t rounds = 0;             ///< rounds that took something back
 };
 
-/// The never-worse commit. `before` and `after` are the coordinates as they were stored and as they would be, both in
+/// The never-worse guard. `before` and `after` are the coordinates as they were stored and as they would be, both in
 /// the local frame, one for every vertex. In rounds: let T be the smallest quality before among the elements of the
 /// vertices that are elsewhere now; all moved vertices of all elements that offend (see offends) go back to where they
 /// were, at once; until none offends. Afterwards no element that was valid is invalid, and none is both worse than it

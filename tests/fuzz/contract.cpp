@@ -69,7 +69,7 @@ ByContract smooth(std::span<const Point2<double>> points, std::span<const Triang
     }
   }
   if (options.guard) {
-    result.commit = naive::commit(triangles, before, after);
+    result.guarded = naive::guard(triangles, before, after);
   }
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (after[v] == before[v]) {

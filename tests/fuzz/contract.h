@@ -9,11 +9,11 @@
 namespace fuzz {
 
 /// Points smoothed as the contract says it, by the second implementation: from the local frame over the sweeps to the
-/// commit.
+/// guard.
 struct ByContract {
   std::vector<Point2<double>> points;  ///< as they would be stored
   naive::Outcome outcome;
-  naive::Commit commit;
+  naive::Guarded guarded;
 };
 
 /// Knows no quality target, no time limit, no callback, and no endless run.

@@ -385,9 +385,9 @@ void check_contract(const Case& chosen, const NaiveTopology& topology, std::span
                 result.history[i].evaluated == expected.outcome.sweeps[i].changed,
             "evaluates other vertices than those whose neighbourhood changed");
   }
-  require(result.guard_rounds == expected.commit.rounds, "the commit takes other rounds than the contract says");
-  require(std::ranges::equal(result.reverted, expected.commit.reverted, {}, &trismooth::RevertedVertex::vertex),
-          "the commit takes back other vertices than the contract says");
+  require(result.guard_rounds == expected.guarded.rounds, "the guard takes other rounds than the contract says");
+  require(std::ranges::equal(result.reverted, expected.guarded.reverted, {}, &trismooth::RevertedVertex::vertex),
+          "the guard takes back other vertices than the contract says");
   for (std::size_t v = 0; v < after.size(); ++v) {
     require(fuzz::same_bits(after[v], expected.points[v]),
             "vertex " + std::to_string(v) + " is elsewhere than the contract says");

@@ -201,10 +201,10 @@ Connectivity connectivity_of(const RandomMesh& mesh) {
 std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, const Run& run, bool guard) {
   const std::vector<double> before = mesh.mesh.xy();
   const std::vector<double>& after = run.xy;
-  std::vector<double> uncommitted = after;
+  std::vector<double> unguarded = after;
   for (const auto& [vertex, position] : run.result.reverted) {
-    uncommitted[2 * vertex] = position.x;
-    uncommitted[2 * vertex + 1] = position.y;
+    unguarded[2 * vertex] = position.x;
+    unguarded[2 * vertex + 1] = position.y;
   }
   const auto is_elsewhere = [&before](const std::vector<double>& xy, std::int32_t v) {
     return xy[2 * v] != before[2 * v] || xy[2 * v + 1] != before[2 * v + 1];
@@ -224,7 +224,7 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
       return fmt::format("vertex {} did not move, but its bits have changed", v);
     }
     moved += moves ? 1 : 0;
-    reverted += is_elsewhere(uncommitted, v) && !moves ? 1 : 0;
+    reverted += is_elsewhere(unguarded, v) && !moves ? 1 : 0;
     free += connectivity.fixed[v] ? 0 : 1;
   }
   if (run.result.moved_vertices != moved || run.result.reverted_vertices != reverted ||

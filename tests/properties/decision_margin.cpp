@@ -67,7 +67,7 @@ Real quotient(const Points& points, const Triangle& t) {
   return naive::quotient(points[t[0]], points[t[1]], points[t[2]]);
 }
 
-/// Of the commit, every round of which takes all decisions again.
+/// Of the guard, every round of which takes all decisions again.
 Real margin_of_commit(const std::vector<Triangle>& elements, const Points& before, Points after) {
   const auto has_moved = [&](const Triangle& t) {
     return std::ranges::any_of(t, [&](std::int32_t v) { return !(before[v] == after[v]); });
@@ -135,7 +135,7 @@ double decision_margin(const RandomMesh& mesh, const Connectivity& connectivity,
             options.method == Method::weighted ? naive::weighted(position, ring) : naive::laplacian(ring);
         margin = std::min(margin, margin_of_move(options.method, position, mean, ring));
         if (options.guard && position == before[v]) {
-          // It does to the commit, which looks at all elements that were touched.
+          // It does to the guard, which looks at all elements that were touched.
           margin = std::min(margin, distance(position, mean));
         }
         points[v] = naive::updated(options.method, position, ring);

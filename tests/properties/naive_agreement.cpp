@@ -32,7 +32,7 @@ Point2<T> narrowed(Point2<double> p) {
   return {static_cast<T>(p.x), static_cast<T>(p.y)};
 }
 
-/// Sweeps in T and the commit.
+/// Sweeps in T and the guard.
 template <class T>
 Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage storage) {
   const Connectivity connectivity = connectivity_of(mesh);
@@ -81,12 +81,12 @@ Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage s
     after.push_back(frame.enter(stored[v]));
   }
   if (options.guard) {
-    const naive::Commit commit = naive::commit(connectivity.elements, before, after);
-    run.result.guard_rounds = commit.rounds;
-    for (const std::int32_t v : commit.reverted) {
+    const naive::Guarded guarded = naive::guard(connectivity.elements, before, after);
+    run.result.guard_rounds = guarded.rounds;
+    for (const std::int32_t v : guarded.reverted) {
       run.result.reverted.push_back({v, stored[v]});
     }
-    run.result.reverted_vertices = static_cast<std::int64_t>(commit.reverted.size());
+    run.result.reverted_vertices = static_cast<std::int64_t>(guarded.reverted.size());
   }
   for (std::size_t v = 0; v < points.size(); ++v) {
     const bool moved = !(after[v] == before[v]);

@@ -180,7 +180,7 @@ TEST_CASE("triangles without a free vertex count for the quality target") {
   CHECK(result.history.back().min_shape < 0.03);
 }
 
-TEST_CASE("a callback that says stop leaves the mesh as it is after that sweep, valid and committed") {
+TEST_CASE("a callback that says stop leaves the mesh as it is after that sweep, valid and guarded") {
   for (const Form form : forms) {
     for (const Mesh& mesh : {grid(), test_meshes::annulus(12, 8, 0.6), test_meshes::tangled(12, 3)}) {
       SmoothingOptions options;

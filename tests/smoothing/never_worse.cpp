@@ -163,27 +163,27 @@ struct Totals {
   std::int64_t moved = 0;
 };
 
-/// One mesh, one way to smooth it: the contract holds, and the commit took back what a naive one takes back.
+/// One mesh, one way to smooth it: the contract holds, and the guard took back what a naive one takes back.
 void check_case(const Mesh& mesh, const Case& which, Totals& totals) {
   const OneRings rings = rings_of(mesh);
   std::vector<double> xy = mesh.xy();
   trismooth::plan(mesh.vertex_count(), mesh.indices(), {}, options_of(which, false)).smooth(xy, which.storage);
-  const std::vector<Point> uncommitted = as_points(xy);
+  const std::vector<Point> unguarded = as_points(xy);
   xy = mesh.xy();
   const SmoothingResult result =
       trismooth::plan(mesh.vertex_count(), mesh.indices(), {}, options_of(which, true)).smooth(xy, which.storage);
   const std::vector<Point> after = as_points(xy);
   check_never_worse(mesh, rings, after);
 
-  std::vector<Point> expected = uncommitted;
-  const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+  std::vector<Point> expected = unguarded;
+  const naive::Guarded guarded = naive::guard(mesh.triangles, mesh.points, expected);
   REQUIRE(after == expected);
-  REQUIRE(result.guard_rounds == commit.rounds);
-  REQUIRE(result.reverted_vertices == static_cast<std::int64_t>(commit.reverted.size()));
-  REQUIRE(result.reverted.size() == commit.reverted.size());
-  for (std::size_t i = 0; i < commit.reverted.size(); ++i) {
-    REQUIRE(result.reverted[i].vertex == commit.reverted[i]);
-    REQUIRE(result.reverted[i].position == uncommitted[commit.reverted[i]]);
+  REQUIRE(result.guard_rounds == guarded.rounds);
+  REQUIRE(result.reverted_vertices == static_cast<std::int64_t>(guarded.reverted.size()));
+  REQUIRE(result.reverted.size() == guarded.reverted.size());
+  for (std::size_t i = 0; i < guarded.reverted.size(); ++i) {
+    REQUIRE(result.reverted[i].vertex == guarded.reverted[i]);
+    REQUIRE(result.reverted[i].position == unguarded[guarded.reverted[i]]);
   }
   std::int64_t moved = 0;
   for (std::size_t v = 0; v < after.size(); ++v) {
@@ -216,7 +216,7 @@ TEST_CASE("an element offends where it is not valid any more, or worse than it w
   CHECK(trismooth::offends(-0.2, no_number, -1));
 }
 
-TEST_CASE("the commit takes back the same vertices in the same rounds as one that looks at every element") {
+TEST_CASE("the guard takes back the same vertices in the same rounds as one that looks at every element") {
   test_meshes::Random random(1);
   std::int64_t most_rounds = 0;
   std::int64_t reverted = 0;
@@ -226,13 +226,13 @@ TEST_CASE("the commit takes back the same vertices in the same rounds as one tha
       const OneRings rings = rings_of(mesh);
       const std::vector<Point> disturbed_points = disturbed(mesh, rings, random.between(0, 0.5), random);
       std::vector<Point> expected = disturbed_points;
-      const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+      const naive::Guarded guarded = naive::guard(mesh.triangles, mesh.points, expected);
       std::vector<Point> after = disturbed_points;
       Workers workers(1 + i % 3);
       const GuardOutcome outcome = keep_never_worse(rings.view(), mesh.points, after, workers);
       REQUIRE(after == expected);
-      REQUIRE(outcome.reverted == commit.reverted);
-      REQUIRE(outcome.rounds == commit.rounds);
+      REQUIRE(outcome.reverted == guarded.reverted);
+      REQUIRE(outcome.rounds == guarded.rounds);
       check_never_worse(mesh, rings, after);
       most_rounds = std::max(most_rounds, outcome.rounds);
       reverted += static_cast<std::int64_t>(outcome.reverted.size());
@@ -264,35 +264,35 @@ TEST_CASE("elements are evaluated from their smallest index on, from whichever v
     std::vector<Point> after = mesh.points;
     std::ranges::replace(after, free, mirrored);
     std::vector<Point> expected = after;
-    const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
+    const naive::Guarded guarded = naive::guard(mesh.triangles, mesh.points, expected);
     Workers workers(1);
     keep_never_worse(rings_of(mesh).view(), mesh.points, after, workers);
     REQUIRE(after == expected);
-    reverted += commit.rounds > 0 ? 1 : 0;
+    reverted += guarded.rounds > 0 ? 1 : 0;
   }
   CHECK(reverted > rings_tried / 50);
   CHECK(reverted < rings_tried);
 }
 
-TEST_CASE("the commit does not depend on the number of threads") {
+TEST_CASE("the guard does not depend on the number of threads") {
   test_meshes::Random random(2);
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(120, 120, 0.4, 1), 2);
   const OneRings rings = rings_of(mesh);
   const std::vector<Point> disturbed_points = disturbed(mesh, rings, 0.01, random);
   std::vector<Point> expected = disturbed_points;
-  const naive::Commit commit = naive::commit(mesh.triangles, mesh.points, expected);
-  CHECK(commit.rounds > 1);
+  const naive::Guarded guarded = naive::guard(mesh.triangles, mesh.points, expected);
+  CHECK(guarded.rounds > 1);
   for (const int threads : {1, 2, 3, 8}) {
     std::vector<Point> after = disturbed_points;
     Workers workers(threads);
     const GuardOutcome outcome = keep_never_worse(rings.view(), mesh.points, after, workers);
     CHECK(after == expected);
-    CHECK(outcome.reverted == commit.reverted);
-    CHECK(outcome.rounds == commit.rounds);
+    CHECK(outcome.reverted == guarded.reverted);
+    CHECK(outcome.rounds == guarded.rounds);
   }
 }
 
-TEST_CASE("the commit leaves alone what is better, and what did not move") {
+TEST_CASE("the guard leaves alone what is better, and what did not move") {
   const Mesh mesh = test_meshes::star(6);
   const OneRings rings = rings_of(mesh);
   Workers workers(1);
@@ -409,7 +409,7 @@ TEST_CASE("thousands of random meshes, tangled or around holes, do not get worse
   CHECK(totals.moved > 100000);
 }
 
-TEST_CASE("in a domain that is not convex plain averages do damage, and the commit takes it back") {
+TEST_CASE("in a domain that is not convex plain averages do damage, and the guard takes it back") {
   const Mesh mesh = test_meshes::annulus(12, 8, 0.6);
   SmoothingOptions options;
   options.method = Method::laplacian;
@@ -434,7 +434,7 @@ TEST_CASE("in a domain that is not convex plain averages do damage, and the comm
         trismooth::smallest_shape({mesh.points, mesh.triangles, reversed, 0}));
 }
 
-TEST_CASE("rounding to a coarse storage is part of what the commit judges") {
+TEST_CASE("rounding to a coarse storage is part of what the guard judges") {
   // Cells of one float32 step and a half, far from the origin: a good position is a bad one once it is rounded.
   Totals in_float32;
   Totals in_float64;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,6 +39,15 @@ using trismooth::Storage;
 using trismooth::xy_points;
 
 namespace {
+
+// A plan takes triangles that are there, and has one owner.
+template <class Triangles>
+concept CanBePlanned = requires(Triangles&& triangles, const Constraints& constraints) {
+  { plan(4, std::forward<Triangles>(triangles)) } -> std::same_as<SmoothingPlan>;
+  { plan(4, std::forward<Triangles>(triangles), constraints) } -> std::same_as<SmoothingPlan>;
+};
+static_assert(CanBePlanned<std::vector<std::int32_t>&> && !CanBePlanned<std::vector<std::int32_t>>);
+static_assert(!std::is_copy_constructible_v<SmoothingPlan> && std::is_nothrow_move_constructible_v<SmoothingPlan>);
 
 constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted};
 constexpr Form forms[] = {Form::swap, Form::in_place};
@@ -277,6 +288,29 @@ TEST_CASE("a plan can be moved, and owns what it needs") {
   moved.smooth(again);
   CHECK(xy == expected);
   CHECK(again == expected);
+}
+
+TEST_CASE("constraints may be left out, with options and without") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(9, 8, 0.35, 6), 7);
+  SmoothingOptions options;
+  options.form = Form::swap;
+  options.max_sweeps = 4;
+  std::vector<double> expected = mesh.xy();
+  smooth(xy_points(expected), mesh.triangles, Constraints{}, options);
+  std::vector<double> xy = mesh.xy();
+  smooth(xy_points(xy), mesh.triangles, options);
+  CHECK(xy == expected);
+  xy = mesh.xy();
+  plan(mesh.vertex_count(), mesh.triangles, options).smooth(xy);
+  CHECK(xy == expected);
+  xy = mesh.xy();
+  smooth(xy_points(xy), mesh.triangles, {.form = Form::swap, .max_sweeps = 4});
+  CHECK(xy == expected);
+  const std::vector<std::uint8_t> all(mesh.points.size(), 1);
+  xy = mesh.xy();
+  CHECK(smooth(xy_points(xy), mesh.triangles, {.fixed = all}).free_vertices == 0);
+  smooth(xy_points(xy), mesh.triangles);
+  CHECK(xy == smoothed(mesh));
 }
 
 TEST_CASE("vertices that the caller fixes do not move, and the others move as if they were boundary") {

@@ -41,7 +41,7 @@ T quotient(Point2<T> a, Point2<T> b, Point2<T> c) {
   return sum == 0 ? T(0) : (ab_x * ac_y - ab_y * ac_x) / sum;
 }
 
-/// The same of an element as reports and the commit see it: from its smallest index on.
+/// The same of an element as reports and the guard see it: from its smallest index on.
 inline double element_quotient(std::span<const Point2<double>> points, Triangle t) {
   while (t[0] > t[1] || t[0] > t[2]) {
     t = {t[1], t[2], t[0]};
@@ -246,7 +246,7 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
   }
 }
 
-struct Commit {
+struct Guarded {
   std::vector<std::int32_t> reverted;  ///< ascending
   std::int64_t rounds = 0;
 };
@@ -270,11 +270,11 @@ inline bool offends(double before, double after, double threshold) {
   return lost || worse;
 }
 
-/// The never-worse commit, looking at every element in every round.
-inline Commit commit(std::span<const Triangle> triangles, std::span<const Point2<double>> before,
+/// the never-worse guard, looking at every element in every round.
+inline Guarded guard(std::span<const Triangle> triangles, std::span<const Point2<double>> before,
                      std::span<Point2<double>> after) {
   std::set<std::int32_t> reverted;
-  Commit result;
+  Guarded result;
   for (;;) {
     const double threshold = touched_minimum(triangles, before, after);
     std::set<std::int32_t> back;

@@ -1,15 +1,15 @@
-#include "trismooth/smoothing/guard/guard_minima.h"
+#include "trismooth/smoothing/guard/guard_tree.h"
 
 namespace trismooth {
 
-GuardMinima::GuardMinima(std::size_t blocks) {
+GuardTree::GuardTree(std::size_t blocks) {
   levels_.emplace_back(std::max<std::size_t>(blocks, 1));
   while (levels_.back().size() > 1) {
     levels_.emplace_back((levels_.back().size() + fan_out - 1) / fan_out);
   }
 }
 
-void GuardMinima::join_group(std::size_t level, std::size_t group) {
+void GuardTree::join_group(std::size_t level, std::size_t group) {
   const std::vector<GuardMinimum>& below = levels_[level - 1];
   GuardMinimum joined;
   for (std::size_t i = group * fan_out; i < std::min(below.size(), (group + 1) * fan_out); ++i) {
@@ -18,7 +18,7 @@ void GuardMinima::join_group(std::size_t level, std::size_t group) {
   levels_[level][group] = joined;
 }
 
-void GuardMinima::update() {
+void GuardTree::update() {
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     for (std::size_t group = 0; group < levels_[level].size(); ++group) {
       join_group(level, group);
@@ -26,7 +26,7 @@ void GuardMinima::update() {
   }
 }
 
-void GuardMinima::update(std::span<const std::int32_t> blocks) {
+void GuardTree::update(std::span<const std::int32_t> blocks) {
   std::vector<std::size_t> changed(blocks.begin(), blocks.end());
   std::ranges::sort(changed);
   for (std::size_t level = 1; level < levels_.size(); ++level) {
@@ -40,7 +40,7 @@ void GuardMinima::update(std::span<const std::int32_t> blocks) {
   }
 }
 
-void GuardMinima::find_below(double threshold, std::vector<std::int32_t>& blocks) const {
+void GuardTree::find_below(double threshold, std::vector<std::int32_t>& blocks) const {
   if (!(total().worsened < threshold)) {
     return;
   }

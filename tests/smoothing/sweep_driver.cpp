@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/sweeps/sweeper.h"
+#include "trismooth/smoothing/sweeps/sweep_driver.h"
 
 #include <algorithm>
 #include <cmath>

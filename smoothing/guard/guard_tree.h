@@ -23,9 +23,9 @@ struct GuardMinimum {
 /// The minima of blocks of elements and of groups of blocks, up to that of all: a tree of fixed fan-out. Where a few
 /// blocks change, T is found again and the offending blocks are found in a time that goes with these few (and the
 /// logarithm of the number of blocks), not with the mesh.
-class GuardMinima {
+class GuardTree {
  public:
-  explicit GuardMinima(std::size_t blocks);
+  explicit GuardTree(std::size_t blocks);
 
   /// The minimum of one block, to be written before update(). Blocks may be written from different threads.
   GuardMinimum& operator[](std::size_t block) { return levels_.front()[block]; }

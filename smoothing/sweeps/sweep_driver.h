@@ -28,9 +28,9 @@ namespace trismooth {
 /// marked: the update is a function of the closed neighbourhood alone, so an unchanged one gives the same answer, which
 /// was "stay" or has been followed.
 template <class T>
-class Sweeper {
+class SweepDriver {
  public:
-  Sweeper(const PackedRings& rings, const SmoothingOptions& options, Workers& workers)
+  SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers)
       : rings_(rings), view_(rings.view()), options_(options), workers_(workers) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.

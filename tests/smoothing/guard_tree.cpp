@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/guard/guard_minima.h"
+#include "trismooth/smoothing/guard/guard_tree.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,8 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::GuardMinima;
 using trismooth::GuardMinimum;
+using trismooth::GuardTree;
 
 namespace {
 
@@ -31,12 +31,12 @@ std::vector<std::int32_t> below(const std::vector<GuardMinimum>& blocks, double 
   return found;
 }
 
-void require_same(const GuardMinima& minima, const std::vector<GuardMinimum>& blocks, double threshold) {
+void require_same(const GuardTree& tree, const std::vector<GuardMinimum>& blocks, double threshold) {
   const GuardMinimum smallest = smallest_of(blocks);
-  REQUIRE(minima.total().before == smallest.before);
-  REQUIRE(minima.total().worsened == smallest.worsened);
+  REQUIRE(tree.total().before == smallest.before);
+  REQUIRE(tree.total().worsened == smallest.worsened);
   std::vector<std::int32_t> found;
-  minima.find_below(threshold, found);
+  tree.find_below(threshold, found);
   REQUIRE(found == below(blocks, threshold));
 }
 
@@ -46,34 +46,34 @@ TEST_CASE("the minimum of all blocks and the blocks below a threshold are those 
   test_meshes::Random random(1);
   for (const int count : {1, 2, 15, 16, 17, 255, 256, 257, 5000}) {
     CAPTURE(count);
-    GuardMinima minima(static_cast<std::size_t>(count));
+    GuardTree tree(static_cast<std::size_t>(count));
     std::vector<GuardMinimum> blocks(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      minima[i] = blocks[i] = {random.between(-1, 1), random.between(-1, 1)};
+      tree[i] = blocks[i] = {random.between(-1, 1), random.between(-1, 1)};
     }
-    minima.update();
-    require_same(minima, blocks, -0.9);
+    tree.update();
+    require_same(tree, blocks, -0.9);
     for (int round = 0; round < 50; ++round) {
       std::vector<std::int32_t> changed;
       for (int i = 0; i < 1 + round / 10; ++i) {
         const auto block = static_cast<std::size_t>(random.below(count));
         // Minima may rise: vertices went back.
-        minima[block] = blocks[block] = {random.between(-1, 2), random.between(-1, 2)};
+        tree[block] = blocks[block] = {random.between(-1, 2), random.between(-1, 2)};
         changed.push_back(static_cast<std::int32_t>(block));
       }
-      minima.update(changed);
-      require_same(minima, blocks, random.between(-1, 1));
+      tree.update(changed);
+      require_same(tree, blocks, random.between(-1, 1));
     }
   }
 }
 
 TEST_CASE("where no vertex has moved there is nothing below any threshold") {
   for (const std::size_t count : {0, 1, 100}) {
-    GuardMinima minima(count);
-    minima.update();
-    CHECK(minima.total().before == std::numeric_limits<double>::infinity());
+    GuardTree tree(count);
+    tree.update();
+    CHECK(tree.total().before == std::numeric_limits<double>::infinity());
     std::vector<std::int32_t> found;
-    minima.find_below(minima.total().before, found);
+    tree.find_below(tree.total().before, found);
     CHECK(found.empty());
   }
 }
