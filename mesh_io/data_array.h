@@ -91,10 +91,6 @@ struct DataArray {
   }
 };
 
-/// Readers refuse arrays without rows that have more components: VTK takes memory for each, and a file of a few lines
-/// could ask for all that there is.
-inline constexpr std::size_t most_components_without_rows = 100;
-
 /// An array that owns `values` (rows x components numbers, row by row).
 template <class T>
 DataArray make_data_array(std::string name, std::size_t components, std::vector<T> values);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "trismooth/mesh_io/vtk_support.h"
+
 namespace trismooth {
 
 namespace {
@@ -34,12 +36,23 @@ std::optional<FileFormat> format_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+bool is_available(FileFormat format) {
+  return has_vtk() || (format != FileFormat::vtu && format != FileFormat::vtp);
+}
+
 std::string format_list() {
   std::string list;
-  for (const std::string_view name : format_names) {
-    list.append(list.empty() ? "." : ", .").append(name);
+  for (const FileFormat format : formats) {
+    if (is_available(format)) {
+      list.append(list.empty() ? "." : ", .").append(to_string(format));
+    }
   }
   return list;
+}
+
+std::string describe_unavailable(FileFormat format) {
+  return "this program was built without VTK, which ." + std::string(to_string(format)) + " needs; available are " +
+         format_list();
 }
 
 bool has_arrays(FileFormat format) {

@@ -18,11 +18,18 @@ std::string_view to_string(FileFormat format);
 /// The format that the path's extension names (any case), or nothing.
 std::optional<FileFormat> format_of(const std::filesystem::path& path);
 
-/// Every format, in the order of the enumeration.
+/// Whether this build reads and writes the format. All but vtu and vtp always are available; these need a build with
+/// VTK.
+bool is_available(FileFormat format);
+
+/// Every format, available or not, in the order of the enumeration.
 std::span<const FileFormat> all_formats();
 
-/// ".off, .obj, ..." for messages.
+/// ".off, .obj, ...": the available formats, for messages.
 std::string format_list();
+
+/// For messages: "this program was built without VTK, which .vtu needs; available are .off, ...".
+std::string describe_unavailable(FileFormat format);
 
 /// True for the formats that hold named arrays (vtk, vtu, vtp), false for those that do not.
 bool has_arrays(FileFormat format);

@@ -9,8 +9,8 @@
 
 #include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/document/label_array.h"
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/label_array.h"
 
 namespace trismooth {
 

@@ -5,14 +5,15 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/annotation_names.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
+#include "trismooth/mesh_io/vtk_support.h"
 
 namespace trismooth {
 
@@ -31,11 +32,10 @@ const Codec& codec_of(FileFormat format) {
     case FileFormat::vtk:
       return vtk_legacy_codec;
     case FileFormat::vtu:
-      return vtu_codec;
     case FileFormat::vtp:
       break;
   }
-  return vtp_codec;
+  return vtk_xml_codec(format);
 }
 
 std::string unknown_extension(const std::filesystem::path& path) {
@@ -100,6 +100,9 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
 
 FileFormat input_format(const std::filesystem::path& path) {
   if (const auto format = format_of(path)) {
+    if (!is_available(*format)) {
+      throw ReadError(path, describe_unavailable(*format));
+    }
     return *format;
   }
   if (const auto compression = compression_named(path)) {
@@ -127,6 +130,9 @@ FileFormat output_format(const std::filesystem::path& path) {
   }
   if (!format) {
     throw WriteError(path, unknown_extension(path));
+  }
+  if (!is_available(*format)) {
+    throw WriteError(path, describe_unavailable(*format));
   }
   return *format;
 }

@@ -9,9 +9,9 @@
 namespace trismooth {
 
 /// Reads a mesh file; its extension chooses the format. Nothing is interpreted: see planar_mesh.h for the triangles.
-/// Throws ReadError for an unknown extension, a compressed or unreadable file, or one that breaks its format's rules,
-/// with the place in the file. Counts and indices are checked against the file's size before anything is allocated.
-/// Complexity: linear in the file's size.
+/// Throws ReadError for an extension that is unknown or not available in this build, a compressed or unreadable file,
+/// or one that breaks its format's rules, with the place in the file. Counts and indices are checked against the file's
+/// size before anything is allocated. Complexity: linear in the file's size.
 MeshDocument read_mesh(const std::filesystem::path& path);
 
 /// Arrays to add to what a document holds, where the target takes_added_arrays(). Where any is added, annotations of an
@@ -25,23 +25,24 @@ struct AddedArrays {
 /// is the input with the coordinates that changed and nothing else; in another, all that the target can hold (see
 /// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
-/// Throws WriteError, also for an unknown extension, and where an array has not a row for every point or cell.
+/// Throws WriteError, also for such an extension, and where an array has not a row for every point or cell.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
 
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as
 /// properties, unless the document was read from PLY (its bytes are written back then).
 bool takes_added_arrays(const MeshDocument& document, FileFormat target);
 
-/// The format that read_mesh() would read `path` as. Throws ReadError for an unknown extension.
+/// The format that read_mesh() would read `path` as. Throws ReadError for an extension that is unknown or not available
+/// in this build.
 FileFormat input_format(const std::filesystem::path& path);
 
-/// The format that write_mesh() would write to `path`. Throws WriteError for an unknown extension: to find that out
-/// before the work is done.
+/// The format that write_mesh() would write to `path`. Throws WriteError for an extension that is unknown or not
+/// available in this build: to find that out before the work is done.
 FileFormat output_format(const std::filesystem::path& path);
 
 /// What `target` cannot hold of the document, one sentence each ("OFF holds no cell arrays: region is not written");
 /// empty where nothing is lost, as always where `target` is the format that the document was read from. The
-/// document's own losses, and what it notes as kept in its format only, come on top.
+/// document's own losses, and what it notes as kept in its format only, come on top. `target` is available.
 std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target);
 
 }  // namespace trismooth

@@ -8,8 +8,8 @@
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/document/annotation_names.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/quality/metrics.h"
 

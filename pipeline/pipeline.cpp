@@ -252,7 +252,7 @@ class Run {
                               (target == FileFormat::ply
                                    ? std::string("a PLY file that was read is written back with nothing added")
                                    : "." + std::string(to_string(target)) + " holds no arrays") +
-                              "; write .vtu to get them");
+                              "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
     }
     if (!annotates && has_arrays(target)) {
       note_old_annotations();

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
-#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"

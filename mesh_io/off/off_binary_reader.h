@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
-#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/off/off_binary_reader.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 #include "trismooth/mesh_io/text/number_text.h"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
 #include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 
 namespace trismooth {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/ply/ply.h"
 #include "trismooth/mesh_io/ply/ply_header.h"

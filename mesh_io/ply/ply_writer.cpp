@@ -10,8 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/document/other_cells.h"
@@ -218,15 +216,15 @@ void describe_arrays(std::vector<std::string>& lost, std::string_view kind, cons
       continue;
     }
     if (first->type != array.type) {
-      lost.push_back(fmt::format("PLY holds no numbers of 64-bit integer types: {} is written as {}", label,
-                                 to_string(first->type)));
+      lost.push_back("PLY holds no numbers of 64-bit integer types: " + label + " is written as " +
+                     std::string(to_string(first->type)));
     }
     if (array.components > 1) {
-      lost.push_back(fmt::format("PLY holds one number a property: {} is written as '{}' to '{}'", label, first->name,
-                                 std::prev(next)->name));
+      lost.push_back("PLY holds one number a property: " + label + " is written as '" + first->name + "' to '" +
+                     std::prev(next)->name + "'");
     } else if (first->name != array.name) {
-      lost.push_back(
-          fmt::format("PLY cannot have a property of that name there: {} is written as '{}'", label, first->name));
+      lost.push_back("PLY cannot have a property of that name there: " + label + " is written as '" + first->name +
+                     "'");
     }
   }
 }

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/stl/point_welder.h"
 #include "trismooth/mesh_io/stl/stl.h"

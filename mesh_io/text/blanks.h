@@ -9,10 +9,10 @@ namespace trismooth {
 /// What separates words of a line.
 inline constexpr std::string_view blanks = " \t\v\f";
 
-/// The text without blanks at its ends.
-inline std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+/// The text without blanks, or other `characters`, at its ends.
+inline std::string_view trimmed(std::string_view text, std::string_view characters = blanks) {
+  const std::size_t begin = std::min(text.find_first_not_of(characters), text.size());
+  return text.substr(begin, text.find_last_not_of(characters) + 1 - begin);
 }
 
 /// The words of a line.

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_annotations.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_layout.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {

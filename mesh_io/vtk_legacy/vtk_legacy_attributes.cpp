@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/document/array_description.h"
+#include "trismooth/mesh_io/document/array_limits.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_annotations.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_array_description.h"
 
 namespace trismooth {
 

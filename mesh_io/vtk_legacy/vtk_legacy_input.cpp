@@ -10,10 +10,11 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/big_endian.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_information.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_information.h"
 
 namespace trismooth {
 
@@ -353,7 +354,7 @@ void VtkLegacyInput::read_information(const std::vector<std::string_view>& heade
     scanner_.seek(behind_header);
     return;
   }
-  const auto kind = information_kind(entry.name, entry.location);
+  const auto kind = vtk_legacy_information_kind(entry.name, entry.location);
   const bool is_list = kind == InformationKind::numbers || kind == InformationKind::texts;
   for (std::size_t i = is_list ? 2 : 1; i < data.size(); ++i) {
     entry.values.push_back(decode_vtk_name(data[i]));

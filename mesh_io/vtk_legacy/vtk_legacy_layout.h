@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 
 namespace trismooth {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "trismooth/mesh_io/text/text_scanner.h"
+#include "trismooth/mesh_io/vtk_legacy/vtk_legacy_information.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_names.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_information.h"
 
 namespace trismooth {
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t longest_text = 200;
 
 bool can_hold(const ArrayInformation& information) {
-  const auto kind = information_kind(information.name, information.location);
+  const auto kind = vtk_legacy_information_kind(information.name, information.location);
   const bool is_list = kind == InformationKind::numbers || kind == InformationKind::texts;
   return kind && (is_list || information.values.size() == 1) &&
          std::ranges::all_of(information.values, [kind](const std::string& value) {
@@ -25,7 +25,7 @@ bool can_hold(const ArrayInformation& information) {
 }
 
 std::string metadata_of(const ArrayInformation& information) {
-  const auto kind = information_kind(information.name, information.location);
+  const auto kind = vtk_legacy_information_kind(information.name, information.location);
   std::string text = "NAME " + information.name + " LOCATION " + information.location + "\nDATA";
   if (kind == InformationKind::numbers || kind == InformationKind::texts) {
     text += " " + std::to_string(information.values.size());

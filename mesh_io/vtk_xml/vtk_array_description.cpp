@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_information.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
@@ -77,12 +78,6 @@ bool has_id_role(const DataArray& array) {
   return array.description != nullptr && array.type == ScalarType::int64 &&
          std::ranges::any_of(array.description->roles,
                              [](const std::string& role) { return role == "GlobalIds" || role == "PedigreeIds"; });
-}
-
-std::shared_ptr<const ArrayDescription> with_role(const ArrayDescription* description, const std::string& role) {
-  ArrayDescription extended = description == nullptr ? ArrayDescription() : *description;
-  extended.roles.push_back(role);
-  return std::make_shared<const ArrayDescription>(std::move(extended));
 }
 
 }  // namespace trismooth

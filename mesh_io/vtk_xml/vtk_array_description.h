@@ -30,7 +30,4 @@ void set_roles(std::span<const DataArray> arrays, vtkDataSetAttributes& attribut
 /// True where VTK wants an array of its own index type for one of the roles.
 bool has_id_role(const DataArray& array);
 
-/// The same description with one role more.
-std::shared_ptr<const ArrayDescription> with_role(const ArrayDescription* description, const std::string& role);
-
 }  // namespace trismooth

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -21,6 +22,8 @@
 #include <vtkInformationUnsignedLongKey.h>
 #include <vtkNew.h>
 
+#include "trismooth/mesh_io/document/array_description.h"
+#include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml/xml_names.h"
@@ -29,11 +32,9 @@ namespace trismooth {
 
 namespace {
 
-std::string stripped(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin == std::string_view::npos
-             ? ""
-             : std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin));
+/// The text of an element without the white space of XML at its ends.
+std::string value_of(const XmlElement& element) {
+  return std::string(trimmed(element.text, " \t\r\n"));
 }
 
 template <class Value>
@@ -52,7 +53,7 @@ std::optional<Value> parse(const std::string& text) {
 /// The text of the element, or of its children <Value index="0">, <Value index="1">, ...
 std::optional<std::vector<std::string>> values_of(const XmlElement& element) {
   if (element.children.empty()) {
-    return std::vector{stripped(element.text)};
+    return std::vector{value_of(element)};
   }
   std::vector<std::string> values;
   for (const XmlElement& child : element.children) {
@@ -60,7 +61,7 @@ std::optional<std::vector<std::string>> values_of(const XmlElement& element) {
     if (child.name != "Value" || index == nullptr || *index != std::to_string(values.size())) {
       return std::nullopt;
     }
-    values.push_back(stripped(child.text));
+    values.push_back(value_of(child));
   }
   return values;
 }
@@ -187,20 +188,6 @@ std::string lost_information(const std::string& name, const std::string& locatio
 }
 
 }  // namespace
-
-bool is_range_information(const std::string& name, const std::string& location) {
-  return location == "vtkDataArray" && name.ends_with("_RANGE");
-}
-
-std::optional<InformationKind> information_kind(const std::string& name, const std::string& location) {
-  using Kind = std::optional<InformationKind>;
-  return with_key(vtkInformationKeyLookup::Find(name, location), Kind(),
-                  []<class Key, class Value>(Key*, const Value&) {
-                    constexpr bool is_text = std::is_same_v<Value, std::string>;
-                    return Kind(is_list<Key> ? (is_text ? InformationKind::texts : InformationKind::numbers)
-                                             : (is_text ? InformationKind::text : InformationKind::number));
-                  });
-}
 
 void read_information_keys(const XmlElement& array, vtkInformation& information, std::vector<std::string>& losses) {
   const std::string* const array_name = array.attribute("Name");

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,14 +22,5 @@ std::vector<ArrayInformation> information_as_text(vtkInformation& information);
 /// `losses`; `array_name` is for it.
 void set_information(std::span<const ArrayInformation> texts, const std::string& array_name,
                      vtkInformation& information, std::vector<std::string>& losses);
-
-/// How the value of a key is written.
-enum class InformationKind : std::uint8_t { number, numbers, text, texts };
-
-/// That of the key with that name and location; nothing where VTK does not know it.
-std::optional<InformationKind> information_kind(const std::string& name, const std::string& location);
-
-/// True for the ranges that VTK keeps beside numbers.
-bool is_range_information(const std::string& name, const std::string& location);
 
 }  // namespace trismooth

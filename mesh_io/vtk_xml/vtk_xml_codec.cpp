@@ -25,9 +25,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/annotation_names.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_array_description.h"

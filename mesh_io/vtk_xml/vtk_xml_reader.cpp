@@ -19,6 +19,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "trismooth/mesh_io/bytes/exact_integers.h"
+#include "trismooth/mesh_io/document/array_limits.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"

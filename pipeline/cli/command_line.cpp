@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "trismooth/base/shell_words.h"
-#include "trismooth/mesh_io/vtk_xml/silence_vtk.h"
+#include "trismooth/mesh_io/vtk_support.h"
 #include "trismooth/pipeline/cli/exit_code.h"
 #include "trismooth/pipeline/cli/failure.h"
 #include "trismooth/pipeline/cli/help_formatter.h"
@@ -137,7 +137,7 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
 
 int run_command_line(int argc, const char* const* argv) {
   reserve_memory_for_the_end();
-  silence_vtk();
+  silence_libraries();
   reserve_standard_streams();
   // A file that gets larger than allowed (ulimit -f) is then an error like a full disk, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);

@@ -56,11 +56,22 @@ std::string wrapped_lines(const std::string& lines) {
   return text;
 }
 
+/// "; .vtu, .vtp need a build with VTK", or empty.
+std::string missing_formats() {
+  std::string names;
+  for (const FileFormat format : all_formats()) {
+    if (!is_available(format)) {
+      names.append(names.empty() ? "; ." : ", .").append(to_string(format));
+    }
+  }
+  return names.empty() ? names : names + " need a build with VTK";
+}
+
 ExitCode run_info(const CommandEnvironment& environment) {
   const CudaSupport cuda = environment.cuda();
   const unsigned threads = std::thread::hardware_concurrency();
   environment.out << "trismooth " << version() << '\n'
-                  << labelled_line("formats:", format_list() + " (all are read and written)")
+                  << labelled_line("formats:", format_list() + " (all are read and written" + missing_formats() + ")")
                   << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
                   << labelled_line("threads:", std::to_string(threads))
                   << (cuda.backend != nullptr ? wrapped_lines(cuda.lines())

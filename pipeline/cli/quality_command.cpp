@@ -21,7 +21,7 @@ void require_arrays(const std::filesystem::path& path) {
   }
   std::string formats;
   for (const FileFormat other : all_formats()) {
-    if (has_arrays(other)) {
+    if (has_arrays(other) && is_available(other)) {
       formats.append(formats.empty() ? "." : ", .").append(to_string(other));
     }
   }

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/shell_words.h"
-#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/pipeline/input/array_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
 #include "trismooth/pipeline/input/region_names.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/label_array.h"
+#include "trismooth/mesh_io/label_array.h"
 
 #include <cstdint>
 #include <string>

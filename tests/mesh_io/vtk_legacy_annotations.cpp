@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/document/annotation_names.h"
+#include "trismooth/mesh_io/annotation_names.h"
 
 #include "vtk_legacy_files.h"
 

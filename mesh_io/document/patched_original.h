@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "trismooth/mesh_io/bytes/coordinate_sites.h"
+#include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/bytes/patched_original.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 
 #include <algorithm>
 #include <utility>
