@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <exception>
 
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/quality/triangle_quality.h"

@@ -17,7 +17,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/input/region_arrays.h"
+#include "trismooth/pipeline/input/regions.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"

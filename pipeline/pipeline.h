@@ -10,7 +10,7 @@
 
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/held_vertices.h"
-#include "trismooth/pipeline/input/region_array.h"
+#include "trismooth/pipeline/region_array.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_quality.h"

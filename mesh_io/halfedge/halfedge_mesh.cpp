@@ -193,16 +193,4 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
   return rings;
 }
 
-std::vector<Triangle> face_list(const TriangleMesh& mesh) {
-  std::vector<Triangle> triangles(mesh.n_faces());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    HalfedgeHandle h = mesh.halfedge_handle(FaceHandle(static_cast<int>(f)));
-    for (std::int32_t& corner : triangles[f]) {
-      corner = mesh.from_vertex_handle(h).idx();
-      h = mesh.next_halfedge_handle(h);
-    }
-  }
-  return triangles;
-}
-
 }  // namespace trismooth

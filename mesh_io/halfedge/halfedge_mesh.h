@@ -36,7 +36,4 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
                    std::span<const std::uint8_t> reversed, Workers& workers,
                    std::span<const std::int32_t> copies_of = {});
 
-/// The faces of `mesh` as a triangle list.
-std::vector<Triangle> face_list(const TriangleMesh& mesh);
-
 }  // namespace trismooth

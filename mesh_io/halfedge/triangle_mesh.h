@@ -1,11 +1,15 @@
 #pragma once
 
+#include <vector>
+
 // OpenMesh's Eigen traits need its own vector traits before them.
 // clang-format off
 #include <Eigen/Core>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 // clang-format on
+
+#include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
 
@@ -17,5 +21,8 @@ struct TriangleMeshTraits : OpenMesh::DefaultTraits {
 
 /// The halfedge mesh of this project.
 using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<TriangleMeshTraits>;
+
+/// The faces of `mesh` as a triangle list, in their order: three vertex indices each, as the face runs. Linear.
+std::vector<Triangle> face_list(const TriangleMesh& mesh);
 
 }  // namespace trismooth

@@ -28,7 +28,7 @@ void require_cuda(const CudaSupport& cuda, const SmoothingOptions& options) {
 
 }  // namespace
 
-void choose_backend(BackendChoice choice, const CudaSupport& cuda, const AutoBackend& automatic,
+void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrCpu& automatic,
                     SmoothingOptions& options) {
   const bool unordered = options.order == Order::unordered;
   if (unordered && choice == BackendChoice::cpu) {

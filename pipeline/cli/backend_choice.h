@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/base/enum_text.h"
-#include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/cuda_or_cpu.h"
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/smoothing/options.h"
 
@@ -23,7 +23,7 @@ struct EnumText<BackendChoice> {
 /// anything is read: null for the CPU, `cuda.backend`, or `automatic`, which is to be made from the same `cuda`.
 /// Order::unordered leaves `automatic` no choice. Throws DeviceError where CUDA is wanted and cannot be had (not in
 /// this build, no device, no CDP), std::invalid_argument for options that only another backend has.
-void choose_backend(BackendChoice choice, const CudaSupport& cuda, const AutoBackend& automatic,
+void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrCpu& automatic,
                     SmoothingOptions& options);
 
 }  // namespace trismooth

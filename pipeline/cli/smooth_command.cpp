@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/auto_backend.h"
 #include "trismooth/pipeline/cli/backend_choice.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/subcommands.h"
+#include "trismooth/pipeline/cuda_or_cpu.h"
 #include "trismooth/pipeline/cuda_support.h"
 
 namespace trismooth {
@@ -95,7 +95,7 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
   const CudaSupport cuda = environment.cuda();
-  const AutoBackend automatic(cuda);
+  const CudaOrCpu automatic(cuda);
   choose_backend(settings.backend, cuda, automatic, options.smoothing);
   return run_on_mesh(std::move(settings.run), environment);
 }

@@ -12,7 +12,7 @@
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/input/region_arrays.h"
+#include "trismooth/pipeline/input/regions.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "broken.h"

@@ -1,220 +1,23 @@
 #include "trismooth/pipeline/auto_backend.h"
 
-#include <atomic>
-#include <chrono>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
-#include "support/fake_backend.h"
 #include "support/test_meshes.h"
 
-using fakes::Failure;
-using fakes::FakeBackend;
-using trismooth::AutoBackend;
-using trismooth::CudaSupport;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
+TEST_CASE("the backend that chooses by itself smooths a small mesh on the CPU, in every build") {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(12, 12, 0.45, 3);
+  trismooth::SmoothingOptions options;
+  std::vector<double> expected = mesh.xy();
+  trismooth::smooth(trismooth::xy_points(expected), mesh.indices(), {}, options);
 
-namespace {
-
-constexpr std::int32_t grid_columns = 12;
-constexpr std::int64_t vertices = 144;
-constexpr std::int64_t free_vertices = 100;
-
-CudaSupport support(const FakeBackend& backend, std::string problem = {}) {
-  return {&backend, true, [problem = std::move(problem)] { return problem; }, {}};
-}
-
-struct Smoothed {
-  SmoothingResult result;
-  std::vector<double> xy;
-};
-
-Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topology = trismooth::Topology::halfedge) {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
-  SmoothingOptions options;
-  options.backend = backend;
-  options.topology = topology;
-  Smoothed smoothed{{}, mesh.xy()};
-  smoothed.result = trismooth::smooth(trismooth::xy_points(smoothed.xy), mesh.indices(), {}, options);
-  return smoothed;
-}
-
-}  // namespace
-
-TEST_CASE("from as many free vertices on as it is told, auto takes CUDA") {
-  const FakeBackend cuda;
-  const AutoBackend just_large(support(cuda), trismooth::cpu_backend(), free_vertices);
-  const Smoothed by_cuda = smooth_with(&just_large);
-  CHECK(by_cuda.result.backend == "cuda");
-  CHECK(by_cuda.result.backend_note.empty());
-  CHECK(by_cuda.result.free_vertices == free_vertices);
-  CHECK(cuda.smoothed == 1);
-
-  const AutoBackend too_small(support(cuda), trismooth::cpu_backend(), free_vertices + 1);
-  const Smoothed by_cpu = smooth_with(&too_small);
-  CHECK(by_cpu.result.backend == "cpu");
-  CHECK(by_cpu.result.backend_note.empty());  // as everybody expects
-  CHECK(cuda.prepared == 1);
-  CHECK(by_cpu.xy == by_cuda.xy);
-}
-
-TEST_CASE("a small mesh asks no driver") {
-  const FakeBackend cuda;
-  const AutoBackend automatic({&cuda, true, []() -> std::string { throw std::logic_error("asked"); }, {}});
-  CHECK(smooth_with(&automatic, trismooth::Topology::device).result.backend == "cpu");
-}
-
-TEST_CASE("without a device, or without CUDA in the build, auto smooths on the CPU and says why") {
-  const FakeBackend cuda;
-  const AutoBackend no_device(support(cuda, "cudaErrorNoDevice (no CUDA-capable device is detected)"),
-                              trismooth::cpu_backend(), 1);
-  const Smoothed by_cpu = smooth_with(&no_device);
-  CHECK(by_cpu.result.backend == "cpu");
-  CHECK(by_cpu.result.backend_note == "no CUDA device: cudaErrorNoDevice (no CUDA-capable device is detected)");
-  CHECK(cuda.prepared == 0);
-  CHECK(by_cpu.xy == smooth_with(nullptr).xy);
-
-  const AutoBackend not_built({}, trismooth::cpu_backend(), 1);
-  CHECK(smooth_with(&not_built).result.backend == "cpu");
-}
-
-TEST_CASE("where the device fails, the CPU does the whole work, to the same bits, and the note names the error") {
-  const Failure failure = GENERATE(Failure::prepare, Failure::smooth);
-  const FakeBackend cuda(failure);
-  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
-  const Smoothed fallen_back = smooth_with(&automatic);
-  const Smoothed expected = smooth_with(nullptr);
-  CHECK(fallen_back.result.backend == "cpu");
-  CHECK(fallen_back.result.backend_note == "CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
-  CHECK(fallen_back.result.sweeps == expected.result.sweeps);
-  CHECK(fallen_back.result.moved_vertices == expected.result.moved_vertices);
-  CHECK(fallen_back.xy == expected.xy);
-}
-
-TEST_CASE("a device that failed once is not asked again by the same plan") {
-  const FakeBackend cuda(Failure::smooth);
-  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
-  SmoothingOptions options;
-  options.backend = &automatic;
-  trismooth::SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
-  for (int step = 0; step < 3; ++step) {
-    std::vector<double> xy = mesh.xy();
-    CHECK_FALSE(plan.smooth(xy).backend_note.empty());
-    CHECK(xy == smooth_with(nullptr).xy);
-  }
-  CHECK(cuda.smoothed == 1);
-}
-
-TEST_CASE("auto has rings found by the device where the mesh is large enough and the device can") {
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
-  SmoothingOptions options;
-  options.topology = trismooth::Topology::device;
-  const auto find = [&](const AutoBackend& automatic) {
-    return automatic.find_rings(mesh.points, mesh.triangles, {}, options);
-  };
-  const FakeBackend cuda;
-  CHECK(find(AutoBackend(support(cuda), trismooth::cpu_backend(), vertices)));
-  CHECK_FALSE(find(AutoBackend(support(cuda), trismooth::cpu_backend(), vertices + 1)));
-  CHECK_FALSE(find(AutoBackend(support(cuda, "cudaErrorNoDevice"), trismooth::cpu_backend(), 1)));
-  CHECK(cuda.rings_found == 1);
-  const FakeBackend failing(Failure::rings);
-  const auto by_host = find(AutoBackend(support(failing), trismooth::cpu_backend(), 1));
-  REQUIRE(by_host);
-  CHECK(failing.rings_found == 1);
-  CHECK(by_host->note == "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
-  CHECK(by_host->rings.neighbours == cuda.find_rings(mesh.points, mesh.triangles, {}, options)->rings.neighbours);
-}
-
-namespace {
-
-constexpr const char* rings_note =
-    "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test";
-
-/// A grid of the halfedge kind, smoothed as programs with such a mesh do.
-SmoothingResult smooth_halfedges(const AutoBackend& automatic, std::int32_t columns) {
-  trismooth::TriangleMesh mesh;
-  const test_meshes::Mesh grid = test_meshes::jittered_grid(columns, 8, 0.45, 3);
-  for (const auto& p : grid.points) {
-    mesh.add_vertex({p.x, p.y, 0});
-  }
-  for (const auto& [a, b, c] : grid.triangles) {
-    mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
-  }
-  SmoothingOptions options;
-  options.threads = 1;
-  options.topology = trismooth::Topology::device;
-  options.backend = &automatic;
-  return trismooth::smooth(mesh, options);
-}
-
-}  // namespace
-
-TEST_CASE("where the device fails to find the rings of a mesh, its smoothing says so, and no other mesh's") {
-  const FakeBackend cuda(Failure::rings, 8 * 9);
-  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
-  for (int round = 0; round < 2; ++round) {
-    const SmoothingResult result = smooth_halfedges(automatic, 9);
-    CHECK(result.backend == "cuda");
-    CHECK(result.backend_note == rings_note);
-    CHECK(smooth_halfedges(automatic, 10).backend_note.empty());
-  }
-  // Nor where one mesh comes between the two steps of another.
-  const test_meshes::Mesh failing = test_meshes::jittered_grid(9, 8, 0.45, 3);
-  const test_meshes::Mesh other = test_meshes::jittered_grid(10, 8, 0.45, 3);
-  SmoothingOptions options;
-  options.topology = trismooth::Topology::device;
-  options.backend = &automatic;
-  trismooth::Workers workers(1);
-  const auto found = trismooth::rings_for(options, failing.points, failing.triangles, {}, workers);
-  CHECK(found.note == rings_note);
-  std::vector<double> xy = other.xy();
-  CHECK(trismooth::smooth(trismooth::xy_points(xy), other.indices(), {}, options).backend_note.empty());
-}
-
-TEST_CASE("meshes of several threads at a time get their own notes") {
-  const FakeBackend cuda(Failure::rings, 8 * 9);
-  const AutoBackend automatic(support(cuda), trismooth::cpu_backend(), 1);
-  std::atomic<int> wrong = 0;
-  std::vector<std::thread> threads;
-  for (int i = 0; i < 4; ++i) {
-    threads.emplace_back([&, i] {
-      for (int round = 0; round < 20; ++round) {
-        const bool fails = (i + round) % 2 == 0;
-        const std::string note = smooth_halfedges(automatic, fails ? 9 : 10).backend_note;
-        wrong += note == (fails ? rings_note : "") ? 0 : 1;
-      }
-    });
-  }
-  for (std::thread& thread : threads) {
-    thread.join();
-  }
-  CHECK(wrong == 0);
-}
-
-TEST_CASE("starting the device is part of the first call's time alone") {
-  const FakeBackend cuda(Failure::no_time);
-  const AutoBackend automatic({&cuda,
-                               true,
-                               []() -> std::string {
-                                 std::this_thread::sleep_for(std::chrono::milliseconds(2));
-                                 return {};
-                               },
-                               {}},
-                              trismooth::cpu_backend(), 1);
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
-  SmoothingOptions options;
-  options.backend = &automatic;
-  trismooth::SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
+  options.backend = &trismooth::auto_backend();
+  CHECK(options.backend == &trismooth::auto_backend());
+  CHECK(options.backend->name() == "auto");
   std::vector<double> xy = mesh.xy();
-  CHECK(plan.smooth(xy).timings.prepare >= 2);
-  CHECK(plan.smooth(xy).timings.prepare == 0);
+  const trismooth::SmoothingResult result = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), {}, options);
+  CHECK(result.backend == "cpu");
+  CHECK(result.backend_note.empty());
+  CHECK(xy == expected);
 }

@@ -8,8 +8,8 @@
 #include "catch.h"
 #include "support/fake_backend.h"
 
-using trismooth::AutoBackend;
 using trismooth::BackendChoice;
+using trismooth::CudaOrCpu;
 using trismooth::CudaSupport;
 using trismooth::Execution;
 using trismooth::SmoothingOptions;
@@ -28,7 +28,7 @@ struct Choice {
   bool says(const std::string& words) const { return message.find(words) != std::string::npos; }
 };
 
-Choice choose(BackendChoice wanted, const CudaSupport& cuda, const AutoBackend& automatic, SmoothingOptions options) {
+Choice choose(BackendChoice wanted, const CudaSupport& cuda, const CudaOrCpu& automatic, SmoothingOptions options) {
   Choice choice;
   try {
     choose_backend(wanted, cuda, automatic, options);
@@ -54,7 +54,7 @@ SmoothingOptions unordered() {
 
 TEST_CASE("in a build without CUDA, cpu and auto are the CPU and everything else is refused with what to do") {
   const CudaSupport cuda;
-  const AutoBackend automatic(cuda);
+  const CudaOrCpu automatic(cuda);
   CHECK(choose(BackendChoice::cpu, cuda, automatic, {}).backend == nullptr);
   CHECK(choose(BackendChoice::automatic, cuda, automatic, {}).backend == nullptr);
   const Choice asked = choose(BackendChoice::cuda, cuda, automatic, {});
@@ -71,7 +71,7 @@ TEST_CASE("in a build without CUDA, cpu and auto are the CPU and everything else
 TEST_CASE("with a device, each choice is what its name says, and unordered leaves auto no choice") {
   const fakes::FakeBackend backend;
   const CudaSupport cuda{&backend, true, [] { return std::string(); }, {}};
-  const AutoBackend automatic(cuda);
+  const CudaOrCpu automatic(cuda);
   CHECK(choose(BackendChoice::cpu, cuda, automatic, {}).backend == nullptr);
   CHECK(choose(BackendChoice::automatic, cuda, automatic, {}).backend == &automatic);
   CHECK(choose(BackendChoice::cuda, cuda, automatic, {}).backend == &backend);
@@ -83,7 +83,7 @@ TEST_CASE("with a device, each choice is what its name says, and unordered leave
 TEST_CASE("without a device, what needs one is told the CUDA error and what to do, and auto goes on") {
   const fakes::FakeBackend backend;
   const CudaSupport cuda{&backend, true, [] { return std::string(no_device); }, {}};
-  const AutoBackend automatic(cuda);
+  const CudaOrCpu automatic(cuda);
   CHECK(choose(BackendChoice::cpu, cuda, automatic, {}).backend == nullptr);
   CHECK(choose(BackendChoice::automatic, cuda, automatic, {}).backend == &automatic);
   const Choice asked = choose(BackendChoice::cuda, cuda, automatic, {});
@@ -99,7 +99,7 @@ TEST_CASE("without a device, what needs one is told the CUDA error and what to d
 TEST_CASE("a build without dynamic parallelism refuses cdp where CUDA was asked for, and auto may ignore it") {
   const fakes::FakeBackend backend;
   const CudaSupport cuda{&backend, false, [] { return std::string(); }, {}};
-  const AutoBackend automatic(cuda);
+  const CudaOrCpu automatic(cuda);
   SmoothingOptions options;
   options.execution = Execution::cdp;
   const Choice asked = choose(BackendChoice::cuda, cuda, automatic, options);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/pipeline/auto_backend.h"
 #include "trismooth/pipeline/cli/command_line.h"
+#include "trismooth/pipeline/cuda_or_cpu.h"
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
@@ -53,7 +53,7 @@ class Files {
   /// Smooths on this device; where `automatic`, as --backend auto does with a mesh that is large enough.
   Outcome smooth(const fakes::FakeBackend& backend, bool automatic, const std::vector<std::string>& more = {}) const {
     const CudaSupport cuda{&backend, true, [] { return std::string(); }, {}};
-    const trismooth::AutoBackend from_one_vertex_on(cuda, trismooth::cpu_backend(), 1);
+    const trismooth::CudaOrCpu from_one_vertex_on(cuda, trismooth::cpu_backend(), 1);
     const std::string input = (folder_ / "in.off").string();
     const std::string output = (folder_ / "out.off").string();
     std::vector<const char*> arguments{"trismooth",    "smooth",    input.c_str(),

@@ -34,7 +34,7 @@ TEST_CASE("edges of three triangles and meshes without inner edges have nothing 
 }
 
 TEST_CASE("few vertices between triangles have few edges between them") {
-  // What region_arrays.cpp relies on: edges that change are at most three times the vertices that see a change.
+  // What regions.cpp relies on: edges that change are at most three times the vertices that see a change.
   test_meshes::Random random(2);
   for (int round = 0; round < 40; ++round) {
     const auto mesh = test_meshes::jittered_grid(3 + random.below(9), 3 + random.below(9), 0, 1);

@@ -7,7 +7,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/input/region_arrays.h"
+#include "trismooth/pipeline/input/regions.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"

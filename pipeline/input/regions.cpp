@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/input/region_arrays.h"
+#include "trismooth/pipeline/input/regions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/input/region_array.h"
+#include "trismooth/pipeline/region_array.h"
 
 namespace trismooth {
 

@@ -1,0 +1,145 @@
+#include "trismooth/pipeline/cuda_or_cpu.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+std::string failure_note(const DeviceError& error) {
+  constexpr std::string_view prefix = "CUDA: ";
+  const std::string what = error.what();
+  return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+}
+
+/// A smoother, and what the user is to know of how it came about.
+class NotedSmoother final : public PreparedSmoother {
+ public:
+  NotedSmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
+      : smoother_(std::move(smoother)), note_(std::move(note)) {}
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
+    SmoothingResult result = smoother_->smooth(points, storage, frame);
+    result.backend_note = joined_notes(note_, result.backend_note);
+    return result;
+  }
+
+  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
+
+ private:
+  std::unique_ptr<PreparedSmoother> smoother_;
+  std::string note_;
+};
+
+/// The device's smoother until it fails, the CPU's from then on.
+class FallingBackSmoother final : public PreparedSmoother {
+ public:
+  FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, double device_start_ms, const Backend& cpu,
+                      const MeshRings& mesh, std::span<const Triangle> triangles, const SmoothingOptions& options)
+      : smoother_(std::move(device)), device_start_ms_(device_start_ms), cpu_(cpu), mesh_(mesh), options_(options) {
+    if (options.measures_shape()) {
+      triangles_.assign(triangles.begin(), triangles.end());
+    }
+  }
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
+    if (!fell_back_) {
+      // A device that fails on the way back has written some of them.
+      const std::vector<Point2<double>> before(points.begin(), points.end());
+      try {
+        SmoothingResult result = smoother_->smooth(points, storage, frame);
+        result.timings.prepare += std::exchange(device_start_ms_, 0);
+        return result;
+      } catch (const DeviceError& error) {
+        std::ranges::copy(before, points.begin());
+        fall_back(frame ? *frame : local_frame_of_cells(before, mesh_.fixed), before, failure_note(error));
+      }
+    }
+    return smoother_->smooth(points, storage, frame);
+  }
+
+  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
+
+ private:
+  void fall_back(const LocalFrame& frame, std::span<const Point2<double>> points, std::string note) {
+    const LocalPoints local = entered(frame, points);
+    smoother_ =
+        std::make_unique<NotedSmoother>(cpu_.prepare(mesh_, triangles_, local.points, options_), std::move(note));
+    mesh_ = {};
+    triangles_ = {};
+    fell_back_ = true;
+  }
+
+  std::unique_ptr<PreparedSmoother> smoother_;
+  double device_start_ms_;
+  const Backend& cpu_;
+  MeshRings mesh_;
+  std::vector<Triangle> triangles_;  ///< where they are needed
+  SmoothingOptions options_;
+  bool fell_back_ = false;
+};
+
+std::int64_t count_free(const OneRings& rings) {
+  std::int64_t count = 0;
+  for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
+    count += rings.is_free(v) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+CudaOrCpu::CudaOrCpu(CudaSupport cuda, const Backend& cpu, std::int64_t free_vertices)
+    : cuda_(std::move(cuda)), cpu_(cpu), free_vertices_(free_vertices) {}
+
+std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                                     std::span<const Point2<double>> local,
+                                                     const SmoothingOptions& options) const {
+  if (!is_large(count_free(mesh.rings))) {
+    return cpu_.prepare(mesh, triangles, local, options);
+  }
+  // The first to ask starts CUDA, which can take longer than the smoothing.
+  const Stopwatch watch;
+  std::string note = cuda_.problem();
+  const double start_ms = watch.milliseconds();
+  if (note.empty()) {
+    try {
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(mesh, triangles, local, options), start_ms,
+                                                   cpu_, mesh, triangles, options);
+    } catch (const DeviceError& error) {
+      note = failure_note(error);
+    }
+  } else {
+    note.insert(0, "no CUDA device: ");
+  }
+  return std::make_unique<NotedSmoother>(cpu_.prepare(mesh, triangles, local, options), note);
+}
+
+std::optional<MeshRings> CudaOrCpu::find_rings(std::span<const Point2<double>> local,
+                                               std::span<const Triangle> triangles, const Constraints& constraints,
+                                               const SmoothingOptions& options) const {
+  if (!is_large(std::ssize(local)) || !cuda_.problem().empty()) {
+    return cpu_.find_rings(local, triangles, constraints, options);
+  }
+  try {
+    return cuda_.backend->find_rings(local, triangles, constraints, options);
+  } catch (const DeviceError& error) {
+    // Found here, whoever else could have: so the note is with the rings that it is about.
+    Workers workers(options.threads);
+    MeshRings found = find_mesh_rings(local, triangles, constraints, workers);
+    found.note = "the CPU found the rings: " + failure_note(error);
+    return found;
+  }
+}
+
+}  // namespace trismooth
