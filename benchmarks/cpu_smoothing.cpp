@@ -49,10 +49,10 @@ class Series {
   explicit Series(std::string name) : name_(std::move(name)) {}
   void add(double value) { values_.push_back(value); }
   void print() const {
-    const bench::Spread s(values_);
+    const experiments::Spread s(values_);
     fmt::print("  {:<34}{:>10.1f} ms   ({:.1f} to {:.1f})\n", name_, s.median, s.least, s.most);
   }
-  double median() const { return bench::Spread(values_).median; }
+  double median() const { return experiments::Spread(values_).median; }
 
  private:
   std::string name_;

@@ -37,7 +37,7 @@ struct Settings {
   std::string json;
 };
 
-using trismooth::bench::Spread;
+using trismooth::experiments::Spread;
 
 Json json_of(const Spread& spread);
 

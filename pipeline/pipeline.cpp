@@ -225,22 +225,22 @@ class Run {
     result_.timings_ms.transfer_in = smoothing.timings.transfer_in;
     result_.timings_ms.smooth = smoothing.timings.smooth;
     result_.timings_ms.transfer_out = smoothing.timings.transfer_out;
-    result_.timings_ms.commit = smoothing.timings.commit;
+    result_.timings_ms.guard = smoothing.timings.commit;
     result_.smoothing = std::move(smoothing);
   }
 
   void hash_coordinates(const std::vector<Point2<double>>& input_points, const SmoothingResult& smoothing) {
-    result_.coordinates_hash = result_.uncommitted_hash = coordinates_hash(document_.points);
+    result_.coordinates_hash = result_.unguarded_hash = coordinates_hash(document_.points);
     if (smoothing.reverted.empty()) {
       return;
     }
-    std::vector<double> uncommitted = document_.points;
+    std::vector<double> unguarded = document_.points;
     for (const auto& [vertex, position] : smoothing.reverted) {
-      Eigen::Map<Eigen::Vector3d> point(uncommitted.data() + 3 * static_cast<std::size_t>(vertex));
+      Eigen::Map<Eigen::Vector3d> point(unguarded.data() + 3 * static_cast<std::size_t>(vertex));
       const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
       point = rounded_to(storage_of(document_), moved);
     }
-    result_.uncommitted_hash = coordinates_hash(uncommitted);
+    result_.unguarded_hash = coordinates_hash(unguarded);
   }
 
   void write(const std::filesystem::path& path, bool annotate) {

@@ -80,7 +80,7 @@ struct InputSummary {
 
 /// Milliseconds of each stage.
 struct PipelineTimings {
-  double read = 0, topology = 0, check_before = 0, transfer_in = 0, smooth = 0, transfer_out = 0, commit = 0,
+  double read = 0, topology = 0, check_before = 0, transfer_in = 0, smooth = 0, transfer_out = 0, guard = 0,
          check_after = 0, write = 0, total = 0;
 };
 
@@ -94,7 +94,7 @@ struct PipelineResult {
   std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed
   std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates (see coordinates_hash.h)
-  std::uint64_t uncommitted_hash = 0;         ///< the same before the commit
+  std::uint64_t unguarded_hash = 0;           ///< the same before the guard took vertices back
   std::vector<std::string> notes;             ///< what the user should know, one sentence each
   std::vector<std::string> losses;            ///< what the output does not hold of the input, likewise: always shown
   std::vector<std::string> warnings;          ///< what the user should have known before the smoothing, likewise

@@ -26,8 +26,8 @@
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/terminal_line.h"
 #include "trismooth/pipeline/experiments/experiment.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 #include "trismooth/pipeline/experiments/progress_text.h"
-#include "trismooth/pipeline/experiments/report.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/report/printable_text.h"
 #include "trismooth/pipeline/report/report_format.h"
@@ -40,16 +40,16 @@ namespace {
 constexpr int most_runs = 1000;
 
 struct BenchSettings {
-  bench::ExperimentOptions experiment;
+  experiments::ExperimentOptions experiment;
   BackendChoice backend = BackendChoice::automatic;
   std::vector<std::filesystem::path> reports;
 };
 
-using BenchReportWriter = std::string (*)(const bench::Report&);
+using BenchReportWriter = std::string (*)(const experiments::ExperimentReport&);
 
 BenchReportWriter bench_writer_of(const std::filesystem::path& path) {
   static constexpr std::array<ReportFormat<BenchReportWriter>, 3> formats{
-      {{".json", &bench::json_of}, {".csv", &bench::csv_of}, {".html", &bench::page_of}}};
+      {{".json", &experiments::json_of}, {".csv", &experiments::csv_of}, {".html", &experiments::page_of}}};
   return writer_for<BenchReportWriter>(path, formats);
 }
 
@@ -105,13 +105,13 @@ std::string now_text() {
 
 /// As it would be typed: with the program's name alone, so that reports hold no path of the machine.
 std::string command_text(const BenchSettings& settings) {
-  const bench::ExperimentOptions& options = settings.experiment;
+  const experiments::ExperimentOptions& options = settings.experiment;
   std::string sizes;
   for (const std::int64_t size : options.sizes) {
     sizes += fmt::format("{}{}", sizes.empty() ? "" : ",", size);
   }
   std::string versions;
-  for (const bench::Version version : options.versions) {
+  for (const experiments::Version version : options.versions) {
     versions.append(versions.empty() ? "" : ",").append(to_string(version));
   }
   std::string text =
@@ -126,27 +126,27 @@ std::string command_text(const BenchSettings& settings) {
   return text;
 }
 
-bench::ExperimentResult run_watched(bench::ExperimentOptions options, const CudaSupport& cuda,
-                                    const CommandEnvironment& environment) {
+experiments::ExperimentResult run_watched(experiments::ExperimentOptions options, const CudaSupport& cuda,
+                                          const CommandEnvironment& environment) {
   std::optional<TerminalLine> line;
   if (environment.terminal.stream != nullptr) {
     line.emplace(environment.terminal);
-    options.progress = [&line, runs = options.runs](const bench::ExperimentProgress& progress) {
+    options.progress = [&line, runs = options.runs](const experiments::ExperimentProgress& progress) {
       // Between long runs the line must say what goes on now; between short ones it may lag.
-      TerminalLine::Pieces pieces = bench::progress_pieces(progress, runs);
+      TerminalLine::Pieces pieces = experiments::progress_pieces(progress, runs);
       progress.run == 0 ? line->draw(std::move(pieces)) : line->draw_now_and_then(std::move(pieces));
     };
   }
-  return bench::run_experiment(options, cuda);
+  return experiments::run_experiment(options, cuda);
 }
 
 /// The tables, and all reports that can be written; answers whether those are all. Throws WriteError in the end where
 /// the tables could not be printed.
-bool write_results(const bench::Report& report, const std::vector<std::filesystem::path>& paths,
+bool write_results(const experiments::ExperimentReport& report, const std::vector<std::filesystem::path>& paths,
                    const CommandEnvironment& environment) {
   std::exception_ptr not_printed;
   try {
-    print_results(environment.out, bench::text_of(report));
+    print_results(environment.out, experiments::text_of(report));
   } catch (const WriteError&) {
     not_printed = std::current_exception();
   }
@@ -170,9 +170,9 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
   for (const std::filesystem::path& path : settings.reports) {
     const OutputFile attempt(path);  // a folder that is not there is told before the work, not after it
   }
-  const bench::Report report =
-      bench::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
-                         cuda.backend != nullptr ? cuda.lines() : std::string{});
+  const experiments::ExperimentReport report =
+      experiments::make_report(run_watched(settings.experiment, cuda, environment), command_text(settings), now_text(),
+                               cuda.backend != nullptr ? cuda.lines() : std::string{});
   if (!write_results(report, settings.reports, environment)) {
     return ExitCode::not_written;
   }
@@ -180,11 +180,11 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
     print_error(environment.err, "runs that must give the same bits did not; please report this");
     return ExitCode::gate_failed;
   }
-  if (report.result.any_lack_of(bench::Lack::working_device)) {
+  if (report.result.any_lack_of(experiments::Lack::working_device)) {
     print_error(environment.err, "the device failed; the remarks say where");
     return ExitCode::device_error;
   }
-  if (report.result.any_lack_of(bench::Lack::memory)) {
+  if (report.result.any_lack_of(experiments::Lack::memory)) {
     print_error(environment.err, "not enough memory; the remarks say where");
     return ExitCode::bad_input;
   }
@@ -195,7 +195,7 @@ ExitCode run_bench(BenchSettings settings, const CommandEnvironment& environment
 
 Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environment) {
   const auto settings = std::make_shared<BenchSettings>();
-  bench::ExperimentOptions& options = settings->experiment;
+  experiments::ExperimentOptions& options = settings->experiment;
   CLI::App& command = *app.add_subcommand("bench", "Repeat the paper's experiments on this machine");
   add_parsed_option(command, "--sizes", "N,N,...",
                     "Vertices of the meshes, with K and M for thousands and millions [1K,5K,10K,50K,100K, the paper's]",
@@ -203,9 +203,11 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; single is the paper's");
   add_parsed_option(
       command, "--versions", "V,V,...",
-      "Of " + valid_texts<bench::Version>() +
+      "Of " + valid_texts<experiments::Version>() +
           ": the paper's serial program, the CPU backend, the paper's GPU and CDP versions, the resident version [all]",
-      [&options](const std::string& text) { options.versions = parse_list(text, &parse_choice<bench::Version>); });
+      [&options](const std::string& text) {
+        options.versions = parse_list(text, &parse_choice<experiments::Version>);
+      });
   add_parsed_option(command, "--runs", "N", "Runs of each, one more to warm up [7]",
                     [&options](const std::string& text) { options.runs = parse_integer(text, 1, most_runs); });
   add_parsed_option(command, "--seconds", "S", "Fewer runs where they would take longer together [20]",

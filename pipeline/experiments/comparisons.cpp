@@ -9,7 +9,7 @@
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::string by_size(const ExperimentResult& result, const std::vector<Comparison
   return "The median of these factors by size: " + text + ".";
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

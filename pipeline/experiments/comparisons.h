@@ -11,7 +11,7 @@
 #include "trismooth/base/enum_text.h"
 #include "trismooth/pipeline/experiments/experiment.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// What one comparison says of a claim.
 enum class Support : std::uint8_t {
@@ -56,11 +56,11 @@ std::string tally(const std::vector<Comparison>& comparisons, std::string_view f
 /// The median factor of each size, as a sentence.
 std::string by_size(const ExperimentResult& result, const std::vector<Comparison>& comparisons);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments
 
 template <>
-struct trismooth::EnumText<trismooth::bench::Support> {
-  using Support = trismooth::bench::Support;
+struct trismooth::EnumText<trismooth::experiments::Support> {
+  using Support = trismooth::experiments::Support;
   static constexpr std::string_view what = "support";
   static constexpr std::array<std::pair<Support, std::string_view>, 4> texts{
       {{Support::yes, "yes"},

@@ -10,7 +10,7 @@
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -302,4 +302,4 @@ std::vector<Conclusion> conclusions_of(const ExperimentResult& result) {
   return conclusions;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

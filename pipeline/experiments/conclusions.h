@@ -9,7 +9,7 @@
 #include "trismooth/pipeline/experiments/comparisons.h"
 #include "trismooth/pipeline/experiments/experiment.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// Whether something that the paper says shows here.
 enum class Verdict : std::uint8_t {
@@ -35,11 +35,11 @@ struct Conclusion {
 /// has the factors.
 std::vector<Conclusion> conclusions_of(const ExperimentResult& result);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments
 
 template <>
-struct trismooth::EnumText<trismooth::bench::Verdict> {
-  using Verdict = trismooth::bench::Verdict;
+struct trismooth::EnumText<trismooth::experiments::Verdict> {
+  using Verdict = trismooth::experiments::Verdict;
   static constexpr std::string_view what = "verdict";
   static constexpr std::array<std::pair<Verdict, std::string_view>, 5> texts{{{Verdict::holds, "holds"},
                                                                               {Verdict::in_part, "holds in part"},

@@ -13,7 +13,7 @@
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/smooth.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -251,4 +251,4 @@ ExperimentResult run_experiment(const ExperimentOptions& options, const CudaSupp
   return Experiment(options, cuda).run();
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -13,7 +13,7 @@
 #include "trismooth/pipeline/experiments/versions.h"
 #include "trismooth/smoothing/result.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// How far an experiment is.
 struct ExperimentProgress {
@@ -103,4 +103,4 @@ struct ExperimentResult {
 /// the device or the memory fails. Throws std::invalid_argument for options out of range.
 ExperimentResult run_experiment(const ExperimentOptions& options, const CudaSupport& cuda);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -9,7 +9,7 @@
 
 #include "trismooth/pipeline/experiments/log_chart.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string speedup_figure(const ExperimentResult& result) {
   return svg_or_nothing(chart);
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

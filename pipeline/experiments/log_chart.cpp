@@ -14,7 +14,7 @@
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -371,4 +371,4 @@ std::string log_chart_svg(const LogChart& chart) {
       below.svg);
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -7,7 +7,7 @@
 
 #include "trismooth/pipeline/experiments/spread.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 enum class Marker : std::uint8_t { none, circle, square, diamond, triangle, cross };
 
@@ -51,4 +51,4 @@ struct LogChart {
 /// where no series has a point, or one is not positive.
 std::string log_chart_svg(const LogChart& chart);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

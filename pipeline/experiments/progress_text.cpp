@@ -7,7 +7,7 @@
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 std::vector<std::string> progress_pieces(const ExperimentProgress& progress, int runs) {
   constexpr int width = 14;
@@ -18,4 +18,4 @@ std::vector<std::string> progress_pieces(const ExperimentProgress& progress, int
           progress.run > 0 ? fmt::format(", run {} of {}", progress.run, runs) : std::string()};
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -5,9 +5,9 @@
 
 #include "trismooth/pipeline/experiments/experiment.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// "[#####---------] 41 %", "  100K: GPU-AoS, Form A", ", run 3 of 7": the pieces of a TerminalLine. ASCII.
 std::vector<std::string> progress_pieces(const ExperimentProgress& progress, int runs);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::optional<double> published_speedup(const Case& what, std::int64_t vertices)
   return what.layout == Layout::aos ? row->aos_speedup : row->soa_speedup;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -8,7 +8,7 @@
 
 #include "trismooth/pipeline/experiments/versions.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// What the paper has measured: K. Zhao, G. Mei, N. Xu, J. Zhang, "On the Accelerating of Two-dimensional Smart
 /// Laplacian Smoothing on the GPU", section "Results". Single precision, times in milliseconds.
@@ -44,4 +44,4 @@ inline constexpr std::array<std::int64_t, 5> published_sizes{1'000, 5'000, 10'00
 inline constexpr std::string_view published_gpu = "GeForce GT640 (GDDR5), CUDA 6.5";
 inline constexpr std::string_view published_cpu = "Intel i5, 3.2 GHz";
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

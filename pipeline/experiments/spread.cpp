@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, decimals_of(value));
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

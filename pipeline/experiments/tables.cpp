@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::vector<Table> tables_of(const ExperimentResult& result) {
   return tables;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -7,7 +7,7 @@
 
 #include "trismooth/pipeline/experiments/experiment.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// A row of a table in the paper's layout: running times in milliseconds, and how many times faster than the serial CPU
 /// version that is. What was not measured is empty.
@@ -39,4 +39,4 @@ bool any_measured_on(const ExperimentResult& result, const MeshCounts& mesh);
 /// in colour order, the resident version. Versions that the experiment was not asked for have no table.
 std::vector<Table> tables_of(const ExperimentResult& result);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

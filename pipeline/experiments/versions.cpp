@@ -1,6 +1,6 @@
 #include "trismooth/pipeline/experiments/versions.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -119,4 +119,4 @@ SmoothingOptions options_of(const Case& what, Precision precision, int threads, 
   return options;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -12,7 +12,7 @@
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/smoothing/options.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// The programs that are compared.
 enum class Version : std::uint8_t {
@@ -66,11 +66,11 @@ std::string full_name(const Case& what);
 /// device. `cuda.backend` must be there for versions that run on a device.
 SmoothingOptions options_of(const Case& what, Precision precision, int threads, const CudaSupport& cuda);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments
 
 template <>
-struct trismooth::EnumText<trismooth::bench::Version> {
-  using Version = trismooth::bench::Version;
+struct trismooth::EnumText<trismooth::experiments::Version> {
+  using Version = trismooth::experiments::Version;
   static constexpr std::string_view what = "version";
   static constexpr std::array<std::pair<Version, std::string_view>, 5> texts{{{Version::serial, "serial"},
                                                                               {Version::cpu, "cpu"},

@@ -4,7 +4,7 @@
 
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 std::string runs_text(int runs) {
   return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
@@ -15,4 +15,4 @@ std::string sweeps_text(const Spread& sweeps) {
                                      : fmt::format("{:.0f} ({:.0f}-{:.0f})", sweeps.median, sweeps.least, sweeps.most);
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

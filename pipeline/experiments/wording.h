@@ -4,7 +4,7 @@
 
 #include "trismooth/pipeline/experiments/spread.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 /// Numbers as all reports of an experiment write them.
 
@@ -14,4 +14,4 @@ std::string sweeps_text(const Spread& sweeps);
 /// "7 runs", "1 run".
 std::string runs_text(int runs);
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

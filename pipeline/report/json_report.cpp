@@ -202,7 +202,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
-      {"uncommitted_hash", result.smoothing ? Json(hash_text(result.uncommitted_hash)) : Json(nullptr)},
+      {"uncommitted_hash", result.smoothing ? Json(hash_text(result.unguarded_hash)) : Json(nullptr)},
       {"warnings", result.warnings},
       {"timings_ms", timings_json(result.timings_ms)},
       {"peak_memory_bytes", result.peak_memory_bytes}};

@@ -73,7 +73,7 @@ std::string device_line(const SmoothingOptions& options, const SmoothingResult& 
 std::string method_lines(const SmoothingOptions& options, const PipelineResult& result, TextDetail detail) {
   const SmoothingResult& smoothing = *result.smoothing;
   const PipelineTimings& timings = result.timings_ms;
-  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.commit;
+  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.guard;
   std::string text = labelled_line(
       "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", to_string(options.method), to_string(options.form),
                                 to_string(options.precision), who_smoothed(smoothing), duration_text(smoothing_time)));

@@ -16,7 +16,7 @@ inline std::array<std::pair<std::string_view, double>, 9> timing_parts(const Pip
            {"transfer_in", timings.transfer_in},
            {"smooth", timings.smooth},
            {"transfer_out", timings.transfer_out},
-           {"commit", timings.commit},
+           {"commit", timings.guard},
            {"check_after", timings.check_after},
            {"write", timings.write}}};
 }

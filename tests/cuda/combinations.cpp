@@ -169,7 +169,7 @@ class FileMesh final : public TestMesh {
   Outcome smooth(const SmoothingOptions& options) override {
     pipeline_.smoothing = options;
     last_ = run_pipeline(pipeline_);
-    return {last_.coordinates_hash, last_.uncommitted_hash, *last_.smoothing};
+    return {last_.coordinates_hash, last_.unguarded_hash, *last_.smoothing};
   }
 
   std::string breach() const override {

@@ -62,7 +62,7 @@ inline trismooth::PipelineResult result() {
   smoothing.threads = 2;
   result.smoothing = smoothing;
   result.coordinates_hash = 0x0123456789abcdefU;
-  result.uncommitted_hash = 0xfedcba9876543210U;
+  result.unguarded_hash = 0xfedcba9876543210U;
   result.notes = {"a note with <b>markup</b> & an ampersand"};
   result.timings_ms = {1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 50};
   result.peak_memory_bytes = 987654321;

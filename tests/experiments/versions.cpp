@@ -18,10 +18,10 @@ using trismooth::Order;
 using trismooth::Precision;
 using trismooth::SmoothingOptions;
 using trismooth::Topology;
-using trismooth::bench::Case;
-using trismooth::bench::cases_of;
-using trismooth::bench::options_of;
-using trismooth::bench::Version;
+using trismooth::experiments::Case;
+using trismooth::experiments::cases_of;
+using trismooth::experiments::options_of;
+using trismooth::experiments::Version;
 
 namespace {
 

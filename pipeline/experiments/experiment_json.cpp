@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 #include "trismooth/pipeline/version.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -169,7 +169,7 @@ Json conclusions_json(const std::vector<Conclusion>& conclusions) {
 
 }  // namespace
 
-std::string json_of(const Report& report) {
+std::string json_of(const ExperimentReport& report) {
   const Json json{{"trismooth", std::string(version())},
                   {"date", report.setting.date},
                   {"command", report.setting.command},
@@ -185,4 +185,4 @@ std::string json_of(const Report& report) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

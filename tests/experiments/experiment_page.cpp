@@ -1,15 +1,15 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"
 #include "support/parsed_page.h"
 
 using pages::count_of;
-using trismooth::bench::make_report;
-using trismooth::bench::page_of;
+using trismooth::experiments::make_report;
+using trismooth::experiments::page_of;
 
 namespace {
 

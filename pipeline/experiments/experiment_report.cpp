@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include <algorithm>
 #include <iterator>
@@ -11,7 +11,7 @@
 #include "trismooth/quality/report_text.h"
 #include "trismooth/smoothing/options.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -113,8 +113,8 @@ std::vector<std::string> bit_remarks(const ExperimentResult& result) {
 
 }  // namespace
 
-Report make_report(ExperimentResult result, std::string command, std::string date, std::string cuda) {
-  Report report;
+ExperimentReport make_report(ExperimentResult result, std::string command, std::string date, std::string cuda) {
+  ExperimentReport report;
   report.setting = {std::move(command), std::move(date), processor_name(), 0, {}, std::move(cuda)};
   for (const Row& row : result.rows) {
     if (row.measured && runs_on_device(row.what.version)) {
@@ -129,7 +129,7 @@ Report make_report(ExperimentResult result, std::string command, std::string dat
   return report;
 }
 
-std::vector<std::string> remarks_on(const Report& report) {
+std::vector<std::string> remarks_on(const ExperimentReport& report) {
   std::vector<std::string> remarks = lack_remarks(report.result);
   std::ranges::move(run_remarks(report.result), std::back_inserter(remarks));
   std::ranges::move(bit_remarks(report.result), std::back_inserter(remarks));
@@ -167,4 +167,4 @@ std::vector<std::string> how_it_is_measured() {
   return sentences;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -1,5 +1,3 @@
-#include "trismooth/quality/report_text.h"
-
 #include <array>
 #include <optional>
 #include <string>
@@ -9,13 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/version.h"
+#include "trismooth/quality/report_text.h"
 #include "trismooth/quality/text_columns.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -27,7 +26,7 @@ std::string median_or_dash(const std::optional<Spread>& spread) {
   return spread ? three_digits(spread->median) : "-";
 }
 
-std::string heading(const Report& report) {
+std::string heading(const ExperimentReport& report) {
   const ExperimentOptions& options = report.result.options;
   const Setting& setting = report.setting;
   std::string text =
@@ -100,7 +99,7 @@ std::string table_text(const Table& table) {
 }
 
 /// The paper's tables, all of them; of the others those in which something was measured.
-std::string tables_text(const Report& report) {
+std::string tables_text(const ExperimentReport& report) {
   std::string of_paper;
   std::string beyond;
   for (const Table& table : report.tables) {
@@ -133,7 +132,7 @@ std::string conclusion_text(const Conclusion& conclusion) {
 
 }  // namespace
 
-std::string text_of(const Report& report) {
+std::string text_of(const ExperimentReport& report) {
   std::string text = heading(report);
   for (const MeshCounts& mesh : report.result.meshes) {
     text += mesh_text(report.result, mesh);
@@ -150,4 +149,4 @@ std::string text_of(const Report& report) {
   return text;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -2,8 +2,8 @@
 
 #include "catch.h"
 
-using trismooth::bench::runs_text;
-using trismooth::bench::sweeps_text;
+using trismooth::experiments::runs_text;
+using trismooth::experiments::sweeps_text;
 
 TEST_CASE("sweeps that differ between runs have their bounds") {
   CHECK(sweeps_text({49, 49, 49}) == "49");

@@ -2,16 +2,16 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"
 
-using trismooth::bench::csv_of;
-using trismooth::bench::make_report;
-using trismooth::bench::Report;
-using trismooth::bench::Table;
-using trismooth::bench::TableRow;
+using trismooth::experiments::csv_of;
+using trismooth::experiments::ExperimentReport;
+using trismooth::experiments::make_report;
+using trismooth::experiments::Table;
+using trismooth::experiments::TableRow;
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
 }  // namespace
 
 TEST_CASE("every row of every table is a line with as many cells as there are columns") {
-  const Report report = make_report(sample::experiment({1'000, 2'000}, &sample::regular_time), "", "", "");
+  const ExperimentReport report = make_report(sample::experiment({1'000, 2'000}, &sample::regular_time), "", "", "");
   const auto rows = cells_of(csv_of(report));
   REQUIRE(rows.size() == 1 + 8 * 2);
   for (const auto& row : rows) {

@@ -13,14 +13,14 @@
 
 #include "catch.h"
 
-using trismooth::bench::ChartPanel;
-using trismooth::bench::ChartPoint;
-using trismooth::bench::ChartSeries;
-using trismooth::bench::LineStyle;
-using trismooth::bench::log_chart_svg;
-using trismooth::bench::LogChart;
-using trismooth::bench::Marker;
-using trismooth::bench::Spread;
+using trismooth::experiments::ChartPanel;
+using trismooth::experiments::ChartPoint;
+using trismooth::experiments::ChartSeries;
+using trismooth::experiments::LineStyle;
+using trismooth::experiments::log_chart_svg;
+using trismooth::experiments::LogChart;
+using trismooth::experiments::Marker;
+using trismooth::experiments::Spread;
 
 namespace {
 

@@ -15,10 +15,10 @@ using sample::Layout;
 using sample::Order;
 using sample::Spread;
 using sample::Version;
-using trismooth::bench::Conclusion;
-using trismooth::bench::conclusions_of;
-using trismooth::bench::Support;
-using trismooth::bench::Verdict;
+using trismooth::experiments::Conclusion;
+using trismooth::experiments::conclusions_of;
+using trismooth::experiments::Support;
+using trismooth::experiments::Verdict;
 
 namespace {
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"
 
-using trismooth::bench::make_report;
-using trismooth::bench::text_of;
+using trismooth::experiments::make_report;
+using trismooth::experiments::text_of;
 
 namespace {
 

@@ -4,15 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/pipeline/experiments/experiment_report.h"
 #include "trismooth/pipeline/experiments/figures.h"
-#include "trismooth/pipeline/experiments/report.h"
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/pipeline/version.h"
 #include "trismooth/quality/report_text.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -62,7 +62,7 @@ std::string_view class_of(Verdict verdict) {
   }
 }
 
-std::string header(const Report& report) {
+std::string header(const ExperimentReport& report) {
   const Setting& setting = report.setting;
   const std::string where = setting.gpu.empty() ? setting.cpu : setting.gpu;
   std::string cpu = escape_html(setting.cpu);
@@ -160,7 +160,7 @@ std::string table_html(const Table& table) {
 }
 
 /// The paper's, all; or the others, as far as something was measured.
-std::string tables_html(const Report& report, bool of_paper) {
+std::string tables_html(const ExperimentReport& report, bool of_paper) {
   std::string html;
   for (const Table& table : report.tables) {
     if (of_paper ? table.number > 0 : table.number == 0 && table.missing_reason.empty()) {
@@ -217,7 +217,7 @@ std::string mesh_tables(const ExperimentResult& result) {
   return html;
 }
 
-std::string footer(const Report& report) {
+std::string footer(const ExperimentReport& report) {
   return fmt::format("<footer>trismooth {}; <code>{}</code></footer>\n", version(),
                      escape_html(report.setting.command));
 }
@@ -228,7 +228,7 @@ std::string section_of_class(std::string_view name, const std::string& section) 
 
 }  // namespace
 
-std::string page_of(const Report& report) {
+std::string page_of(const ExperimentReport& report) {
   const std::string paper = fmt::format(
       "<p class=\"soft\">Milliseconds of smoothing, median (least-most), and speedups over the serial CPU version. In "
       "the paper: running times ({}; {}).</p>\n",
@@ -249,4 +249,4 @@ std::string page_of(const Report& report) {
   return html_page("The paper's experiments", body + footer(report), bench_style);
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -8,13 +8,13 @@
 using trismooth::Form;
 using trismooth::Layout;
 using trismooth::Order;
-using trismooth::bench::published_ms;
-using trismooth::bench::published_row;
-using trismooth::bench::published_sizes;
-using trismooth::bench::published_speedup;
-using trismooth::bench::published_tables;
-using trismooth::bench::PublishedTable;
-using trismooth::bench::Version;
+using trismooth::experiments::published_ms;
+using trismooth::experiments::published_row;
+using trismooth::experiments::published_sizes;
+using trismooth::experiments::published_speedup;
+using trismooth::experiments::published_tables;
+using trismooth::experiments::PublishedTable;
+using trismooth::experiments::Version;
 
 // A figure copied wrongly would not fit the others: the paper states times and their quotients, and repeats the CPU's.
 
@@ -33,7 +33,7 @@ TEST_CASE("the published tables are numbered, and have the five sizes each") {
   for (std::size_t i = 0; i < 4; ++i) {
     const PublishedTable& table = published_tables()[i];
     CHECK(table.number == static_cast<int>(i) + 1);
-    CHECK(std::ranges::equal(table.rows, published_sizes, {}, &trismooth::bench::PublishedRow::vertices));
+    CHECK(std::ranges::equal(table.rows, published_sizes, {}, &trismooth::experiments::PublishedRow::vertices));
   }
 }
 

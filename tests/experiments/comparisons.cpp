@@ -14,14 +14,14 @@ using sample::Layout;
 using sample::Order;
 using sample::Spread;
 using sample::Version;
-using trismooth::bench::by_size;
-using trismooth::bench::compare_all;
-using trismooth::bench::Comparison;
-using trismooth::bench::count_of;
-using trismooth::bench::overall;
-using trismooth::bench::Support;
-using trismooth::bench::support_of;
-using trismooth::bench::tally;
+using trismooth::experiments::by_size;
+using trismooth::experiments::compare_all;
+using trismooth::experiments::Comparison;
+using trismooth::experiments::count_of;
+using trismooth::experiments::overall;
+using trismooth::experiments::Support;
+using trismooth::experiments::support_of;
+using trismooth::experiments::tally;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include <algorithm>
 #include <string>
@@ -10,14 +10,14 @@
 using sample::Case;
 using sample::ExperimentResult;
 using sample::Version;
-using trismooth::bench::make_report;
-using trismooth::bench::remarks_on;
-using trismooth::bench::Report;
-using trismooth::bench::Row;
+using trismooth::experiments::ExperimentReport;
+using trismooth::experiments::make_report;
+using trismooth::experiments::remarks_on;
+using trismooth::experiments::Row;
 
 namespace {
 
-Report report_of(ExperimentResult result) {
+ExperimentReport report_of(ExperimentResult result) {
   return make_report(std::move(result), "trismooth bench", "2026-01-02 03:04 UTC", "");
 }
 
@@ -29,7 +29,7 @@ bool says(const std::vector<std::string>& remarks, const std::string& words) {
 }  // namespace
 
 TEST_CASE("a report names the machine that was measured") {
-  const Report with = report_of(sample::experiment({1'000}, &sample::regular_time));
+  const ExperimentReport with = report_of(sample::experiment({1'000}, &sample::regular_time));
   CHECK(with.setting.gpu == "A <fast> GPU");
   CHECK(with.setting.threads == 4);
   CHECK_FALSE(with.setting.cpu.empty());
@@ -52,7 +52,7 @@ TEST_CASE("the remarks name each case that failed, with its size") {
   ExperimentResult result = sample::experiment({1'000, 5'000}, &sample::regular_time);
   Row& row = result.rows.back();
   row.measured.reset();
-  row.lack = trismooth::bench::Lack::working_device;
+  row.lack = trismooth::experiments::Lack::working_device;
   row.missing_reason = "cudaErrorMemoryAllocation";
   CHECK(says(remarks_on(report_of(result)), "Failed: 5K resident-SoA, Form B (cudaErrorMemoryAllocation)."));
   CHECK_FALSE(says(remarks_on(report_of(result)), "need a CUDA device"));

@@ -5,9 +5,9 @@
 
 #include "catch.h"
 
-using trismooth::bench::ratio;
-using trismooth::bench::Spread;
-using trismooth::bench::three_digits;
+using trismooth::experiments::ratio;
+using trismooth::experiments::Spread;
+using trismooth::experiments::three_digits;
 
 TEST_CASE("a spread has the middle and both ends of its values, in whatever order they come") {
   const Spread odd(std::vector<double>{5, 1, 3});

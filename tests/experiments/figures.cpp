@@ -10,8 +10,8 @@
 using pages::count_of;
 using sample::ExperimentResult;
 using sample::Version;
-using trismooth::bench::forms_figure;
-using trismooth::bench::speedup_figure;
+using trismooth::experiments::forms_figure;
+using trismooth::experiments::speedup_figure;
 
 TEST_CASE("the figure of forms has every version in both forms in each layout's panel, and the paper's") {
   const std::string figure = forms_figure(sample::experiment({1'000, 5'000}, &sample::regular_time));

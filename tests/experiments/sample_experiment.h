@@ -13,11 +13,11 @@ namespace sample {
 using trismooth::Form;
 using trismooth::Layout;
 using trismooth::Order;
-using trismooth::bench::Case;
-using trismooth::bench::ExperimentResult;
-using trismooth::bench::Measurement;
-using trismooth::bench::Spread;
-using trismooth::bench::Version;
+using trismooth::experiments::Case;
+using trismooth::experiments::ExperimentResult;
+using trismooth::experiments::Measurement;
+using trismooth::experiments::Spread;
+using trismooth::experiments::Version;
 
 /// The milliseconds of smoothing of a case on a mesh; nothing where it was not measured.
 using Times = std::function<std::optional<Spread>(std::int64_t vertices, const Case& what)>;
@@ -30,14 +30,14 @@ inline Spread exactly(double value) {
 /// 75 to 85.
 inline ExperimentResult experiment(
     const std::vector<std::int64_t>& sizes, const Times& times,
-    const std::vector<Version>& versions = trismooth::bench::ExperimentOptions{}.versions) {
+    const std::vector<Version>& versions = trismooth::experiments::ExperimentOptions{}.versions) {
   ExperimentResult result;
   result.options.sizes = sizes;
   result.options.versions = versions;
   for (const std::int64_t size : sizes) {
     result.meshes.push_back({size, size, 2 * size});
-    for (const Case& what : trismooth::bench::cases_of(versions)) {
-      trismooth::bench::Row row{size, what};
+    for (const Case& what : trismooth::experiments::cases_of(versions)) {
+      trismooth::experiments::Row row{size, what};
       if (const auto time = times(size, what)) {
         const double transfer = runs_on_device(what.version) ? 0.5 : 0;
         Measurement measured;
@@ -58,7 +58,7 @@ inline ExperimentResult experiment(
         measured.coordinates_hash = "0123456789abcdef";
         row.measured = measured;
       } else {
-        row.lack = trismooth::bench::Lack::device;
+        row.lack = trismooth::experiments::Lack::device;
         row.missing_reason = "no device: for a <test>";
       }
       result.rows.push_back(row);

@@ -16,16 +16,16 @@
 using trismooth::CudaSupport;
 using trismooth::Form;
 using trismooth::Order;
-using trismooth::bench::Case;
-using trismooth::bench::ExperimentOptions;
-using trismooth::bench::ExperimentProgress;
-using trismooth::bench::ExperimentResult;
-using trismooth::bench::Lack;
-using trismooth::bench::Measurement;
-using trismooth::bench::Row;
-using trismooth::bench::run_experiment;
-using trismooth::bench::Spread;
-using trismooth::bench::Version;
+using trismooth::experiments::Case;
+using trismooth::experiments::ExperimentOptions;
+using trismooth::experiments::ExperimentProgress;
+using trismooth::experiments::ExperimentResult;
+using trismooth::experiments::Lack;
+using trismooth::experiments::Measurement;
+using trismooth::experiments::Row;
+using trismooth::experiments::run_experiment;
+using trismooth::experiments::Spread;
+using trismooth::experiments::Version;
 
 namespace {
 

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
-namespace trismooth::bench {
+namespace trismooth::experiments {
 
 namespace {
 
@@ -29,7 +29,7 @@ std::string column_names() {
 
 }  // namespace
 
-std::string csv_of(const Report& report) {
+std::string csv_of(const ExperimentReport& report) {
   std::string csv = column_names();
   for (const Table& table : report.tables) {
     for (const TableRow& row : table.rows) {
@@ -45,4 +45,4 @@ std::string csv_of(const Report& report) {
   return csv;
 }
 
-}  // namespace trismooth::bench
+}  // namespace trismooth::experiments

@@ -14,9 +14,9 @@ using sample::Layout;
 using sample::Order;
 using sample::Spread;
 using sample::Version;
-using trismooth::bench::Table;
-using trismooth::bench::TableRow;
-using trismooth::bench::tables_of;
+using trismooth::experiments::Table;
+using trismooth::experiments::TableRow;
+using trismooth::experiments::tables_of;
 
 namespace {
 

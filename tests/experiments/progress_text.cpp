@@ -4,8 +4,8 @@
 
 #include "catch.h"
 
-using trismooth::bench::ExperimentProgress;
-using trismooth::bench::progress_pieces;
+using trismooth::experiments::ExperimentProgress;
+using trismooth::experiments::progress_pieces;
 
 namespace {
 

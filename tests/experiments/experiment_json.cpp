@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/experiments/report.h"
+#include "trismooth/pipeline/experiments/experiment_report.h"
 
 #include "catch.h"
 #include "sample_experiment.h"
 
 using Json = nlohmann::json;
-using trismooth::bench::json_of;
-using trismooth::bench::make_report;
+using trismooth::experiments::json_of;
+using trismooth::experiments::make_report;
 
 namespace {
 
