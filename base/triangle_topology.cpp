@@ -14,20 +14,6 @@ namespace {
 
 constexpr std::int64_t topology_grain = 4096;
 
-void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles[t];
-    for (const std::int32_t v : {a, b, c}) {
-      if (v < 0 || v >= vertex_count) {
-        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
-      }
-    }
-    if (a == b || b == c || c == a) {
-      throw MeshError("triangle " + std::to_string(t) + " repeats a vertex");
-    }
-  }
-}
-
 struct HalfedgeEnd {
   std::int32_t larger;  ///< the edge's larger label; the smaller one names the bucket
   std::int32_t halfedge;
@@ -77,14 +63,13 @@ EdgeBuckets bucket_edges(std::int32_t vertex_count, std::span<const Triangle> tr
 }
 
 /// Pairs the halfedges of each edge, and marks the vertices of boundary and non-manifold edges.
-void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, TriangleTopology& topology,
-                Workers& workers) {
+void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
   const auto mark_ends = [&](std::int32_t h, std::uint8_t bit) {
     for (const std::int32_t vertex : {triangles[h / 3][h % 3], triangles[h / 3][(h % 3 + 1) % 3]}) {
-      std::atomic_ref(topology.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
+      std::atomic_ref(sides.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
     }
   };
-  workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       const auto bucket =
           std::span(buckets.ends).subspan(buckets.offsets[b], buckets.offsets[b + 1] - buckets.offsets[b]);
@@ -97,12 +82,12 @@ void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, Trian
           ++j;
         }
         if (j - i == 2) {
-          topology.twins[bucket[i].halfedge] = bucket[i + 1].halfedge;
-          topology.twins[bucket[i + 1].halfedge] = bucket[i].halfedge;
+          sides.twins[bucket[i].halfedge] = bucket[i + 1].halfedge;
+          sides.twins[bucket[i + 1].halfedge] = bucket[i].halfedge;
         } else {
           const bool single = j - i == 1;
           for (std::size_t k = i; k < j; ++k) {
-            topology.twins[bucket[k].halfedge] = single ? TriangleTopology::no_twin : TriangleTopology::many_twins;
+            sides.twins[bucket[k].halfedge] = single ? MatchedSides::no_twin : MatchedSides::many_twins;
           }
           mark_ends(bucket[i].halfedge, single ? hold::boundary : hold::non_manifold);
         }
@@ -160,10 +145,10 @@ class ParityForest {
   std::vector<std::uint8_t> parity_;
 };
 
-void find_components(std::span<const Triangle> triangles, TriangleTopology& topology) {
+void find_components(std::span<const Triangle> triangles, MatchedSides& sides) {
   ParityForest forest(triangles.size());
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(topology.twins.size()); ++h) {
-    const std::int32_t twin = topology.twins[h];
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(sides.twins.size()); ++h) {
+    const std::int32_t twin = sides.twins[h];
     if (twin > h) {
       // Two neighbours are listed alike if they run through their edge in opposite directions.
       const bool against = triangles[h / 3][h % 3] == triangles[twin / 3][twin % 3];
@@ -173,12 +158,12 @@ void find_components(std::span<const Triangle> triangles, TriangleTopology& topo
       }
     }
   }
-  topology.parity.resize(triangles.size());
-  topology.component.resize(triangles.size());
+  sides.parity.resize(triangles.size());
+  sides.component.resize(triangles.size());
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t) {
     const auto root = forest.find(t);
-    topology.parity[t] = root.parity;
-    topology.component[t] = root.triangle == t ? topology.components++ : topology.component[root.triangle];
+    sides.parity[t] = root.parity;
+    sides.component[t] = root.triangle == t ? sides.components++ : sides.component[root.triangle];
   }
 }
 
@@ -231,18 +216,37 @@ void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topolo
 
 }  // namespace
 
-TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
+void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    for (const std::int32_t v : {a, b, c}) {
+      if (v < 0 || v >= vertex_count) {
+        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
+      }
+    }
+    if (a == b || b == c || c == a) {
+      throw MeshError("triangle " + std::to_string(t) + " repeats a vertex");
+    }
+  }
+}
+
+MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
   check_mesh_size(vertex_count, std::ssize(triangles));
   check_triangles(vertex_count, triangles);
-  TriangleTopology topology;
-  topology.vertex_count = vertex_count;
-  topology.twins.resize(3 * triangles.size());
-  topology.hold.assign(static_cast<std::size_t>(vertex_count), 0);
+  MatchedSides sides;
+  sides.vertex_count = vertex_count;
+  sides.twins.resize(3 * triangles.size());
+  sides.hold.assign(static_cast<std::size_t>(vertex_count), 0);
   {
     EdgeBuckets buckets = bucket_edges(vertex_count, triangles);
-    pair_edges(buckets, triangles, topology, workers);
+    pair_edges(buckets, triangles, sides, workers);
   }
-  find_components(triangles, topology);
+  find_components(triangles, sides);
+  return sides;
+}
+
+TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
+  TriangleTopology topology{match_sides(vertex_count, triangles, workers), {}, {}};
   find_corners(triangles, topology);
   find_bow_ties(triangles, topology, workers);
   return topology;

@@ -13,24 +13,39 @@ namespace trismooth {
 
 class Workers;
 
-/// How triangles hang together. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
-struct TriangleTopology {
+/// The components of a mesh: triangles connected through edges with exactly two triangles.
+struct TriangleComponents {
+  std::vector<std::uint8_t> parity;     ///< per triangle: 1 where it is listed against its component's lowest triangle
+  std::vector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
+  std::int32_t components = 0;
+};
+
+/// The sides of triangles, matched where they are the same edge: what a topology is built from, TriangleTopology as
+/// well as a halfedge mesh. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
+struct MatchedSides : TriangleComponents {
   static constexpr std::int32_t no_twin = -1;     ///< a boundary edge
   static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
 
   std::int32_t vertex_count = 0;
-  std::vector<std::int32_t> twins;      ///< per halfedge: the other triangle's halfedge on the edge
-  std::vector<std::uint8_t> parity;     ///< per triangle: 1 where it is listed against its component's lowest triangle
-  std::vector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
-  std::int32_t components = 0;          ///< connected through edges with exactly two triangles
-  std::vector<std::int32_t> corner;     ///< per vertex: the lowest halfedge that starts there; -1: isolated
-  std::vector<std::int32_t> degree;     ///< per vertex: its triangles
-  std::vector<std::uint8_t> hold;       ///< per vertex: bits boundary, non_manifold, bow_tie, isolated
+  std::vector<std::int32_t> twins;  ///< per halfedge: the other triangle's halfedge on the edge
+  std::vector<std::uint8_t> hold;   ///< per vertex: bits boundary, non_manifold
 };
 
-/// Connects triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index out of
-/// range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
+/// How the triangles of flat arrays hang together. `hold` has the bits bow_tie and isolated as well.
+struct TriangleTopology : MatchedSides {
+  std::vector<std::int32_t> corner;  ///< per vertex: the lowest halfedge that starts there; -1: isolated
+  std::vector<std::int32_t> degree;  ///< per vertex: its triangles
+};
+
+/// Throws MeshError for an index that is not of a vertex 0 .. vertex_count - 1 and a triangle that repeats a vertex.
+void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles);
+
+/// Matches the sides of triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index
+/// out of range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
 /// linear, but for sorting the edges of each vertex.
+MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
+
+/// Connects the triangles around each vertex as well. Arguments, errors and complexity are those of match_sides().
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
 
 /// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative

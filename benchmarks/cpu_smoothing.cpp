@@ -66,20 +66,20 @@ void bench_topology(const RandomMesh& mesh, int runs) {
     xyz.insert(xyz.end(), {p.x, p.y, 0.0});
   }
   Workers workers(1);
-  Series connect("connect triangles");
+  Series match("match sides of triangles");
   Series fill("fill halfedge mesh");
   Series rings("one-rings from halfedges");
   for (int run = 0; run < runs; ++run) {
-    TriangleTopology topology;
-    connect.add(milliseconds([&] { topology = connect_triangles(n, mesh.triangles, workers); }));
-    const Orientation orientation = orient(topology, mesh.triangles, mesh.points);
+    MatchedSides sides;
+    match.add(milliseconds([&] { sides = match_sides(n, mesh.triangles, workers); }));
+    const Orientation orientation = orient(sides, mesh.triangles, mesh.points);
     HalfedgeMesh halfedges;
-    fill.add(
-        milliseconds([&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, topology, orientation.reversed); }));
-    rings.add(milliseconds([&] { one_rings(halfedges.mesh, topology.hold, {}, workers); }));
+    fill.add(milliseconds(
+        [&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, sides, orientation.reversed, workers); }));
+    rings.add(milliseconds([&] { one_rings(halfedges.mesh, halfedges.hold, {}, workers); }));
   }
   fmt::print(" topology, one thread\n");
-  connect.print();
+  match.print();
   fill.print();
   rings.print();
 }

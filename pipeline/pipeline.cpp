@@ -10,7 +10,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/annotations.h"
@@ -137,12 +137,10 @@ class Run {
   }
 
   MeshRings find_rings(const Constraints& constraints) {
-    const auto by_halfedges = [this](const TriangleTopology& topology, const MeshRings& known) {
-      const HalfedgeMesh halfedges = build_halfedge_mesh(document_.points, mesh_.triangles, topology, known.reversed);
-      return one_rings(halfedges.mesh, known.fixed, {}, workers_, halfedges.copies_of);
-    };
     try {
-      return rings_for(options_.smoothing, local_.points, mesh_.triangles, constraints, workers_, by_halfedges);
+      return rings_for(options_.smoothing, local_.points, mesh_.triangles, constraints, [&] {
+        return find_halfedge_rings(document_.points, local_.points, mesh_.triangles, constraints, workers_);
+      });
     } catch (const MeshError& error) {
       throw ReadError(options_.input, error.what());
     }

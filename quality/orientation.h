@@ -18,7 +18,7 @@ struct Orientation {
 
 /// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
 /// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows.
-Orientation orient(const TriangleTopology& topology, std::span<const Triangle> triangles,
+Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points);
 
 }  // namespace trismooth

@@ -9,14 +9,14 @@ const Backend& backend_of(const SmoothingOptions& options) {
 }
 
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
-                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
-                    const RingFinder& find_rings) {
+                    std::span<const Triangle> triangles, const Constraints& constraints,
+                    const std::function<MeshRings()>& on_host) {
   if (options.topology == Topology::device) {
     if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
       return *std::move(found);
     }
   }
-  return find_mesh_rings(local, triangles, constraints, workers, find_rings);
+  return on_host();
 }
 
 std::string joined_notes(const std::string& first, const std::string& second) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,8 +18,6 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
-
-class Workers;
 
 /// A mesh that a backend has made ready for smoothing, as often as the caller likes, whatever its coordinates are by
 /// then. Owns all it needs.
@@ -89,10 +88,10 @@ const Backend& cpu_backend();
 const Backend& backend_of(const SmoothingOptions& options);
 
 /// The rings of a mesh as the options want them found: by their backend where they say Topology::device and it finds
-/// rings, else on the host, by find_mesh_rings() with `workers` and `find_rings`. The same numbers either way.
+/// rings, else by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way.
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
-                    std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
-                    const RingFinder& find_rings = {});
+                    std::span<const Triangle> triangles, const Constraints& constraints,
+                    const std::function<MeshRings()>& on_host);
 
 /// Two notes for the user as one, "first; second"; each may be empty.
 std::string joined_notes(const std::string& first, const std::string& second);

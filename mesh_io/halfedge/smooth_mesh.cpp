@@ -7,7 +7,7 @@
 #include "trismooth/base/errors.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/smoothing/backend.h"
 
@@ -86,10 +86,9 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   InPlane placed(fit_plane(xyz, in_cell, cells_of(triangles)), xyz, in_cell);
 
   Workers workers(options.threads);
-  const MeshRings found = rings_for(options, placed.local.points, triangles, constraints, workers,
-                                    [&](const TriangleTopology& /*topology*/, const MeshRings& known) {
-                                      return one_rings(mesh, known.fixed, known.reversed, workers);
-                                    });
+  const MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
+    return read_halfedge_rings(mesh, placed.local.points, triangles, constraints, workers);
+  });
   if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
     placed = InPlane(*fit, xyz, in_cell);
   }

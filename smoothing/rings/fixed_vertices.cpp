@@ -6,10 +6,7 @@
 
 namespace trismooth {
 
-std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
-                                         const Constraints& constraints) {
-  check_constraints(constraints, topology.vertex_count, std::ssize(triangles));
-  std::vector<std::uint8_t> reasons = topology.hold;
+void hold_named_vertices(const Constraints& constraints, std::span<std::uint8_t> reasons) {
   for (std::size_t v = 0; v < constraints.fixed.size(); ++v) {
     if (constraints.fixed[v] != 0) {
       reasons[v] |= hold::named;
@@ -23,6 +20,13 @@ std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::
   for (const std::int32_t v : constraints.fixed_ids) {
     reasons[v] |= hold::named;
   }
+}
+
+std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
+                                         const Constraints& constraints) {
+  check_constraints(constraints, topology.vertex_count, std::ssize(triangles));
+  std::vector<std::uint8_t> reasons = topology.hold;
+  hold_named_vertices(constraints, reasons);
   if (!constraints.regions.empty()) {
     for (std::int32_t h = 0; h < static_cast<std::int32_t>(topology.twins.size()); ++h) {
       const std::int32_t twin = topology.twins[h];

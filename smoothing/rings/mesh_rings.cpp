@@ -11,7 +11,7 @@
 namespace trismooth {
 
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                          const Constraints& constraints, Workers& workers, const RingFinder& find_rings) {
+                          const Constraints& constraints, Workers& workers) {
   check_mesh_size(std::ssize(points), std::ssize(triangles));
   const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(points.size()), triangles, workers);
   Orientation orientation = orient(topology, triangles, points);
@@ -20,8 +20,7 @@ MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<cons
   found.reversed = std::move(orientation.reversed);
   found.components = topology.components;
   found.reoriented_triangles = orientation.reoriented_triangles;
-  found.rings =
-      find_rings ? find_rings(topology, found) : one_rings(topology, triangles, found.reversed, found.fixed, workers);
+  found.rings = one_rings(topology, triangles, found.reversed, found.fixed, workers);
   return found;
 }
 

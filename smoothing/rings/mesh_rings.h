@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,13 +25,9 @@ struct MeshRings {
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 
-/// Answers the rings of a mesh of which the rest is known: its topology, and all of MeshRings but the rings.
-using RingFinder = std::function<OneRings(const TriangleTopology& topology, const MeshRings& found)>;
-
-/// Finds it on the host. `points` are in the local frame, one for every vertex. `find_rings` finds the rings; without
-/// it they come from the triangle list. Throws MeshError and std::invalid_argument as connect_triangles() and
-/// fixed_vertices() do.
+/// Finds it on the host, from the triangle list alone. `points` are in the local frame, one for every vertex. Throws
+/// MeshError and std::invalid_argument as connect_triangles() and fixed_vertices() do.
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                          const Constraints& constraints, Workers& workers, const RingFinder& find_rings = {});
+                          const Constraints& constraints, Workers& workers);
 
 }  // namespace trismooth

@@ -21,7 +21,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/pipeline.h"
@@ -75,12 +75,7 @@ class DelaunayMesh final : public TestMesh {
     for (const Point2<double> p : mesh_.points) {
       xyz.insert(xyz.end(), {p.x, p.y, 0.0});
     }
-    const TriangleTopology topology =
-        connect_triangles(static_cast<std::int32_t>(mesh_.points.size()), mesh_.triangles, workers);
-    by_halfedges_.fixed = fixed_vertices(topology, mesh_.triangles, {});
-    by_halfedges_.reversed = orient(topology, mesh_.triangles, local_.points).reversed;
-    const HalfedgeMesh halfedges = build_halfedge_mesh(xyz, mesh_.triangles, topology, by_halfedges_.reversed);
-    by_halfedges_.rings = one_rings(halfedges.mesh, by_halfedges_.fixed, {}, workers, halfedges.copies_of);
+    by_halfedges_ = find_halfedge_rings(xyz, local_.points, mesh_.triangles, {}, workers);
     SmoothingOptions options;
     in_parallel_ = *cuda::backend().find_rings(local_.points, mesh_.triangles, {}, options);
     options.execution = Execution::single_block;

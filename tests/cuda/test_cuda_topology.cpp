@@ -19,7 +19,7 @@
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/topology.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
@@ -73,21 +73,19 @@ void require_host_results(const Mesh& mesh, const Constraints& constraints = {})
   }
 }
 
-OneRings halfedge_rings(const Mesh& mesh, const MeshRings& found) {
+OneRings halfedge_rings(const Mesh& mesh) {
   Workers workers(0);
-  const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
   std::vector<double> xyz;
   for (const Point2<double> p : mesh.points) {
     xyz.insert(xyz.end(), {p.x, p.y, 0});
   }
-  const auto halfedges = trismooth::build_halfedge_mesh(xyz, mesh.triangles, topology, found.reversed);
-  return trismooth::one_rings(halfedges.mesh, found.fixed, {}, workers, halfedges.copies_of);
+  return trismooth::find_halfedge_rings(xyz, mesh.points, mesh.triangles, {}, workers).rings;
 }
 
 void require_halfedge_rings(const Mesh& mesh) {
   const MeshRings found =
       cuda::find_rings_on_device(mesh.points, mesh.triangles, Constraints{}, NeighbourFinding::parallel);
-  require_same(found.rings, halfedge_rings(mesh, found));
+  require_same(found.rings, halfedge_rings(mesh));
 }
 
 /// What a call throws: the message, and whether it is a MeshError (true) or a std::invalid_argument (false).
@@ -327,7 +325,7 @@ TEST_CASE("constraints of every kind, alone and together") {
     reasons |= reason;
   }
   CHECK(reasons == (hold::boundary | hold::interface | hold::other_cell | hold::named));
-  require_same(found.rings, halfedge_rings(mesh, found));
+  require_same(found.rings, halfedge_rings(mesh));
 }
 
 TEST_CASE("vertices of any number of triangles, on both sides of what one thread looks after") {

@@ -8,7 +8,7 @@
 #include "trismooth/base/errors.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
@@ -103,25 +103,20 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   prepared.fixed = trismooth::find_fixed_array(document, std::nullopt).flags;
   const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
   trismooth::Workers workers(1);
-  const auto by_halfedges = [&](const trismooth::TriangleTopology& topology, const trismooth::MeshRings& known) {
-    const auto halfedges = trismooth::build_halfedge_mesh(document.points, mesh.triangles, topology, known.reversed);
-    return trismooth::one_rings(halfedges.mesh, known.fixed, {}, workers, halfedges.copies_of);
-  };
-  const auto find = [&](const trismooth::RingFinder& finder) {
-    return trismooth::find_mesh_rings(prepared.local.points, mesh.triangles, prepared.constraints(), workers, finder);
-  };
   try {
-    prepared.found = find({});
+    prepared.found = trismooth::find_mesh_rings(prepared.local.points, mesh.triangles, prepared.constraints(), workers);
   } catch (const trismooth::MeshError&) {
     require(!naive.orientable, "a mesh that can be oriented is refused");
     return std::nullopt;
   }
   require(naive.orientable, "a mesh that cannot be oriented is accepted");
   require(prepared.found.reversed == naive.reversed, "triangles are oriented otherwise than their majority");
-  const trismooth::MeshRings other = find(by_halfedges);
-  require(
-      other.rings.offsets == prepared.found.rings.offsets && other.rings.neighbours == prepared.found.rings.neighbours,
-      "halfedges give other rings than the triangle list");
+  const trismooth::MeshRings other = trismooth::find_halfedge_rings(document.points, prepared.local.points,
+                                                                    mesh.triangles, prepared.constraints(), workers);
+  require(other.fixed == prepared.found.fixed && other.reversed == prepared.found.reversed &&
+              other.rings.offsets == prepared.found.rings.offsets &&
+              other.rings.neighbours == prepared.found.rings.neighbours,
+          "halfedges give other rings than the triangle list");
   try {
     if (trismooth::settle_plane(prepared.mesh, document, prepared.found.fixed, input_path)) {
       prepared.enter_frame();

@@ -46,7 +46,7 @@ Built build(const Sample& sample) {
   }
   built.orientation = trismooth::orient(built.topology, sample.triangles, points);
   built.halfedge =
-      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, built.orientation.reversed);
+      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, built.orientation.reversed, workers);
   return built;
 }
 
@@ -287,7 +287,8 @@ TEST_CASE("a mesh whose faces run clockwise gives the same one-rings, counter-cl
   const OneRings expected = trismooth::one_rings(built.halfedge.mesh, fixed, {}, workers, built.halfedge.copies_of);
 
   const std::vector<std::uint8_t> turned(sample.triangles.size(), 1);
-  const HalfedgeMesh clockwise = trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, turned);
+  const HalfedgeMesh clockwise =
+      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, turned, workers);
   CHECK(is_consistent(clockwise.mesh));
   const OneRings rings = trismooth::one_rings(clockwise.mesh, fixed, turned, workers);
   CHECK(rings.offsets == expected.offsets);

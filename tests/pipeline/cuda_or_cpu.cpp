@@ -174,7 +174,9 @@ TEST_CASE("where the device fails to find the rings of a mesh, its smoothing say
   options.topology = trismooth::Topology::device;
   options.backend = &automatic;
   trismooth::Workers workers(1);
-  const auto found = trismooth::rings_for(options, failing.points, failing.triangles, {}, workers);
+  const auto found = trismooth::rings_for(options, failing.points, failing.triangles, {}, [&] {
+    return trismooth::find_mesh_rings(failing.points, failing.triangles, {}, workers);
+  });
   CHECK(found.note == rings_note);
   std::vector<double> xy = other.xy();
   CHECK(trismooth::smooth(trismooth::xy_points(xy), other.indices(), {}, options).backend_note.empty());

@@ -42,7 +42,7 @@ std::optional<Run> run_in_space(const RandomMesh& mesh, const SmoothingOptions& 
     xyz.insert(xyz.end(), point.begin(), point.end());
   }
   const auto orientation = trismooth::orient(topology, mesh.mesh.triangles, local);
-  auto halfedges = trismooth::build_halfedge_mesh(xyz, mesh.mesh.triangles, topology, orientation.reversed);
+  auto halfedges = trismooth::build_halfedge_mesh(xyz, mesh.mesh.triangles, topology, orientation.reversed, workers);
   if (!halfedges.copies_of.empty()) {
     return std::nullopt;
   }

@@ -1,0 +1,196 @@
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/errors.h"
+#include "trismooth/base/workers.h"
+
+#include "catch.h"
+#include "support/planar_samples.h"
+
+using planar_samples::Sample;
+using trismooth::Constraints;
+using trismooth::MeshRings;
+using trismooth::Point2;
+using trismooth::Triangle;
+using trismooth::TriangleMesh;
+using trismooth::Workers;
+
+namespace halfedge_rings_test {
+
+std::vector<Point2<double>> points_of(const Sample& sample) {
+  std::vector<Point2<double>> points;
+  for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
+    points.push_back({sample.xyz[i], sample.xyz[i + 1]});
+  }
+  return points;
+}
+
+void require_same(const MeshRings& found, const MeshRings& expected) {
+  REQUIRE(found.fixed == expected.fixed);
+  REQUIRE(found.reversed == expected.reversed);
+  REQUIRE(found.components == expected.components);
+  REQUIRE(found.reoriented_triangles == expected.reoriented_triangles);
+  REQUIRE(found.rings.offsets == expected.rings.offsets);
+  REQUIRE(found.rings.neighbours == expected.rings.neighbours);
+  REQUIRE(found.note.empty());
+}
+
+/// Some vertices named, some of other cells, and regions that change here and there.
+struct RandomConstraints {
+  std::vector<std::uint8_t> fixed;
+  std::vector<std::int32_t> fixed_ids;
+  std::vector<std::uint8_t> other_cells;
+  std::vector<std::int32_t> regions;
+
+  RandomConstraints(const Sample& sample, std::mt19937_64& random)
+      : fixed(sample.xyz.size() / 3), other_cells(sample.xyz.size() / 3), regions(sample.triangles.size()) {
+    std::ranges::generate(fixed, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 2 : 0); });
+    std::ranges::generate(other_cells, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 1 : 0); });
+    std::ranges::generate(regions, [&] { return static_cast<std::int32_t>(random() % 20 == 0 ? 1 : 0); });
+    fixed_ids = {static_cast<std::int32_t>(random() % fixed.size()), 0};
+  }
+  Constraints view() const { return {fixed, fixed_ids, other_cells, regions}; }
+};
+
+/// The message of what the call throws, with the kind of error.
+std::string thrown_by(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const trismooth::MeshError& error) {
+    return std::string("MeshError: ") + error.what();
+  } catch (const std::invalid_argument& error) {
+    return std::string("invalid_argument: ") + error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace halfedge_rings_test
+
+using namespace halfedge_rings_test;
+
+TEST_CASE("halfedges give what the triangle list gives, in every number, for every kind of mesh") {
+  std::mt19937_64 random(31);
+  for (const Sample& sample : planar_samples::samples()) {
+    CAPTURE(sample.name);
+    const auto points = points_of(sample);
+    for (const bool constrained : {false, true}) {
+      const RandomConstraints named(sample, random);
+      const Constraints constraints = constrained ? named.view() : Constraints{};
+      for (const int threads : {1, 3}) {
+        Workers workers(threads);
+        const MeshRings expected = trismooth::find_mesh_rings(points, sample.triangles, constraints, workers);
+        require_same(trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, constraints, workers),
+                     expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("a component whose first triangle is listed clockwise is read the other way round") {
+  std::mt19937_64 random(32);
+  Sample sample = planar_samples::grid(12, 0.3, random);
+  for (Triangle& triangle : sample.triangles) {
+    std::swap(triangle[0], triangle[1]);
+  }
+  std::swap(sample.triangles[7][1], sample.triangles[7][2]);
+  const auto points = points_of(sample);
+  Workers workers(1);
+  const MeshRings found = trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, {}, workers);
+  CHECK(found.reoriented_triangles == 1);
+  CHECK(std::ranges::count(found.reversed, 1) == static_cast<std::ptrdiff_t>(sample.triangles.size()) - 1);
+  require_same(found, trismooth::find_mesh_rings(points, sample.triangles, {}, workers));
+}
+
+TEST_CASE("a large mesh gives the same with any number of threads") {
+  std::mt19937_64 random(33);
+  const Sample sample = planar_samples::shuffled(planar_samples::grid(150, 0.3, random), random);
+  const auto points = points_of(sample);
+  const RandomConstraints named(sample, random);
+  Workers one(1);
+  const MeshRings expected = trismooth::find_mesh_rings(points, sample.triangles, named.view(), one);
+  for (const int threads : {1, 2, 5}) {
+    Workers workers(threads);
+    require_same(trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, named.view(), workers), expected);
+  }
+}
+
+TEST_CASE("a halfedge mesh of the caller's is read as its triangle list is, bow ties and components among it") {
+  std::mt19937_64 random(34);
+  int meshes = 0;
+  for (const Sample& sample : planar_samples::samples()) {
+    CAPTURE(sample.name);
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
+      mesh.add_vertex({sample.xyz[i], sample.xyz[i + 1], sample.xyz[i + 2]});
+    }
+    // add_face() takes what it can: no third triangle of an edge, none that runs the other way.
+    for (const auto& [a, b, c] : sample.triangles) {
+      mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
+    }
+    const std::vector<Triangle> triangles = trismooth::face_list(mesh);
+    Sample held = sample;
+    held.triangles = triangles;
+    const RandomConstraints named(held, random);
+    const auto points = points_of(sample);
+    for (const int threads : {1, 3}) {
+      Workers workers(threads);
+      for (const Constraints& constraints : {Constraints{}, named.view()}) {
+        require_same(trismooth::read_halfedge_rings(mesh, points, triangles, constraints, workers),
+                     trismooth::find_mesh_rings(points, triangles, constraints, workers));
+      }
+    }
+    ++meshes;
+  }
+  CHECK(meshes > 3);
+}
+
+TEST_CASE("two fans of a caller's mesh that meet in a point are a bow tie") {
+  TriangleMesh mesh;
+  const std::vector<Point2<double>> points{{0, 0}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}, {5, 5}};
+  for (const Point2<double> p : points) {
+    mesh.add_vertex({p.x, p.y, 0});
+  }
+  mesh.add_face(mesh.vertex_handle(0), mesh.vertex_handle(1), mesh.vertex_handle(2));
+  mesh.add_face(mesh.vertex_handle(0), mesh.vertex_handle(3), mesh.vertex_handle(4));
+  REQUIRE(mesh.n_faces() == 2);
+  Workers workers(1);
+  const MeshRings found = trismooth::read_halfedge_rings(mesh, points, trismooth::face_list(mesh), {}, workers);
+  using namespace trismooth::hold;
+  const std::uint8_t tie = boundary | bow_tie;
+  CHECK(found.fixed == std::vector<std::uint8_t>{tie, boundary, boundary, boundary, boundary, isolated});
+  CHECK(found.components == 2);
+}
+
+TEST_CASE("halfedges refuse what the triangle list refuses, with the same words") {
+  const std::vector<double> xyz{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0};
+  const std::vector<Point2<double>> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}};
+  const std::vector<Triangle> good{{0, 1, 2}, {0, 2, 3}};
+  const std::vector<Triangle> moebius{{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 0}, {4, 0, 1}};
+  const std::vector<std::uint8_t> three(3, 0);
+  const std::vector<std::int32_t> ids{6};
+  struct Case {
+    std::vector<Triangle> triangles;
+    Constraints constraints;
+    std::string words;
+  };
+  for (const Case& refused : {Case{{{0, 1, 6}}, {}, "6"}, Case{{{0, 1, 2}, {0, -1, 2}}, {}, "-1"},
+                              Case{{{0, 1, 2}, {3, 3, 2}}, {}, "repeats a vertex"}, Case{moebius, {}, "one-sided"},
+                              Case{good, {.fixed = three}, "has 3 entries"}, Case{good, {.fixed_ids = ids}, "vertex 6"},
+                              Case{good, {.regions = ids}, "has 1 entries"}}) {
+    CAPTURE(refused.words);
+    Workers workers(1);
+    const std::string expected =
+        thrown_by([&] { trismooth::find_mesh_rings(points, refused.triangles, refused.constraints, workers); });
+    CHECK(expected.find(refused.words) != std::string::npos);
+    CHECK(thrown_by([&] {
+            trismooth::find_halfedge_rings(xyz, points, refused.triangles, refused.constraints, workers);
+          }) == expected);
+  }
+}
