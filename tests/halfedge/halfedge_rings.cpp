@@ -54,7 +54,9 @@ struct RandomConstraints {
     std::ranges::generate(fixed, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 2 : 0); });
     std::ranges::generate(other_cells, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 1 : 0); });
     std::ranges::generate(regions, [&] { return static_cast<std::int32_t>(random() % 20 == 0 ? 1 : 0); });
-    fixed_ids = {static_cast<std::int32_t>(random() % fixed.size()), 0};
+    if (!fixed.empty()) {
+      fixed_ids = {static_cast<std::int32_t>(random() % fixed.size()), 0};
+    }
   }
   Constraints view() const { return {fixed, fixed_ids, other_cells, regions}; }
 };
@@ -130,10 +132,13 @@ TEST_CASE("a halfedge mesh of the caller's is read as its triangle list is, bow 
     for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
       mesh.add_vertex({sample.xyz[i], sample.xyz[i + 1], sample.xyz[i + 2]});
     }
-    // add_face() takes what it can: no third triangle of an edge, none that runs the other way.
+    // add_face() takes what it can: no third triangle of an edge, none that runs the other way. It complains of the
+    // others.
+    omerr().disable();
     for (const auto& [a, b, c] : sample.triangles) {
       mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
     }
+    omerr().enable();
     const std::vector<Triangle> triangles = trismooth::face_list(mesh);
     Sample held = sample;
     held.triangles = triangles;
