@@ -28,11 +28,24 @@ cuda_architectures() {
   echo "${TRISMOOTH_CUDA_ARCHITECTURES:-${own:-90}}"
 }
 
-# Several sources are compiled as one, which takes half the time.
+has_gpu() {
+  nvidia-smi --list-gpus >/dev/null 2>&1
+}
+
+# GCC collects its garbage when its memory has grown by so much per cent beyond so many kilobytes: later than it would by
+# itself, which spares a tenth of its time.
+patient_garbage_collection() {
+  if "${CXX:-c++}" --version 2>/dev/null | grep --quiet 'Free Software Foundation'; then
+    echo "--param=ggc-min-expand=100 --param=ggc-min-heapsize=500000"
+  fi
+}
+
+# configure [OPTION]...: several sources are compiled as one, which takes half the time.
 configure() {
   (cd "$project" && cmake --preset release "-DTRISMOOTH_WERROR=$(warnings_as_errors)" \
     "-DCMAKE_CUDA_ARCHITECTURES=$(cuda_architectures)" --no-warn-unused-cli \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
+    "-DCMAKE_CXX_FLAGS=${CXXFLAGS:-} $(patient_garbage_collection)" \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "$@")
 }
 
 build_target() {

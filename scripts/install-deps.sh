@@ -2,9 +2,8 @@
 # Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
-#   scripts/install-deps.sh --tests    also Clang with its sanitizers, and what single tests need: a locale, strace,
-#                                      valgrind, a browser
-#   scripts/install-deps.sh --tools    also clang-format and clang-tidy
+#   scripts/install-deps.sh --tests    also what single tests need: a locale, strace, valgrind, a browser
+#   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and clang-tidy
 set -euo pipefail
 
 packages=(
@@ -17,13 +16,13 @@ packages=(
 case "${1:-}" in
   '') ;;
   --tests)
-    packages+=(clang libclang-rt-dev llvm locales strace valgrind)
+    packages+=(locales strace valgrind)
     # Ubuntu has it as a snap only: there that test is skipped.
     if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
       packages+=(chromium)
     fi
     ;;
-  --tools) packages+=(clang-format-14 clang-tidy-14) ;;
+  --tools) packages+=(clang libclang-rt-dev llvm clang-format-14 clang-tidy-14) ;;
   *)
     echo "usage: install-deps.sh [--tests|--tools]" >&2
     exit 2

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Runs the tests under Clang's sanitizers, the fuzz targets for a moment, and says how much of the code the tests reach:
+# Runs the tests under Clang's sanitizers, the fuzz targets for a moment, says how much of the code the tests reach, and
+# has clang-tidy look at what changed:
 #
 #   scripts/sanitize.sh            all of it
+#   scripts/sanitize.sh tidy       clang-tidy alone: scripts/tidy.sh --changed
 #   scripts/sanitize.sh asan       address and undefined behaviour: tests, coverage, a short run of every fuzz target
 #   scripts/sanitize.sh tsan       threads: the tests of what runs on several
 set -euo pipefail
@@ -87,17 +89,19 @@ run_tsan() {
   run tsan "${tests[@]}"
 }
 
-"$project/scripts/install-deps.sh" --tests
+"$project/scripts/install-deps.sh" --tools
 keep_temporary_files_in_memory
 case "${1:-all}" in
   all)
+    "$project/scripts/tidy.sh" --changed
     run_asan
     run_tsan
     ;;
+  tidy) exec "$project/scripts/tidy.sh" --changed ;;
   asan) run_asan ;;
   tsan) run_tsan ;;
   *)
-    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

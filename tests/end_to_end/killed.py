@@ -20,7 +20,9 @@ DONE, CANCELLED = 0, 130
 STAGES = {"read": b"reading", "find neighbours": b"finding neighbours", "check": b"checking the quality",
           "smooth": b"smoothing ...", "check the result": b"checking the result", "write": b"writing",
           "reports": b"\r\x1b[K"}
-HITS = {signal.SIGKILL: 100, signal.SIGINT: 100, signal.SIGTERM: 10, signal.SIGHUP: 10}
+# So often in each stage.
+OFTEN, SELDOM = (100, 10) if tool.thorough else (15, 3)
+HITS = {signal.SIGKILL: OFTEN, signal.SIGINT: OFTEN, signal.SIGTERM: SELDOM, signal.SIGHUP: SELDOM}
 AT_A_TIME = 2
 PRECIOUS = b"precious"
 

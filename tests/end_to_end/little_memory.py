@@ -46,7 +46,7 @@ class LittleMemoryTest(tool.ToolTest):
                 self.assertRegex(error, f"^trismooth: error: .*({REASONS})", story)
             self.assertEqual(len(set(errors)), len(errors), story)
 
-    def sweep(self, *arguments, outputs=(), steps=16):
+    def sweep(self, *arguments, outputs=(), steps=16 if tool.thorough else 5):
         """From what the program needs to start to what is enough. The outputs are as they were or whole; those ending in
         json or html, which hold times, with any content."""
         for name in outputs:
@@ -100,13 +100,13 @@ class Sweeps(LittleMemoryTest):
         for source, target in (("plate.off", "out.vtu"), ("plate.off", "out.vtk"), ("plate.vtu", "out.ply"),
                                ("plate.vtu", "out.stl"), ("plate.off", "out.vtp")):
             with self.subTest(source, target=target):
-                self.sweep("smooth", source, target, "--threads", 1, outputs=(target,), steps=10)
+                self.sweep("smooth", source, target, "--threads", 1, outputs=(target,))
 
     def test_other_commands(self):
         self.run_tool("generate", "plate.vtk", "--vertices", "3000")
         self.sweep("quality", "plate.vtk", "--report", "r.html", outputs=("r.html",))
         self.sweep("bench", "--sizes", "1K", "--runs", "1", "--versions", "serial,cpu", "--threads", "2", "--report",
-                   "r.json", outputs=("r.json",), steps=10)
+                   "r.json", outputs=("r.json",))
         for extension in ("off", "vtu"):
             target = f"out.{extension}"
             self.sweep("generate", target, "--vertices", "3000", outputs=(target,))

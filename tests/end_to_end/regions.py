@@ -302,13 +302,13 @@ class Fixed(RegionTest):
 class RealMeshes(RegionTest):
     """Meshes of others, where they are at hand."""
 
-    folder_of_meshes = os.environ.get("TRISMOOTH_MESHES", "")
+    folder_of_meshes = os.environ.get("TRISMOOTH_REAL_MESHES", "")
 
     def test_their_interfaces_stay_under_any_name(self):
         names = [name for name in ("osteon.vtk", "apartment.vtk", "freshcyl.vtk", "meander.vtk")
                  if os.path.exists(os.path.join(self.folder_of_meshes, name))]
         if not names:
-            self.skipTest("TRISMOOTH_MESHES names no folder of them")
+            self.skipTest("TRISMOOTH_REAL_MESHES names no folder of them")
         for name in names:
             with open(os.path.join(self.folder_of_meshes, name), "rb") as file:
                 content = file.read()

@@ -11,6 +11,8 @@ import tempfile
 import unittest
 
 program = None  # the executable, set by main()
+# Tests that try the same at many moments, or with many amounts, try several times as many.
+thorough = bool(os.environ.get("TRISMOOTH_THOROUGH"))
 
 
 class Outcome:
