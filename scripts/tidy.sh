@@ -1,29 +1,81 @@
 #!/usr/bin/env bash
-# Runs clang-tidy 14 with the project's .clang-tidy over all sources, or over those named:
+# Runs clang-tidy with the project's .clang-tidy:
 #
-#   scripts/tidy.sh [FILE]...
+#   scripts/tidy.sh                    over all sources
+#   scripts/tidy.sh FILE...            over those named
+#   scripts/tidy.sh --changed [REF]    over those that differ from commit REF. Without REF: from where the branch left
+#                                      origin's, or from the last commit that is older than a day
+#
+# Debian's clang-tidy 14 cannot read the headers of CUDA 13: PyPI has a newer one, which build/tidy/tool keeps.
 set -euo pipefail
-files=()
-for file in "$@"; do
-  files+=("$(realpath "$file")")
-done
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+version=23.1.4
 
-tidy=$(command -v clang-tidy-14 || command -v clang-tidy || true)
-if [[ -z $tidy ]]; then
-  echo "error: clang-tidy is not installed; scripts/install-deps.sh --tools installs it" >&2
-  exit 2
+# start_of_changes [REF]: the commit from which --changed counts.
+start_of_changes() {
+  local base
+  base=$(git merge-base HEAD origin/HEAD 2>/dev/null || true)
+  if [[ -n ${1:-} ]]; then
+    base=$1
+  elif [[ -z $base || $base == "$(git rev-parse HEAD)" ]]; then
+    base=$(git rev-list -1 --before='1 day ago' HEAD)
+  fi
+  # Where the history is no older than that: the tree without files.
+  echo "${base:-$(git hash-object -t tree /dev/null)}"
+}
+
+files=()
+if [[ ${1:-} == --changed ]]; then
+  cd "$project"
+  mapfile -t files < <(git diff --name-only --diff-filter=d "$(start_of_changes "${2:-}")" -- '*.cpp' '*.cu')
+  if ((${#files[@]} == 0)); then
+    echo "clang-tidy: no source has changed"
+    exit
+  fi
+else
+  for file in "$@"; do
+    files+=("$(realpath --relative-to "$project" "$file")")
+  done
+  cd "$project"
+  if ((${#files[@]} == 0)); then
+    mapfile -t files < <(git ls-files '*.cpp' '*.cu')
+  fi
 fi
 
 # A configuration of its own: every source has its own compile command.
 build=$project/build/tidy
-cd "$project"
 cmake --preset release -B "$build" --log-level=ERROR -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
-if ((${#files[@]} == 0)); then
-  # Sources that are built, and of this project. compile_commands.json is one line an entry.
-  mapfile -t files < <(sed -n 's/^ *"file": "\(.*\.cpp\)",\{0,1\}$/\1/p' "$build/compile_commands.json" | sort -u)
+tidy=$build/tool/bin/clang-tidy
+if [[ $("$tidy" --version 2>/dev/null) != *"$version"* ]]; then
+  python3 -m venv "$build/tool"
+  "$build/tool/bin/pip" install --quiet "clang-tidy==$version"
 fi
-# The compile commands are GCC's: Clang need not know every warning that they name.
-printf '%s\0' "${files[@]}" |
-  xargs -0 -r -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option
+
+# What is compiled for the host alone: the compile commands are GCC's, and Clang need not know every warning that they
+# name. Sources that this machine does not build are left out, and said.
+sources=()
+kernels=()
+unbuilt=0
+for file in "${files[@]}"; do
+  if [[ $file == *.cu ]]; then
+    kernels+=("$file")
+  elif grep --quiet --fixed-strings "\"file\": \"$project/$file\"" "$build/compile_commands.json"; then
+    sources+=("$file")
+  else
+    unbuilt=$((unbuilt + 1))
+  fi
+done
+echo "clang-tidy: ${#sources[@]} C++ and ${#kernels[@]} CUDA sources; $unbuilt that are not built here"
+status=0
+printf '%s\0' "${sources[@]}" |
+  xargs -0 -r -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option || status=1
+# Kernels as Clang compiles them for the host; nvcc's options are not its own.
+cuda=$(dirname "$(dirname "$(realpath "$(command -v nvcc || echo /usr/local/cuda/bin/nvcc)")")")
+if [[ -d $cuda/include ]]; then
+  printf '%s\0' "${kernels[@]}" |
+    xargs -0 -r -I{} -P "$(nproc)" "$tidy" --quiet {} -- -x cuda --cuda-host-only "--cuda-path=$cuda" -std=c++20 \
+      -ffp-contract=off -Wno-unknown-cuda-version --cuda-gpu-arch=sm_90 -I"$build/include" -I"$project/tests" \
+      -isystem "$cuda/include/cccl" || status=1
+fi
+exit "$status"
