@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Puts the committed results of `trismooth bench` into the README, and their figure into docs/images/bench_speedup.svg.
+"""Puts the committed results of `trismooth bench` into docs/experiments.md, and their figure into
+docs/images/bench_speedup.svg.
 
     docs/make_bench_summary.py            writes them
     docs/make_bench_summary.py --check    changes nothing; fails where they are not what the results say
@@ -15,7 +16,7 @@ import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks/results/paper"
-README = ROOT / "README.md"
+PAGE = ROOT / "docs/experiments.md"
 PICTURE = ROOT / "docs/images/bench_speedup.svg"
 MARKS = ("<!-- written by docs/make_bench_summary.py -->\n", "<!-- end of what docs/make_bench_summary.py writes -->\n")
 COLUMNS = (("serial", None), ("cpu", None), ("gpu", "aos"), ("cdp", "aos"), ("resident", "aos"))
@@ -62,9 +63,9 @@ def claims(results):
     return lines
 
 
-def readme_with(text):
-    begin, end = (README.read_text().index(mark) for mark in MARKS)
-    whole = README.read_text()
+def page_with(text):
+    whole = PAGE.read_text()
+    begin, end = (whole.index(mark) for mark in MARKS)
     return whole[:begin] + MARKS[0] + "\n" + text + "\n" + whole[end:]
 
 
@@ -76,9 +77,9 @@ def picture():
 
 def main():
     results = json.loads((RESULTS / "bench.json").read_text())
-    shown = (table(results, "a") + f"\n![Speedup over the serial CPU version]({PICTURE.relative_to(ROOT)})\n\n"
+    shown = (table(results, "a") + f"\n![Speedup over the serial CPU version]({PICTURE.relative_to(PAGE.parent)})\n\n"
              "The paper's claims on this machine:\n\n" + claims(results))
-    wanted = {README: readme_with(shown), PICTURE: picture()}
+    wanted = {PAGE: page_with(shown), PICTURE: picture()}
     for path, text in wanted.items():
         if sys.argv[1:] == ["--check"]:
             if not path.exists() or path.read_text() != text:
