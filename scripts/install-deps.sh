@@ -3,7 +3,8 @@
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
 #   scripts/install-deps.sh --tests    also what single tests need: a locale, strace, valgrind, a browser
-#   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and clang-tidy
+#   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and a venv for clang-tidy
+#   scripts/install-deps.sh --docs     also Doxygen
 set -euo pipefail
 
 packages=(
@@ -22,9 +23,10 @@ case "${1:-}" in
       packages+=(chromium)
     fi
     ;;
-  --tools) packages+=(clang libclang-rt-dev llvm clang-format-14 clang-tidy-14) ;;
+  --tools) packages+=(clang libclang-rt-dev llvm clang-format-14 python3-venv) ;;
+  --docs) packages+=(doxygen) ;;
   *)
-    echo "usage: install-deps.sh [--tests|--tools]" >&2
+    echo "usage: install-deps.sh [--tests|--tools|--docs]" >&2
     exit 2
     ;;
 esac

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Makes the documentation as pages to read in a browser, of README.md, docs/ and the public headers:
+#
+#   scripts/docs.sh                 into build/docs/html; fails for what Doxygen warns of
+#   scripts/docs.sh --no-install    the same with what is installed; exits with 77 if that is no Doxygen
+set -euo pipefail
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+case "${1:-}" in
+  '') "$project/scripts/install-deps.sh" --docs ;;
+  --no-install)
+    if ! command -v doxygen >/dev/null; then
+      echo "skipped: Doxygen is not installed; scripts/install-deps.sh --docs installs it"
+      exit 77
+    fi
+    ;;
+  *)
+    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
+cd "$project"
+output=build/docs
+include=$output/include/trismooth
+rm -rf "$output"
+mkdir -p "$include"
+# The public headers, as CMake has them.
+find . -name CMakeLists.txt -not -path './build*' -exec cat {} + | tr '\n' ' ' |
+  grep --only-matching 'trismooth_public_headers([^)]*)' | grep --only-matching '[a-z0-9_/]*\.h\b' |
+  while read -r header; do
+    mkdir -p "$(dirname "$include/$header")"
+    case $header in
+      trismooth.h) cp cmake/trismooth.h "$include" ;;
+      version.h) cp cmake/version.h.in "$include/version.h" ;;
+      *) cp "$header" "$include/$header" ;;
+    esac
+  done
+pages=(README.md CONTRIBUTING.md SECURITY.md docs/*.md)
+{
+  cat docs/Doxyfile
+  echo "OUTPUT_DIRECTORY = $output"
+  echo "WARN_LOGFILE = $output/warnings.txt"
+  echo "INPUT = ${pages[*]} $output/include"
+} | doxygen -
+
+# Classes and functions have comments. Where the name of a variable, an operator or a move says all, there need be none,
+# and the text forms of enumerations are all alike.
+says_all='\(variable\)|\(typedef\)|\boperator|&&\) noexcept|(EnumText|NumberTuple)<'
+if grep --extended-regexp --invert-match "($says_all).* is not documented" "$output/warnings.txt" >&2; then
+  echo "error: Doxygen warns, see above" >&2
+  exit 1
+fi
+echo "Open $project/$output/html/index.html"
