@@ -9,7 +9,8 @@ In README.md and docs/*.md:
   times and the number of threads;
 - blocks of `cpp` must compile;
 - a block whose first line says `no-run: REASON` behind the language is left out;
-- links must lead to files and headings, and names of files in backticks must exist;
+- links must lead to files and headings, and names of files in backticks and in the picture of the architecture must
+  exist;
 - every option of the program must be on the page of the command line, and every option named anywhere must be one.
 
 PART (cuda, halfedge, mesh_io, pipeline) is a part that the build does not have: C++ that includes it is left out.
@@ -156,20 +157,29 @@ def check_links(page):
             yield f"{page.relative_to(ROOT)}: {file.relative_to(ROOT)} has no heading for #{anchor}"
 
 
+def missing(name):
+    """The files and folders that the name stands for and that are not there; {a,b} stands for both."""
+    match = re.match(r"(.*)\{(.*)\}(.*)", name)
+    names = [match[1] + middle + match[3] for middle in match[2].split(",")] if match else [name]
+    return [one for one in names if "..." not in one and not (ROOT / one).exists()]
+
+
 def check_paths(page):
     """Names in backticks that begin with a folder of the source tree."""
-    folders = "|".join(entry.name for entry in ROOT.iterdir() if entry.is_dir() and re.match("[a-z_]+$", entry.name))
+    folders = "|".join(entry.name for entry in ROOT.iterdir()
+                       if entry.is_dir() and re.match("[a-z_]+$", entry.name) and entry.name not in ("build", "out"))
     text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.DOTALL | re.MULTILINE)
     for name in re.findall(rf"`((?:{folders}|\.ci)/[^`\s]*)`", text):
-        if name.startswith(("build", "out/")):
-            continue
-        # A file may be meant by its stem: `base/point2` is point2.h.
-        alternatives = re.match(r"(.*)\{(.*)\}(.*)", name)
-        names = [alternatives[1] + middle + alternatives[3] for middle in alternatives[2].split(",")] if alternatives \
-            else [name]
-        for one in names:
-            if not list(ROOT.glob(one.rstrip("/"))):
-                yield f"{page.relative_to(ROOT)}: there is no {one}"
+        for one in missing(name):
+            yield f"{page.relative_to(ROOT)}: there is no {one}"
+
+
+def check_picture(picture):
+    """Names of folders and headers in the picture of the architecture."""
+    for names in re.findall(r'class="name"[^>]*>([^<]*)<', picture.read_text()):
+        for name in re.split(r", (?![^{]*\})", names):
+            for one in missing(name):
+                yield f"{picture.relative_to(ROOT)}: there is no {one}"
 
 
 def check_options(program):
@@ -210,6 +220,7 @@ def main():
     for page in LINKED_PAGES:
         faults += check_links(page)
         faults += check_paths(page)
+    faults += check_picture(ROOT / "docs/images/architecture.svg")
     faults += check_options(arguments.program)
     for block in blocks:
         if not block.language:
