@@ -11,7 +11,8 @@
 
 namespace trismooth {
 
-/// Rows of numbers in somebody's memory: number k of row i lies i row_stride + k column_stride bytes behind `first`.
+/// Rows of numbers in the memory of the caller: number k of row i lies i row_stride + k column_stride bytes behind
+/// `first`.
 template <class T>
 struct NumberRows {
   T* first = nullptr;

@@ -7,9 +7,9 @@
 
 namespace trismooth {
 
-/// A span of the caller's numbers, made without a word from anything contiguous that keeps them: std::vector,
-/// std::array, std::span, ... A temporary that owns its numbers is not taken: they would be gone with it. Nothing is
-/// copied; the caller keeps the memory for as long as the view is used.
+/// A span of the caller's numbers. Everything contiguous that keeps numbers of this type converts to it by itself:
+/// std::vector, std::array, std::span, ... A temporary that owns its numbers is not taken: they would be gone with it.
+/// Nothing is copied; the caller keeps the memory for as long as the view is used.
 template <class T>
 class ArrayView : public std::span<const T> {
  public:

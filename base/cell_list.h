@@ -31,7 +31,7 @@ struct CellList {
   std::vector<std::uint8_t> types;         ///< one cell_type a cell
 
   /// Cells.
-  std::size_t size() const { return types.size(); }
+  [[nodiscard]] std::size_t size() const { return types.size(); }
   /// The vertices of a cell; valid until cells are appended.
   std::span<const std::int32_t> operator[](std::size_t cell) const {
     return std::span(connectivity)

@@ -8,8 +8,8 @@
 
 namespace trismooth {
 
-/// The text forms of an enumeration, in one place: specialised beside each enumeration with a member `what` (the noun
-/// in messages) and a member `texts` (pairs of value and text).
+/// The text forms of an enumeration, in one place. It is specialised beside each enumeration with a member `what` (the
+/// noun in messages) and a member `texts` (pairs of value and text).
 template <class Enum>
 struct EnumText;
 
@@ -18,7 +18,7 @@ template <class Enum>
 requires requires {
   EnumText<Enum>::texts;
 }
-constexpr std::string_view to_string(Enum value) {
+[[nodiscard]] constexpr std::string_view to_string(Enum value) {
   for (const auto& [candidate, text] : EnumText<Enum>::texts) {
     if (candidate == value) {
       return text;
@@ -29,7 +29,7 @@ constexpr std::string_view to_string(Enum value) {
 
 /// Every text of the enumeration: "a, b".
 template <class Enum>
-std::string valid_texts() {
+[[nodiscard]] std::string valid_texts() {
   std::string list;
   for (const auto& [value, text] : EnumText<Enum>::texts) {
     list.append(list.empty() ? "" : ", ").append(text);
@@ -39,7 +39,7 @@ std::string valid_texts() {
 
 /// The value of a text. Throws std::invalid_argument: "unknown form 'c'; valid are a, b".
 template <class Enum>
-Enum parse_enum(std::string_view text) {
+[[nodiscard]] Enum parse_enum(std::string_view text) {
   for (const auto& [value, candidate] : EnumText<Enum>::texts) {
     if (candidate == text) {
       return value;

@@ -33,12 +33,12 @@ concept TriangleMatrix = IndexMatrix<M> &&(ColumnsOf<M, 3, 3> || RowsOf<M, 3, 3>
 }  // namespace array_layout
 
 /// The triangles of a mesh where the caller keeps them: three vertex numbers each, from 0, of any type of 32 or 64
-/// bits. Nothing is copied to make one. The caller owns the memory and keeps it meanwhile; a function that takes one
-/// does not look at it any more when it has returned.
+/// bits. Nothing is copied to make one. The caller owns the memory and keeps it for as long as the view is used; a
+/// function that takes a view does not look at the memory any more when it has returned.
 ///
-/// It is made without a word from numbers one behind the other, three for each triangle (std::vector<std::int32_t>,
-/// std::span<const std::size_t>, ...), from triples of them (std::vector<std::array<int, 3>>, ...) and from Eigen
-/// matrices whose type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...). A
+/// These convert to it by themselves: numbers one behind the other, three for each triangle (std::vector<std::int32_t>,
+/// std::span<const std::size_t>, ...), triples of them (std::vector<std::array<int, 3>>, ...) and Eigen matrices whose
+/// type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...). A
 /// temporary that owns its numbers is not taken: they would be gone with it.
 class IndexView {
  public:

@@ -88,7 +88,7 @@ struct LocalFrame {
   int exponent = 0;  ///< local = (stored - centre) * 2^-exponent
 
   /// From the coordinates of the file to the local frame.
-  TRISMOOTH_HOST_DEVICE Point2<double> enter(Point2<double> stored) const {
+  [[nodiscard]] TRISMOOTH_HOST_DEVICE Point2<double> enter(Point2<double> stored) const {
     using local_frame_details::scaled;
     constexpr double farthest = 4;
     return {within(farthest, scaled(stored.x - centre_x, -exponent)),
@@ -98,8 +98,8 @@ struct LocalFrame {
   /// From the local frame to the coordinates of the file; one rounding, none where the axis is not translated. What is
   /// beyond `largest`, the largest number that the file can hold, becomes it: rounding may bring the mean of such
   /// numbers there.
-  TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local,
-                                             double largest = std::numeric_limits<double>::max()) const {
+  [[nodiscard]] TRISMOOTH_HOST_DEVICE Point2<double> leave(Point2<double> local,
+                                                           double largest = std::numeric_limits<double>::max()) const {
     using local_frame_details::scaled;
     return {within(largest, translated(scaled(local.x, exponent), centre_x)),
             within(largest, translated(scaled(local.y, exponent), centre_y))};
@@ -107,7 +107,7 @@ struct LocalFrame {
 
   /// 2^exponent: lengths in units of the file are local lengths times this. Infinite or 0 beyond the range of
   /// double, as it may be for the largest and the smallest meshes.
-  double length_scale() const { return std::ldexp(1.0, exponent); }
+  [[nodiscard]] double length_scale() const { return std::ldexp(1.0, exponent); }
 
  private:
   /// value + centre that keeps the sign of a zero where there is no translation.
@@ -121,11 +121,11 @@ struct LocalFrame {
 
 /// The local frame of the points, which are finite. A mesh scaled by a power of two enters its own frame with the same
 /// bits. An axis along which all points are equal is translated to 0. No points: the identity. Complexity: linear.
-LocalFrame local_frame(std::span<const Point2<double>> stored);
+[[nodiscard]] LocalFrame local_frame(std::span<const Point2<double>> stored);
 
 /// The same from the corners of the points' bounding box, on the host or on the device. Corners in the wrong order are
 /// those of no points.
-inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<double> high) {
+[[nodiscard]] inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<double> high) {
   if (!(low.x <= high.x && low.y <= high.y)) {
     return {};
   }
@@ -139,7 +139,7 @@ inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<d
 /// The same of the points for whose numbers `counts(std::size_t)` is true: a mesh's frame is that of the vertices that
 /// its cells use.
 template <class Counts>
-LocalFrame local_frame(std::span<const Point2<double>> stored, const Counts& counts) {
+[[nodiscard]] LocalFrame local_frame(std::span<const Point2<double>> stored, const Counts& counts) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Point2<double> low{infinity, infinity};
   Point2<double> high{-infinity, -infinity};

@@ -23,8 +23,8 @@ class ScratchBytes {
 /// Copies bytes on all workers.
 void copy_by_all(std::byte* to, const std::byte* from, std::size_t size, Workers& workers);
 
-/// Somebody's memory while it is overwritten from front to back, in pieces. Gets back what it had unless all of it is
-/// overwritten in the end: whatever is thrown on the way, its owner finds the old or the new, never a mixture.
+/// Memory of the caller while it is overwritten from front to back, in pieces. Unless done() is called in the end, the
+/// memory gets back what it had: whatever is thrown on the way, the caller finds the old or the new, never a mixture.
 class Overwriting {
  public:
   /// Keeps what is overwritten in `kept`, which outlives this as `workers` do. Null: it is not kept, and what has been

@@ -37,10 +37,10 @@ concept PointMatrix = CoordinateMatrix<M> &&(ColumnsOf<M, 2, 3> || RowsOf<M, 2, 
 }  // namespace array_layout
 
 /// The points of a mesh where the caller keeps them, for reading: two or three numbers each, `float` or `double`, any
-/// distance apart. Nothing is copied to make one. Cheap to copy itself; the caller owns the memory and keeps it
-/// meanwhile.
+/// distance apart. Nothing is copied to make one. Cheap to copy itself; the caller owns the memory and keeps it for as
+/// long as the view is used.
 ///
-/// It is made without a word from what says by its type how many numbers a point has:
+/// What says by its type how many numbers a point has converts to it by itself:
 ///
 ///     std::vector<std::array<double, 2>>, std::span<const trismooth::Point2<float>>, double[100][3],
 ///     std::vector<Eigen::Vector3d>, Eigen::Matrix2Xd, Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3>>, ...

@@ -10,7 +10,10 @@
 namespace trismooth {
 
 /// The number type in which the caller stores the coordinates; results are rounded to it before they are judged.
-enum class Storage : std::uint8_t { float64, float32 };
+enum class Storage : std::uint8_t {
+  float64,  ///< double
+  float32,  ///< float
+};
 
 /// The largest coordinate that can be stored.
 constexpr TRISMOOTH_HOST_DEVICE double largest_stored(Storage storage) {

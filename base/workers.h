@@ -6,7 +6,8 @@
 namespace trismooth {
 
 /// A number of threads to run loops on. No result of this project depends on the number: loops write to places of
-/// their own, and sums go over fixed blocks in a fixed order. TBB runs them; no header says so.
+/// their own, and sums go over fixed blocks in a fixed order. The threads are TBB's, whose headers workers.cpp alone
+/// includes.
 class Workers {
  public:
   /// `threads` = 0: one for each core that the process may use. More threads than cores are really started,
@@ -17,9 +18,10 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
   ~Workers();
 
+  /// The threads that loops run on.
   int count() const { return count_; }
 
-  /// Calls `function` where for_blocks() is cheapest: many loops inside one call need not enter the arena each.
+  /// Calls `function` on this thread, as one of the workers: every for_blocks() that it calls is cheaper than outside.
   template <class Function>
   void run(Function&& function) {
     if (count_ == 1) {
@@ -30,7 +32,7 @@ class Workers {
     enter({&call, [](const void* object) { (*static_cast<decltype(&call)>(object))(); }});
   }
 
-  /// For those who call TBB themselves in run(): the threads are there from then on. for_blocks() needs no call.
+  /// Starts the threads. For those who call TBB by themselves in run(); for_blocks() does it where it has to.
   void start();
 
   /// Calls body(begin, end) on parts of [0, size) of no less than half of `grain` elements, in any order, on all

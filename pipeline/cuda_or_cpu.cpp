@@ -8,6 +8,7 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth {

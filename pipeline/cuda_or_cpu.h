@@ -5,7 +5,7 @@
 
 #include "trismooth/pipeline/auto_backend.h"
 #include "trismooth/pipeline/cuda_support.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/cpu_backend.h"
 
 namespace trismooth {
 

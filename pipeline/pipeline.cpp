@@ -20,7 +20,7 @@
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
 

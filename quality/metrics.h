@@ -30,6 +30,7 @@ enum class Metric : std::uint8_t {
   equiangle_skew,   ///< max((max_angle - 60) / 120, (60 - min_angle) / 60), not below 0
 };
 
+/// How many metrics there are.
 inline constexpr std::size_t metric_count = 10;
 
 /// What a metric is called, means and ranges over.
@@ -46,21 +47,21 @@ struct MetricInfo {
 };
 
 /// Every metric, in the order of the enumeration.
-std::span<const MetricInfo> all_metrics();
+[[nodiscard]] std::span<const MetricInfo> all_metrics();
 
 /// What is known of the metric.
-const MetricInfo& info(Metric metric);
+[[nodiscard]] const MetricInfo& info(Metric metric);
 
 /// The metric of that name, or nothing.
-std::optional<Metric> metric_named(std::string_view name);
+[[nodiscard]] std::optional<Metric> metric_named(std::string_view name);
 
 /// "shape, area, ...": the name of every metric, for messages.
-std::string metric_names();
+[[nodiscard]] std::string metric_names();
 
 /// True where the value lies in the metric's acceptable range. The ideal end of a range is open: an equilateral
 /// triangle is acceptable also where its shape is rounded above 1. Inverted triangles are not acceptable by the signed
 /// metrics. False for NaN.
-bool is_acceptable(Metric metric, double value);
+[[nodiscard]] bool is_acceptable(Metric metric, double value);
 
 /// The value of each metric, indexed by Metric.
 using MetricValues = std::array<double, metric_count>;
@@ -74,9 +75,9 @@ using MetricValues = std::array<double, metric_count>;
 /// A degenerate triangle (area 0, also where corners coincide) has shape, area, scaled_jacobian and min_angle 0,
 /// max_angle 180, equiangle_skew 1 and infinite aspect_ratio, radius_ratio and condition; its edge_ratio is infinite
 /// where two corners coincide. Ratios of nearly degenerate triangles may overflow to infinity as well. Never NaN.
-double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c);
+[[nodiscard]] double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c);
 
 /// Every metric of the triangle, the same bits as evaluate gives, for about the price of the two angles.
-MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c);
+[[nodiscard]] MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c);
 
 }  // namespace trismooth

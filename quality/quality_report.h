@@ -29,6 +29,7 @@ struct WorstElement {
   bool all_fixed = false;     ///< no smoothing can change it; for who knows the fixed vertices, quality_report does not
 };
 
+/// The bins of QualityReport::shape_histogram.
 inline constexpr std::size_t shape_bins = 20;
 
 /// The quality of a mesh's triangles.
@@ -42,10 +43,12 @@ struct QualityReport {
   std::array<std::int64_t, shape_bins> shape_histogram{};
   std::vector<WorstElement> worst;  ///< by ascending shape, equal ones by index
 
+  /// The summary of one metric.
   const MetricSummary& operator[](Metric metric) const { return metrics[static_cast<std::size_t>(metric)]; }
   MetricSummary& operator[](Metric metric) { return metrics[static_cast<std::size_t>(metric)]; }
 };
 
+/// What steers a report.
 struct QualityOptions {
   int threads = 0;       ///< 0: all; 1: this thread alone; most_threads() at most
   int worst_count = 10;  ///< how many of the worst triangles to list, at most
@@ -54,13 +57,13 @@ struct QualityOptions {
 /// Every metric of every triangle, in its canonical corner order. The report is the same to the bit for every number
 /// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle. Throws std::invalid_argument for a
 /// number of threads out of range.
-QualityReport quality_report(const TriangleView& view, const QualityOptions& options = {});
+[[nodiscard]] QualityReport quality_report(const TriangleView& view, const QualityOptions& options = {});
 
 /// The smallest shape alone, several times as fast: the report's [Metric::shape].min to the bit. NaN where there is no
 /// triangle. `threads` as in QualityOptions.
-double smallest_shape(const TriangleView& view, int threads = 0);
+[[nodiscard]] double smallest_shape(const TriangleView& view, int threads = 0);
 
-/// Prints the report as a table for people, see quality_table.h.
+/// Prints the report as a table for people, plain ASCII.
 std::ostream& operator<<(std::ostream& stream, const QualityReport& report);
 
 }  // namespace trismooth

@@ -81,19 +81,4 @@ class Backend {
   }
 };
 
-/// The CPU backend. Layout and execution mean nothing to it; Order::unordered is refused.
-const Backend& cpu_backend();
-
-/// The backend that the options name, or the CPU's.
-const Backend& backend_of(const SmoothingOptions& options);
-
-/// The rings of a mesh as the options want them found: by their backend where they say Topology::device and it finds
-/// rings, else by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way.
-MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
-                    std::span<const Triangle> triangles, const Constraints& constraints,
-                    const std::function<MeshRings()>& on_host);
-
-/// Two notes for the user as one, "first; second"; each may be empty.
-std::string joined_notes(const std::string& first, const std::string& second);
-
 }  // namespace trismooth

@@ -1,3 +1,5 @@
+#include "trismooth/smoothing/cpu_backend.h"
+
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
@@ -9,7 +11,6 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"

@@ -13,7 +13,7 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/orientation.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 

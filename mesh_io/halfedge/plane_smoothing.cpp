@@ -5,7 +5,7 @@
 
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 
 namespace trismooth {

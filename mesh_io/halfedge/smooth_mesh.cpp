@@ -9,7 +9,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 
 namespace trismooth {
 

@@ -9,7 +9,7 @@
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
 #include "trismooth/quality/quality_table.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/cpu_backend.h"
 
 namespace trismooth {
 

@@ -9,7 +9,8 @@
 
 namespace trismooth {
 
-/// A view of one-rings in a numbering of somebody's own. Vertices from size() on have no ring: they are fixed.
+/// A view of one-rings, in the numbering of the input or in another one (see input()). Vertices from size() on have no
+/// ring: they are fixed.
 struct RingView {
   std::span<const std::int64_t> offsets;      ///< vertex v has neighbours[offsets[v] .. offsets[v + 1]); maybe none
   std::span<const std::int32_t> neighbours;   ///< in ring order

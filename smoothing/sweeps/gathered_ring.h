@@ -18,7 +18,7 @@ struct FixedRing {
   constexpr Point2<T> operator[](int i) const { return positions[i]; }
 };
 
-/// The positions of a ring of any size, in memory of someone else.
+/// The positions of a ring of any size, in memory that somebody else owns.
 template <class T>
 struct LongRing {
   std::span<const Point2<T>> positions;

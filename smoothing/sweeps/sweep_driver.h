@@ -24,9 +24,11 @@
 namespace trismooth {
 
 /// Runs sweeps in working precision T over packed points, to a stop. Form A writes into a second buffer and swaps;
-/// Form B writes in place, batch by batch. A vertex is marked when it or a neighbour moves and evaluated only if it is
-/// marked: the update is a function of the closed neighbourhood alone, so an unchanged one gives the same answer, which
-/// was "stay" or has been followed.
+/// Form B writes in place, batch by batch.
+///
+/// A vertex is evaluated only where it is marked, and it is marked when it or one of its neighbours moves. The others
+/// would stay where they are: an update depends on a vertex and its neighbours alone, and if none of them has changed
+/// since the last evaluation, then the last answer was "stay", for a move would have changed the vertex itself.
 template <class T>
 class SweepDriver {
  public:

@@ -19,7 +19,7 @@ namespace {
 template <class Enum>
 std::string complaint(std::string_view text) {
   try {
-    parse_enum<Enum>(text);
+    static_cast<void>(parse_enum<Enum>(text));
   } catch (const std::invalid_argument& error) {
     return error.what();
   }

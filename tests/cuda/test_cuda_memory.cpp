@@ -171,7 +171,8 @@ std::vector<Way> ways_to_the_device() {
     return [planned](const Mesh& mesh, const SmoothingOptions& options, const std::function<void()>& all_but_little,
                      std::vector<double>& after) {
       const std::vector<double> xy = mesh.xy();
-      DeviceArray<std::int32_t> triangles(mesh.indices());
+      const auto indices = mesh.indices();
+      DeviceArray<std::int32_t> triangles(std::vector<std::int32_t>(indices.begin(), indices.end()));
       DeviceArray<T> coordinates(std::vector<T>(xy.begin(), xy.end()));
       const cuda::DeviceMesh view{
           mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}};

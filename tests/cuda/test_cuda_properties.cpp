@@ -17,6 +17,7 @@
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
+#include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"

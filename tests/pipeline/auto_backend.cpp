@@ -1,6 +1,6 @@
 #include "trismooth/pipeline/auto_backend.h"
 
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

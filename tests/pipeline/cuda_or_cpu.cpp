@@ -13,6 +13,7 @@
 
 #include "catch.h"
 #include "support/fake_backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "support/test_meshes.h"
 
 using fakes::Failure;

@@ -1,3 +1,5 @@
+#include "trismooth/smoothing/cpu_backend.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +14,6 @@
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/quality_report.h"
-#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"

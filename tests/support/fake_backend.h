@@ -14,8 +14,9 @@
 
 #include "trismooth/base/overwriting.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/smooth.h"

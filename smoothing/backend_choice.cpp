@@ -1,6 +1,8 @@
-#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 
 #include <utility>
+
+#include "trismooth/smoothing/cpu_backend.h"
 
 namespace trismooth {
 

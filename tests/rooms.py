@@ -1,0 +1,96 @@
+"""rooms.py SOURCE: the modules and the rooms of smoothing/ include each other in one direction only.
+
+Data flows one way: from the caller's coordinates down to the formulas and back. A room may include itself and what its
+line below names, and no header includes itself through others.
+"""
+
+import collections
+import pathlib
+import re
+import sys
+
+FACES = {"smoothing/" + name + ".h" for name in ("constraints", "errors", "options", "result")}
+
+MAY_USE = {
+    "base": [],
+    "quality": ["base"],
+    "smoothing faces": ["base"],
+    "smoothing/methods": ["base", "quality", "smoothing faces"],
+    "smoothing/rings": ["base", "quality", "smoothing faces"],
+    "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings"],
+    "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings"],
+    "smoothing": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/sweeps",
+                  "smoothing/guard"],
+    "cuda": ["base", "quality", "smoothing", "smoothing faces", "smoothing/methods", "smoothing/rings",
+             "smoothing/sweeps", "smoothing/guard"],
+    "mesh_io": ["base", "quality", "smoothing", "smoothing faces", "smoothing/rings", "smoothing/guard"],
+}
+MAY_USE["pipeline"] = [*MAY_USE, "pipeline"]
+
+INCLUDE = re.compile(r'^#include "trismooth/([^"]+)"', re.MULTILINE)
+
+
+def room_of(path):
+    """The room of a file, named from the root; the sources of a face are with it."""
+    if path.removesuffix(".cpp").removesuffix(".h") + ".h" in FACES:
+        return "smoothing faces"
+    parts = path.split("/")
+    return "/".join(parts[:2]) if parts[0] == "smoothing" and len(parts) > 2 else parts[0]
+
+
+def includes_of(source):
+    """File -> files of the project that it includes."""
+    found = {}
+    for folder in sorted({room.split("/")[0].split(" ")[0] for room in MAY_USE}):
+        for file in sorted((source / folder).rglob("*")):
+            if file.suffix in {".h", ".cuh", ".cpp", ".cu"}:
+                found[file.relative_to(source).as_posix()] = INCLUDE.findall(file.read_text(encoding="utf-8"))
+    return found
+
+
+def against_the_rule(includes):
+    """Includes that climb, or leave a room by another way than its line says."""
+    wrong = []
+    for file, used in includes.items():
+        room = room_of(file)
+        for other in used:
+            # version.h and the like stand above all folders, and use none.
+            if "/" in other and room_of(other) not in [room, *MAY_USE[room]]:
+                wrong.append(f"{file} includes {other}: {room} may not use {room_of(other)}")
+    return wrong
+
+
+def circles(includes):
+    """Headers that reach themselves."""
+    state = collections.defaultdict(int)  # 0: not seen, 1: being looked at, 2: done
+    found = []
+
+    def visit(file, trail):
+        state[file] = 1
+        for other in includes.get(file, []):
+            if state[other] == 1:
+                found.append(" -> ".join([*trail[trail.index(other):], other]))
+            elif state[other] == 0:
+                visit(other, [*trail, other])
+        state[file] = 2
+
+    for file in includes:
+        if state[file] == 0:
+            visit(file, [file])
+    return found
+
+
+def main():
+    includes = includes_of(pathlib.Path(sys.argv[1]))
+    if len(includes) < 200:
+        sys.exit(f"only {len(includes)} sources found below {sys.argv[1]}")
+    # The check itself: what must be found is.
+    planted = {"base/a.h": ["quality/b.h"], "smoothing/rings/c.h": ["smoothing/sweeps/d.h"], "base/e.h": ["base/f.h"],
+               "base/f.h": ["base/e.h"], "smoothing/options.h": ["smoothing/backend.h"]}
+    assert len(against_the_rule(planted)) == 3 and len(circles(planted)) == 1
+    wrong = against_the_rule(includes) + circles(includes)
+    sys.exit("\n".join(wrong) or 0)
+
+
+if __name__ == "__main__":
+    main()
