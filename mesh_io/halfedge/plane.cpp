@@ -1,14 +1,16 @@
 #include "trismooth/mesh_io/halfedge/plane.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "trismooth/base/local_frame.h"
 
@@ -283,10 +285,11 @@ Eigen::Vector3d Plane::moved(const Eigen::Vector3d& point, Point2<double> from, 
 }
 
 std::string PlaneFit::fault() const {
-  return fmt::format(
-      "the mesh is not planar: vertex {} is {:.3g} away from the plane that fits best, more than 1e-6 of the extent or "
-      "a tenth of the size of its elements",
-      outside, distance);
+  std::array<char, 32> digits{};
+  const char* const end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), distance, std::chars_format::general, 3).ptr;
+  return "the mesh is not planar: vertex " + std::to_string(outside) + " is " + std::string(digits.data(), end) +
+         " away from the plane that fits best, more than 1e-6 of the extent or a tenth of the size of its elements";
 }
 
 PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,

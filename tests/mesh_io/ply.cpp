@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -12,106 +11,18 @@
 
 #include "byte_files.h"
 #include "catch.h"
+#include "ply_files.h"
+
+namespace ply_test {
 
 using namespace byte_files;
+using namespace ply_files;
 using trismooth::DataArray;
 using trismooth::find_array;
 using trismooth::MeshDocument;
 using trismooth::ply_codec;
 using trismooth::ScalarType;
 namespace cell_type = trismooth::cell_type;
-
-namespace {
-
-enum class Flavour { ascii, little, big };
-
-std::string to_text(Flavour flavour) {
-  return flavour == Flavour::ascii    ? "ascii"
-         : flavour == Flavour::little ? "binary_little_endian"
-                                      : "binary_big_endian";
-}
-
-/// Writes rows in one flavour: the tests' own idea of the format.
-class Rows {
- public:
-  explicit Rows(Flavour flavour) : flavour_(flavour) {}
-
-  template <class T>
-  Rows& add(T number, const std::string& text) {
-    if (flavour_ == Flavour::ascii) {
-      bytes_ += text + " ";
-    } else {
-      bytes_ += number_bytes(number, flavour_ == Flavour::little ? std::endian::little : std::endian::big);
-    }
-    return *this;
-  }
-  template <class T>
-  Rows& add(T number) {
-    return add(number, std::to_string(number));
-  }
-  void end() {
-    if (flavour_ == Flavour::ascii) {
-      bytes_.back() = '\n';
-    }
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  Flavour flavour_;
-  std::string bytes_;
-};
-
-struct Coordinate {
-  double value;
-  std::string text;
-};
-
-using Coordinates = std::vector<std::array<Coordinate, 3>>;
-
-/// A square of two triangles and a quad, its coordinates in texts that no writer would choose.
-const Coordinates square{{{{0, "0"}, {0, "-0.0"}, {0, "0e5"}}},
-                         {{{1, "1.000"}, {0, "0"}, {0, "0"}}},
-                         {{{1, "+1"}, {1, "1e0"}, {0, "0"}}},
-                         {{{0, "0"}, {1, "01"}, {0, "0"}}},
-                         {{{0.5, ".5"}, {0.25, "0.25"}, {0, "0"}}}};
-
-const std::string square_header_body =
-    "comment made by hand\nobj_info nothing\nelement vertex 5\nproperty double x\nproperty uchar red\n"
-    "property double y\nproperty double z\nelement camera 1\nproperty list uchar short shape\nproperty float focus\n"
-    "element face 3\nproperty char side\nproperty list uchar int vertex_indices\nproperty list int float uv\n"
-    "property ushort region\nend_header\n";
-
-/// The square in one flavour: vertex rows of 8 + 1 + 8 + 8 bytes in the binary ones.
-std::string square_file(Flavour flavour, const Coordinates& points = square) {
-  Rows rows(flavour);
-  std::uint8_t red = 250;
-  for (const auto& [x, y, z] : points) {
-    rows.add(x.value, x.text).add(red++).add(y.value, y.text).add(z.value, z.text).end();
-  }
-  rows.add(std::uint8_t{2}).add(std::int16_t{-3}).add(std::int16_t{4}).add(1.5F, "1.5").end();
-  const std::vector<std::vector<std::int32_t>> faces{{0, 1, 4}, {1, 2, 4}, {2, 3, 0, 4}};
-  std::int8_t side = -1;
-  for (const auto& face : faces) {
-    rows.add(side).add(static_cast<std::uint8_t>(face.size()));
-    for (const std::int32_t vertex : face) {
-      rows.add(vertex);
-    }
-    rows.add(std::int32_t{1}).add(0.5F, "0.5").add(static_cast<std::uint16_t>(65533 - side)).end();
-    ++side;
-  }
-  return "ply\nformat " + to_text(flavour) + " 1.0\n" + square_header_body + rows.bytes();
-}
-
-std::string ascii(const std::string& declarations, const std::string& rows) {
-  return "ply\nformat ascii 1.0\n" + declarations + "end_header\n" + rows;
-}
-
-const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string three = "element vertex 3\n" + xyz;
-const std::string three_rows = "0 0 0\n1 0 0\n0 1 0\n";
-const std::string face = "property list uchar int vertex_indices\n";
-
-}  // namespace
 
 TEST_CASE("PLY: every flavour gives the same mesh") {
   const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
@@ -172,57 +83,6 @@ TEST_CASE("PLY: changed coordinates are the only bytes that change") {
   }
 }
 
-TEST_CASE("PLY: no truncation gives part of a mesh") {
-  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
-  CAPTURE(to_text(flavour));
-  const std::string bytes = square_file(flavour);
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    CAPTURE(size);
-    try {
-      const MeshDocument document = ply_codec.read("cut.ply", bytes.substr(0, size));
-      // Only a text can be cut within its last number.
-      REQUIRE(flavour == Flavour::ascii);
-      REQUIRE(size + 5 >= bytes.size());
-      REQUIRE(is_valid(document));
-      REQUIRE(document.point_count() == 5);
-      REQUIRE(document.cells.size() == 3);
-    } catch (const trismooth::ReadError&) {
-      SUCCEED();
-    }
-  }
-}
-
-TEST_CASE("PLY: whatever the bytes, a document is valid or refused") {
-  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
-  const std::string bytes = square_file(flavour);
-  const std::string tempting = "0123456789 -.e\n\r\xff\x7f\x80";
-  std::mt19937 random(1);
-  int read = 0;
-  for (int trial = 0; trial < 5000; ++trial) {
-    std::string damaged = bytes;
-    for (unsigned change = 0; change <= random() % 3; ++change) {
-      const std::size_t place = random() % damaged.size();
-      switch (random() % 3) {
-        case 0:
-          damaged[place] = tempting[random() % tempting.size()];
-          break;
-        case 1:
-          damaged.erase(place, 1 + random() % 4);
-          break;
-        default:
-          damaged.insert(place, 1, tempting[random() % tempting.size()]);
-      }
-    }
-    try {
-      const MeshDocument document = ply_codec.read("damaged.ply", damaged);
-      REQUIRE(is_valid(document));
-      ++read;
-    } catch (const trismooth::ReadError&) {
-    }
-  }
-  CHECK(read > 0);
-}
-
 TEST_CASE("PLY: a text coordinate of type float is the float32 that its text rounds to") {
   const MeshDocument document = ply_codec.read("f.ply", ascii(three, "0.1 0 0\n16777217 0 0\n0 1 0\n"));
   CHECK(document.point_type == ScalarType::float32);
@@ -268,25 +128,6 @@ TEST_CASE("PLY: edges are lines, in the order of the file, and cell arrays have 
   }
 }
 
-TEST_CASE("PLY: filling up cell arrays takes no more memory than a small multiple of the file's size") {
-  std::string declarations = three + "element face 1\n" + face;
-  std::string rows = three_rows + "3 0 1 2";
-  for (int i = 0; i < 2000; ++i) {
-    declarations += "property int p" + std::to_string(i) + "\n";
-    rows += " 1";
-  }
-  declarations += "element edge 2000\nproperty int vertex1\nproperty int vertex2\n";
-  rows += "\n";
-  for (int i = 0; i < 2000; ++i) {
-    rows += "0 1\n";
-  }
-  const MeshDocument document = ply_codec.read("z.ply", ascii(declarations, rows));
-  CHECK(is_valid(document));
-  CHECK_FALSE(document.cell_arrays.empty());
-  CHECK(document.cell_arrays.size() * 2000 * sizeof(int) < 20 * (declarations.size() + rows.size()));
-  CHECK(document.notes.size() == 2000);
-}
-
 TEST_CASE("PLY: header lines may end in any way, also before binary rows that begin like a line end") {
   // The first byte of the first coordinate is a line feed.
   const std::string rows =
@@ -300,85 +141,6 @@ TEST_CASE("PLY: header lines may end in any way, also before binary rows that be
     }
     const MeshDocument document = ply_codec.read("l.ply", header + rows);
     CHECK(document.points == std::vector<double>{std::bit_cast<double>(std::uint64_t{0x3ff000000000000a}), 2, 3});
-  }
-}
-
-TEST_CASE("PLY: what does not belong to a planar mesh is refused with its place") {
-  struct Case {
-    std::string bytes;
-    std::string message;
-  };
-  const std::string good_faces = three + "element face 1\n" + face;
-  const std::string strips = three + "element tristrips 1\nproperty list int int vertex_indices\n";
-  const std::vector<Case> cases{
-      {"", "not a PLY file"},
-      {"plyx\n", "not a PLY file"},
-      {"ply\n", "end of the file"},
-      {"ply\nformat ascii 2.0\n", ":2: expected version 1.0"},
-      {"ply\nformat xml 1.0\n", "got 'xml'"},
-      {"ply\nformat ascii 1.0\nformat ascii 1.0\n", ":3: the format is declared twice"},
-      {"ply\n" + three + "end_header\n" + three_rows, "no format"},
-      {ascii("property int x\n", ""), "before any element"},
-      {ascii("element vertex -1\n", ""), "from 0"},
-      {ascii("element vertex 99999999999999999999\n", ""), ":3: expected a number of rows"},
-      {ascii("element vertex\n", ""), "end of the line"},
-      {ascii("element vertex 1 2\n", ""), "expected the end of the line, got '2'"},
-      {ascii(three + three, ""), "'vertex' is declared twice"},
-      {ascii(three + "property float x\n", ""), "'x' of element 'vertex' is declared twice"},
-      {ascii("element vertex 1\nproperty quad x\n", ""), "got 'quad'"},
-      {ascii("element face 1\nproperty list float int vertex_indices\n", ""), "integer type"},
-      {ascii("", ""), "no element 'vertex'"},
-      {ascii("element vertex 1\nproperty float x\nproperty float y\n", "0 0\n"), "no scalar property 'z'"},
-      {ascii("element vertex 1\nproperty int x\nproperty int y\nproperty int z\n", "0 0 0\n"), "integer type int"},
-      {ascii(three, "0 0 0\n1 nan 0\n0 1 0\n"), ":9: vertex 1: y is not a finite"},
-      {ascii(three, "0 0 0\n1 0 0\n0 1 inf\n"), ":10: vertex 2: z is not a finite"},
-      {ascii(three, "0 0 0\n1e39 0 0\n0 1 0\n"), "not a finite float32"},
-      {ascii(three, "0 0 0\n1 abc 0\n0 1 0\n"), ":9: expected property 'y' of element 'vertex' (a number), got 'abc'"},
-      {ascii(three, "0 0 0\n1 0 0 7\n0 1 0\n"), ":9: vertex 1 has more numbers"},
-      {ascii(three, "0 0 0\n1 0 0\n"), "has room for 2 at most"},
-      {ascii(three, "0 0 0\n1 0.00000000 0\n"), ":9: the file ends after 2 of 3 rows of element 'vertex'"},
-      {ascii(three + "element face 2\n" + face, three_rows + "3 0 1 2\n"), "ends after 1 of 2 rows of element 'face'"},
-      {ascii(good_faces, three_rows + "3 0 1 3\n"), ":13: face 0: vertex index 3 is out of range"},
-      {ascii(good_faces, three_rows + "3 0 -1 2\n"), "face 0: vertex index -1 is out of range"},
-      {ascii(good_faces, three_rows + "3 0 4294967297 2\n"), "got '4294967297'"},
-      {ascii(good_faces, three_rows + "2 0 1\n"), "face 0 has 2 vertices"},
-      {ascii(good_faces, three_rows + "0\n"), "face 0 has 0 vertices"},
-      {ascii(good_faces, three_rows + "200 0 1 2\n"), "face 0 declares a list of 200 numbers"},
-      {ascii(three + "element face 1\nproperty list char int vertex_indices\n", three_rows + "-3 0 1 2\n"),
-       "list of -3"},
-      {ascii(three + "element face 1\nproperty list int int vertex_indices\n", three_rows + "2000000000 0 1 2\n"),
-       "room"},
-      {ascii(three + "element face 1\nproperty list uchar float vertex_indices\n", three_rows + "3 0 1 2\n"),
-       "no list of"},
-      {ascii(three + "element face 1\nproperty int region\n", three_rows + "3\n"), "no list of integers"},
-      {ascii(strips, three_rows + "4 0 1 3 -1\n"), ":13: tristrips 0: vertex index 3 is out of range"},
-      {ascii(strips, three_rows + "4 0 1 2 -2\n"), "tristrips 0: vertex index -2 is out of range"},
-      {ascii(strips, three_rows + "6 0 1 2 -1 0 1\n"), ":13: tristrips 0: a strip has 2 vertices, expected 3"},
-      {ascii(strips, three_rows + "6 0 -1 0 1 2 -1\n"), "a strip has 1 vertices, expected 3"},
-      {ascii(strips, three_rows + "9 0 1 2 -1\n"), "tristrips 0 declares a list of 9 numbers"},
-      {ascii(three + "element tristrips 1\nproperty int n\n", three_rows + "0\n"), "'tristrips' has no list of"},
-      {ascii(good_faces, three_rows + "3 0 1 2\n3 1 2 0\n"), ":14: expected the end of the file after the rows"},
-      {ascii(three + "element face 1\nproperty list uint64 uint64 vertex_indices\n",
-             three_rows + "18446744073709551615 0 1 2\n"),
-       "face 0 declares a list of 18446744073709551615 numbers"},
-      {ascii(three + "element face 1\nproperty list uint64 uint64 vertex_indices\n",
-             three_rows + "3 0 1 18446744073709551615\n"),
-       "face 0: vertex index 18446744073709551615 is out of range"},
-      {ascii(three + "element face 1\nproperty list int64 int64 vertex_indices\n", three_rows + "3 0 1 4294967296\n"),
-       "face 0: vertex index 4294967296 is out of range"},
-      {ascii("element vertex 3000000000\n" + xyz, three_rows), "more than are supported"},
-      {ascii("element vertex 2000000000\n" + xyz, three_rows), "declares 2000000000 rows of element 'vertex'"},
-      {ascii(three + "element face 9000000000000000000\n" + face, three_rows), "declares 9000000000000000000 rows"},
-      {ascii(three + "element face 1\n" + face + "property uchar red\n", three_rows + "3 0 1 2 256\n"),
-       "from 0 to 255"},
-  };
-  for (const Case& refused : cases) {
-    CAPTURE(refused.bytes, refused.message);
-    const std::string message = refusal(ply_codec, refused.bytes);
-    CAPTURE(message);
-    CHECK(contains(message, refused.message));
-    CHECK(message.starts_with("mesh:"));
-    CHECK_FALSE(contains(message, "\n"));
   }
 }
 
@@ -494,35 +256,6 @@ TEST_CASE("PLY: a byte-order mark in front of text is no harm") {
   CHECK(written_back(document) == bytes);
 }
 
-TEST_CASE("PLY: binary faults are refused with their byte") {
-  const std::string header = "ply\nformat binary_big_endian 1.0\nelement vertex 3\n" + xyz +
-                             "element face 1\nproperty list int uint vertex_indices\nend_header\n";
-  const auto big = [](auto number) { return number_bytes(number, std::endian::big); };
-  std::string vertices;
-  for (const float coordinate : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) {
-    vertices += big(coordinate);
-  }
-  const auto indices = [&](std::uint32_t last) { return big(std::uint32_t{0}) + big(std::uint32_t{1}) + big(last); };
-  const auto place = [&](std::size_t offset) { return "byte " + std::to_string(header.size() + offset) + ": "; };
-  CHECK(refusal(ply_codec, header + vertices + big(3) + indices(2)).empty());
-  CHECK(contains(refusal(ply_codec, header + vertices + big(3) + indices(4294967295U)),
-                 place(48) + "face 0: vertex index 4294967295 is out of range"));
-  CHECK(contains(refusal(ply_codec, header + vertices + big(-3) + indices(2)),
-                 place(36) + "face 0 declares a list of -3"));
-  CHECK(contains(refusal(ply_codec, header + vertices + big(2147483647) + indices(2)), place(36) + "face 0 declares"));
-  CHECK(contains(refusal(ply_codec, header + vertices.replace(4, 4, big(std::numeric_limits<float>::quiet_NaN())) +
-                                        big(3) + indices(2)),
-                 place(4) + "vertex 0: y is not a finite"));
-}
-
-TEST_CASE("PLY: rows without properties take no time, and bytes after the last row are noted and kept") {
-  const std::string bytes = ascii(three + "element nothing 4000000000000000000\n", three_rows + "\n\nthe end");
-  const MeshDocument document = ply_codec.read("n.ply", bytes);
-  CHECK(document.point_count() == 3);
-  CHECK(document.notes.size() == 2);
-  CHECK(written_back(document) == bytes);
-}
-
 TEST_CASE("PLY: arrays cannot be added to the file that was read, nor points") {
   MeshDocument document = ply_codec.read("square.ply", square_file(Flavour::ascii));
   const TemporaryPath file(".ply");
@@ -532,3 +265,5 @@ TEST_CASE("PLY: arrays cannot be added to the file that was read, nor points") {
   document.points.resize(3);
   CHECK_THROWS_AS(document.original->write(file.path(), document, {}, {}), trismooth::WriteError);
 }
+
+}  // namespace ply_test
