@@ -50,11 +50,6 @@ std::string format_list() {
   return list;
 }
 
-std::string describe_unavailable(FileFormat format) {
-  return "this program was built without VTK, which ." + std::string(to_string(format)) + " needs; available are " +
-         format_list();
-}
-
 bool has_arrays(FileFormat format) {
   return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
 }

@@ -28,9 +28,6 @@ std::span<const FileFormat> all_formats();
 /// ".off, .obj, ...": the available formats, for messages.
 std::string format_list();
 
-/// For messages: "this program was built without VTK, which .vtu needs; available are .off, ...".
-std::string describe_unavailable(FileFormat format);
-
 /// True for the formats that hold named arrays (vtk, vtu, vtp), false for those that do not.
 bool has_arrays(FileFormat format);
 

@@ -42,6 +42,11 @@ std::string unknown_extension(const std::filesystem::path& path) {
   return "the extension '" + path.extension().string() + "' names no format; known are " + format_list();
 }
 
+std::string describe_unavailable(FileFormat format) {
+  return "this program was built without VTK, which ." + std::string(to_string(format)) + " needs; available are " +
+         format_list();
+}
+
 /// Formats state the rows of arrays by the counts of points and cells.
 void require_rows(const std::filesystem::path& path, std::span<const DataArray> arrays, std::size_t rows,
                   std::string_view of) {

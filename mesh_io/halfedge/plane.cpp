@@ -288,7 +288,8 @@ std::string PlaneFit::fault() const {
   std::array<char, 32> digits{};
   const char* const end =
       std::to_chars(digits.data(), digits.data() + digits.size(), distance, std::chars_format::general, 3).ptr;
-  return "the mesh is not planar: vertex " + std::to_string(outside) + " is " + std::string(digits.data(), end) +
+  return "the mesh is not planar: vertex " + std::to_string(outside) + " is " +
+         std::string(digits.data(), static_cast<std::size_t>(end - digits.data())) +
          " away from the plane that fits best, more than 1e-6 of the extent or a tenth of the size of its elements";
 }
 

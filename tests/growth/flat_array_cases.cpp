@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace {
 
 using test_meshes::Mesh;
 
-void smooth_once(const Mesh& mesh, std::vector<double> xy, const std::vector<std::int32_t>& indices) {
+void smooth_once(const Mesh& mesh, std::vector<double> xy, std::span<const std::int32_t> indices) {
   trismooth::SmoothingOptions options;
   options.threads = 1;
   options.max_sweeps = 2;

@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/file_format.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -26,6 +27,20 @@ TEST_CASE("every format is named by its extension, in any case of letters and in
     CHECK(trismooth::format_list().find("." + name) != std::string::npos);
   }
   CHECK(names == std::set<std::string>{"obj", "off", "ply", "stl", "vtk", "vtp", "vtu"});
+}
+
+TEST_CASE("a build reads and writes what its list of formats says, in the order of the enumeration") {
+  std::string list;
+  for (const FileFormat format : all_formats()) {
+    CHECK((is_available(format) || format == FileFormat::vtu || format == FileFormat::vtp));
+    if (is_available(format)) {
+      list.append(list.empty() ? "." : ", .").append(to_string(format));
+    }
+  }
+  CHECK(trismooth::format_list() == list);
+  CHECK(list.starts_with(".off, .obj, .ply, .stl, .vtk"));
+  // The tests themselves need VTK.
+  CHECK(std::ranges::all_of(all_formats(), &trismooth::is_available));
 }
 
 TEST_CASE("the last extension counts, and nothing else of the name") {
