@@ -1,24 +1,11 @@
 #!/usr/bin/env bash
 # Makes the documentation as pages to read in a browser, of README.md, docs/ and the public headers:
 #
-#   scripts/docs.sh                 into build/docs/html; fails for what Doxygen warns of
-#   scripts/docs.sh --no-install    the same with what is installed; exits with 77 if that is no Doxygen
+#   scripts/docs.sh      into build/docs/html; fails for what Doxygen warns of
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-case "${1:-}" in
-  '') "$project/scripts/install-deps.sh" --docs ;;
-  --no-install)
-    if ! command -v doxygen >/dev/null; then
-      echo "skipped: Doxygen is not installed; scripts/install-deps.sh --docs installs it"
-      exit 77
-    fi
-    ;;
-  *)
-    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
-    exit 2
-    ;;
-esac
+"$project/scripts/install-deps.sh" --docs
 cd "$project"
 output=build/docs
 include=$output/include/trismooth
