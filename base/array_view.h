@@ -16,6 +16,7 @@ class ArrayView : public std::span<const T> {
   /// No numbers.
   constexpr ArrayView() = default;
 
+  /// A view of these numbers.
   template <class R>
   requires array_layout::ContiguousRange<R> && array_layout::Lasting<R> &&
       std::is_convertible_v<R&&, std::span<const T>>

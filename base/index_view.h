@@ -48,9 +48,11 @@ class IndexView {
     require_whole_triangles(array_layout::number_count(numbers));
   }
 
+  /// Triangles of a type that is three numbers.
   template <class R>
   requires array_layout::IndexTuples<R> IndexView(R&& triangles) : IndexView(array_layout::tuple_rows(triangles)) {}
 
+  /// An Eigen matrix of three rows or columns by its type.
   template <class M>
   requires array_layout::TriangleMatrix<M> IndexView(M&& matrix)
       : IndexView(array_layout::rows_by_type<3, 3>(matrix)) {}

@@ -49,10 +49,12 @@ concept PointMatrix = CoordinateMatrix<M> &&(ColumnsOf<M, 2, 3> || RowsOf<M, 2, 
 /// taken: they would be gone with it.
 class ConstPointView {
  public:
+  /// Points of a type that is two or three numbers.
   template <class R>
   requires array_layout::CoordinateTuples<R> ConstPointView(R&& points)
       : ConstPointView(array_layout::tuple_rows(points)) {}
 
+  /// An Eigen matrix of two or three rows or columns by its type.
   template <class M>
   requires array_layout::PointMatrix<M> ConstPointView(M&& matrix)
       : ConstPointView(array_layout::rows_by_type<2, 3>(matrix)) {}
@@ -80,9 +82,11 @@ class ConstPointView {
   [[nodiscard]] double z(std::size_t v) const { return number(v, 2); }
 
  protected:
+  /// Points of which all has been checked.
   ConstPointView(const std::byte* first, std::size_t size, std::size_t components, std::ptrdiff_t point_stride,
                  std::ptrdiff_t component_stride, Storage storage);
 
+  /// Where number `k` of point `v` is.
   const std::byte* at(std::size_t v, std::size_t k) const {
     return first_ + static_cast<std::ptrdiff_t>(v) * point_stride_ + static_cast<std::ptrdiff_t>(k) * component_stride_;
   }
@@ -106,10 +110,12 @@ class ConstPointView {
 /// The same for points that are written as well: made from numbers that are not const.
 class PointView : public ConstPointView {
  public:
+  /// Points of a type that is two or three numbers.
   template <class R>
   requires array_layout::CoordinateTuples<R> && array_layout::WritableCoordinate<array_layout::TupleNumberOf<R>>
   PointView(R&& points) : ConstPointView(array_layout::tuple_rows(points)) {}
 
+  /// An Eigen matrix of two or three rows or columns by its type.
   template <class M>
   requires array_layout::PointMatrix<M> && array_layout::WritableCoordinate<array_layout::MatrixNumberOf<M>> PointView(
       M&& matrix)

@@ -63,6 +63,7 @@ struct ArrayDescription {
   std::vector<ArrayInformation> information;  ///< in the file's order
   std::vector<std::string> roles;             ///< in which it is the active one of its kind: "Scalars", "Vectors", ...
 
+  /// Whether there is nothing to say.
   bool empty() const { return component_names.empty() && information.empty() && roles.empty(); }
   bool operator==(const ArrayDescription&) const = default;
 };

@@ -51,6 +51,7 @@ struct MeshDocument {
   std::vector<std::string> losses;      ///< what no file that is written from it gets, one sentence each
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
+  /// Points.
   std::size_t point_count() const { return points.size() / 3; }
   /// What the coordinates of a point that is moved must be numbers of, so that the file can hold each: float32 where it
   /// stores any of x, y, z so.
