@@ -93,12 +93,13 @@ class IndexView {
   bool is_signed_;
 };
 
-/// An Eigen matrix of indices with a triangle a row (libigl's F) or a column, where its type does not tell (MatrixXi).
-/// Throws std::invalid_argument unless these have three numbers.
+/// An Eigen matrix of indices with a triangle a row (libigl's F), where its type does not tell (MatrixXi). Throws
+/// std::invalid_argument unless rows have three numbers.
 template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_rows(M&& matrix) {
   return IndexView(array_layout::matrix_rows(matrix));
 }
+/// The same with a triangle a column.
 template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_columns(M&& matrix) {
   return IndexView(array_layout::matrix_columns(matrix));

@@ -195,12 +195,13 @@ template <array_layout::Coordinate T>
   return array_layout::strided_points(first, count, stride_bytes, 3);
 }
 
-/// An Eigen matrix with a point a row (libigl's V) or a column, where its type does not tell (MatrixXd). Throws
-/// std::invalid_argument unless these have two or three numbers.
+/// An Eigen matrix with a point a row (libigl's V), where its type does not tell (MatrixXd). Throws
+/// std::invalid_argument unless rows have two or three numbers.
 template <array_layout::CoordinateMatrix M>
 [[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_rows(M&& matrix) {
   return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_rows(matrix));
 }
+/// The same with a point a column.
 template <array_layout::CoordinateMatrix M>
 [[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_columns(M&& matrix) {
   return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_columns(matrix));

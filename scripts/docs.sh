@@ -11,7 +11,7 @@ output=build/docs
 include=$output/include/trismooth
 rm -rf "$output"
 mkdir -p "$include"
-# The public headers, as CMake has them.
+# The public headers, as CMake has them. Doxygen would take instances of templates for functions of their own.
 find . -name CMakeLists.txt -not -path './build*' -exec cat {} + | tr '\n' ' ' |
   grep --only-matching 'trismooth_public_headers([^)]*)' | grep --only-matching '[a-z0-9_/]*\.h\b' |
   while read -r header; do
@@ -19,10 +19,10 @@ find . -name CMakeLists.txt -not -path './build*' -exec cat {} + | tr '\n' ' ' |
     case $header in
       trismooth.h) cp cmake/trismooth.h "$include" ;;
       version.h) cp cmake/version.h.in "$include/version.h" ;;
-      *) cp "$header" "$include/$header" ;;
+      *) sed '/^extern template/d' "$header" >"$include/$header" ;;
     esac
   done
-pages=(README.md CONTRIBUTING.md SECURITY.md docs/*.md)
+pages=(README.md CONTRIBUTING.md SECURITY.md docs/*.md docs/namespaces.dox)
 {
   cat docs/Doxyfile
   echo "OUTPUT_DIRECTORY = $output"

@@ -56,12 +56,14 @@ class [[nodiscard]] SmoothingPlan {
 /// The same, as a function: `auto p = plan(n, triangles, constraints, options); p.smooth(points);`
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                    const SmoothingOptions& options = {});
+/// The same without constraints.
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options = {});
 
-/// Smooths the caller's points in place, once, with constraints or without. For arguments, errors and guarantees see
-/// SmoothingPlan. What was done is in the result, which nobody has to look at.
+/// Smooths the caller's points in place, once. For arguments, errors and guarantees see SmoothingPlan. What was done is
+/// in the result, which nobody has to look at.
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const Constraints& constraints,
                        const SmoothingOptions& options = {});
+/// The same without constraints: fixed is what the mesh itself holds.
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const SmoothingOptions& options = {});
 
 /// A plain array does not say whether it holds x and y or x, y and z of a vertex: say xy_points(array) or
