@@ -15,7 +15,7 @@
 
 namespace trismooth {
 
-/// The annotations of a run. Their names, here and in README.md, stay:
+/// The annotations of a run. Their names, here and in docs/command_line.md, stay:
 ///
 ///     trismooth:METRIC         cells   the metric's value (see metrics.h), of the mesh as it is written
 ///     trismooth:METRIC_before  cells   the same of the mesh as it was read, where it was smoothed

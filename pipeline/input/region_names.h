@@ -5,7 +5,7 @@
 namespace trismooth {
 
 /// Whether programs write regions under that name of a cell array ("attribute", "gmsh:physical", "SubdomainID", ...).
-/// Compared by plain_name(): without case, blanks and punctuation. The list is in region_names.cpp and in README.md.
+/// Compared by plain_name(): without case, blanks and punctuation. The list is in region_names.cpp.
 bool is_region_name(std::string_view name);
 
 /// Whether a cell array of that name divides or numbers cells for another purpose: parts of a parallel run, ghost
