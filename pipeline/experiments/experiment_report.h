@@ -44,7 +44,7 @@ std::string text_of(const ExperimentReport& report);
 /// what was not measured or published is empty.
 std::string csv_of(const ExperimentReport& report);
 
-/// Everything, under keys that stay: see README.md. What was not measured is null.
+/// Everything, under keys that stay: see docs/command_line.md. What was not measured is null.
 std::string json_of(const ExperimentReport& report);
 
 /// A page for people, with the figures: one file that needs no other, no network and no script, and prints well. It is
