@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   app.add_option("--vertices", settings.vertices, "default: those of each experiment");
   app.add_option("--executions", settings.executions, "of to-stop: cpu, single-block, cdp, resident")
       ->capture_default_str();
-  app.add_option("--layouts", settings.layouts)->capture_default_str();
+  app.add_option("--layouts", settings.layouts, "of single-block and cdp")->capture_default_str();
   app.add_option("--forms", settings.forms, "of all but full-sweeps, which is Form A")->capture_default_str();
   app.add_option("--precisions", settings.precisions)->capture_default_str();
   app.add_option("--method", settings.method)->capture_default_str();

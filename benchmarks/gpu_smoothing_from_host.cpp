@@ -6,7 +6,7 @@
 #include <cuda_runtime_api.h>
 #include <fmt/format.h>
 
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "gpu_smoothing_experiments.h"
@@ -34,7 +34,7 @@ class PageLocked {
 
 void measure_arrays(Session& session, const RandomMesh& mesh, bool locked, const std::string& form,
                     const std::string& precision) {
-  SmoothingOptions options = session.options("resident", session.settings().layouts.front(), form, precision, mesh);
+  SmoothingOptions options = session.options("resident", "-", form, precision, mesh);
   options.topology = Topology::device;
   const auto indices = flat_triangles(mesh);
   std::vector<std::int32_t> triangles(indices.begin(), indices.end());
@@ -109,8 +109,7 @@ void measure_serial(Session& session, const RandomMesh& mesh, const std::string&
   constexpr int most_serial_runs = 3;
   const int runs = session.settings().runs;
   SameBits bits(session);
-  const Spread device =
-      to_stop(mesh, session.options("resident", session.settings().layouts.front(), form, precision, mesh), runs, bits);
+  const Spread device = to_stop(mesh, session.options("resident", "-", form, precision, mesh), runs, bits);
   SmoothingOptions options = session.options("cpu", "-", form, precision, mesh);
   const Spread best = to_stop(mesh, options, runs, bits);
   options.threads = 1;

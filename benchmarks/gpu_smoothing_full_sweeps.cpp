@@ -35,9 +35,9 @@ Sweeps run_sweeps(Session& session, const RandomMesh& mesh, SmoothingOptions opt
   return measured;
 }
 
-void measure(Session& session, const RandomMesh& mesh, const std::string& layout, const std::string& precision) {
+void measure(Session& session, const RandomMesh& mesh, const std::string& precision) {
   const std::int64_t sweeps = session.settings().full_sweeps;
-  SmoothingOptions options = session.options("resident", layout, "a", precision, mesh);
+  SmoothingOptions options = session.options("resident", "-", "a", precision, mesh);
   const Sweeps once = run_sweeps(session, mesh, options, sweeps);
   const Sweeps twice = run_sweeps(session, mesh, options, 2 * sweeps);
   const auto updates = static_cast<double>(twice.last.vertex_updates - once.last.vertex_updates);
@@ -50,14 +50,13 @@ void measure(Session& session, const RandomMesh& mesh, const std::string& layout
   const Spread of_sweeps(picoseconds);
   const double bytes = options.precision == Precision::single_precision ? 44 : 60;
   const auto share = [&](double ps) { return bytes / (ps * 1e-12) / session.bandwidth(); };
-  fmt::print(" {:>9} {:<4} {:<6} {:>5} {:>22} {:>22} {:>5.0f}   {:.3f} ({:.3f}-{:.3f})\n", vertex_count_of(mesh),
-             layout, precision, twice.last.sweeps - once.last.sweeps, of_sweeps.text(), Spread(with_the_rest).text(),
-             bytes, share(of_sweeps.median), share(of_sweeps.most), share(of_sweeps.least));
+  fmt::print(" {:>9} {:<6} {:>5} {:>22} {:>22} {:>5.0f}   {:.3f} ({:.3f}-{:.3f})\n", vertex_count_of(mesh), precision,
+             twice.last.sweeps - once.last.sweeps, of_sweeps.text(), Spread(with_the_rest).text(), bytes,
+             share(of_sweeps.median), share(of_sweeps.most), share(of_sweeps.least));
   std::fflush(stdout);
   session.report()["full_sweeps"].push_back(
       {{"vertices", vertex_count_of(mesh)},
        {"form", "a"},
-       {"layout", layout},
        {"precision", precision},
        {"method", session.settings().method},
        {"runs", session.settings().runs},
@@ -77,13 +76,11 @@ void sweep_fully(Session& session) {
   fmt::print(
       "\nfull sweeps, Form A: picoseconds per vertex and sweep, device clock, median (least-most)\n"
       "\"sweeps\": (2 N sweeps - N sweeps) / N, nothing else in it; \"and frame\": 2 N sweeps with entering the frame\n"
-      " {:>9} {:<4} {:<6} {:>5} {:>22} {:>22} {:>5}   {}\n",
-      "vertices", "lay.", "prec.", "N", "sweeps", "and frame", "bytes", "share of the copy bandwidth");
+      " {:>9} {:<6} {:>5} {:>22} {:>22} {:>5}   {}\n",
+      "vertices", "prec.", "N", "sweeps", "and frame", "bytes", "share of the copy bandwidth");
   for (const std::int64_t vertices : session.sizes({4'000'000, 16'000'000})) {
     for (const std::string& precision : session.settings().precisions) {
-      for (const std::string& layout : session.settings().layouts) {
-        measure(session, session.mesh(vertices), layout, precision);
-      }
+      measure(session, session.mesh(vertices), precision);
     }
   }
 }

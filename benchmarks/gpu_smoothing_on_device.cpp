@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/cuda/device_mesh.h"
-#include "trismooth/cuda/topology/topology.h"
+#include "trismooth/cuda/topology/device_topology.h"
 
 #include "gpu_smoothing_experiments.h"
 
@@ -34,7 +34,7 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
     cuda::DeviceRings rings;
     const double connect = milliseconds_of([&] {
       topology.emplace(context, vertex_count_of(mesh), static_cast<std::int32_t>(mesh.triangles.size()),
-                       triangles.data(), cuda::DeviceConstraints{}, cuda::NeighbourFinding::parallel);
+                       triangles.data(), cuda::DeviceConstraints{}, cuda::NeighbourSearch::parallel);
       context.synchronize();
     });
     const double orient = milliseconds_of([&] {
@@ -68,14 +68,13 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
                                        {"device_bytes_per_vertex", bytes}});
 }
 
-void measure_plan(Session& session, const RandomMesh& mesh, const std::string& layout, const std::string& form,
-                  const std::string& precision) {
+void measure_plan(Session& session, const RandomMesh& mesh, const std::string& form, const std::string& precision) {
   cuda::Context context;
   const cuda::DeviceBuffer<std::int32_t> triangles(context, flat_triangles(mesh));
   const cuda::DeviceBuffer<double> original(context, flat_points(mesh));
   cuda::DeviceBuffer<double> xy(context, original.size());
   cuda::Plan plan({vertex_count_of(mesh), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}},
-                  session.options("resident", layout, form, precision, mesh), context.stream());
+                  session.options("resident", "-", form, precision, mesh), context.stream());
   SameBits bits(session);
   std::vector<double> calls;
   std::vector<double> prepare;
@@ -103,12 +102,11 @@ void measure_plan(Session& session, const RandomMesh& mesh, const std::string& l
     sweeps.push_back(result.timings.smooth);
     commit.push_back(result.timings.commit);
   }
-  fmt::print(" {:>9} {:<4} {:<4} {:<6} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>6}\n", vertex_count_of(mesh),
-             layout, form, precision, Spread(calls).text(), Spread(prepare).median, Spread(sweeps).median,
-             Spread(commit).median, first, result.sweeps);
+  fmt::print(" {:>9} {:<4} {:<6} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>6}\n", vertex_count_of(mesh), form,
+             precision, Spread(calls).text(), Spread(prepare).median, Spread(sweeps).median, Spread(commit).median,
+             first, result.sweeps);
   std::fflush(stdout);
   session.report()["plan"].push_back({{"vertices", vertex_count_of(mesh)},
-                                      {"layout", layout},
                                       {"form", form},
                                       {"precision", precision},
                                       {"method", session.settings().method},
@@ -139,14 +137,12 @@ void call_plan_again(Session& session) {
   session.require_device();
   fmt::print(
       "\na plan called again, coordinates on the device: milliseconds by the host's clock, median (least-most)\n"
-      " {:>9} {:<4} {:<4} {:<6} {:>24} {:>9} {:>9} {:>9} {:>9} {:>6}\n",
-      "vertices", "lay.", "form", "prec.", "a call", "prepare", "sweeps", "commit", "first", "sweeps");
+      " {:>9} {:<4} {:<6} {:>24} {:>9} {:>9} {:>9} {:>9} {:>6}\n",
+      "vertices", "form", "prec.", "a call", "prepare", "sweeps", "commit", "first", "sweeps");
   for (const std::int64_t vertices : session.sizes({100'000})) {
     for (const std::string& precision : session.settings().precisions) {
       for (const std::string& form : session.settings().forms) {
-        for (const std::string& layout : session.settings().layouts) {
-          measure_plan(session, session.mesh(vertices), layout, form, precision);
-        }
+        measure_plan(session, session.mesh(vertices), form, precision);
       }
     }
   }

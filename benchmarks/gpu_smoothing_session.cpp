@@ -10,7 +10,7 @@
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 
 namespace benchmarks {
@@ -96,7 +96,7 @@ SmoothingOptions Session::options(const std::string& execution, const std::strin
   if (execution != "cpu") {
     options.backend = &cuda::backend();
     options.execution = parse_enum<Execution>(execution);
-    options.layout = parse_enum<Layout>(layout);
+    options.layout = layout == "-" ? Layout::aos : parse_enum<Layout>(layout);
     if (settings_.topology != "auto") {
       options.topology = parse_enum<Topology>(settings_.topology);
     } else if (vertex_count_of(mesh) >= vertices_for_device_topology) {

@@ -59,7 +59,7 @@ class Session {
   std::vector<std::int64_t> sizes(std::initializer_list<std::int64_t> of_experiment) const;
   /// Generated when it is first asked for.
   const trismooth::RandomMesh& mesh(std::int64_t vertices);
-  /// The options of the command line for an execution, or for "cpu", where `layout` means nothing.
+  /// The options of the command line for an execution, or for "cpu". `layout`: "-" for what has none.
   trismooth::SmoothingOptions options(const std::string& execution, const std::string& layout, const std::string& form,
                                       const std::string& precision, const trismooth::RandomMesh& mesh) const;
 

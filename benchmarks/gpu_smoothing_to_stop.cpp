@@ -95,7 +95,8 @@ void smooth_to_stop(Session& session) {
         SameBits bits(session);
         for (const std::string& execution : settings.executions) {
           const bool on_cpu = execution == "cpu";
-          for (const std::string& layout : on_cpu ? std::vector<std::string>{"-"} : settings.layouts) {
+          const bool has_layouts = !on_cpu && execution != "resident";
+          for (const std::string& layout : has_layouts ? settings.layouts : std::vector<std::string>{"-"}) {
             if (on_cpu || session.has_device()) {
               measure(session, mesh, execution, layout, form, precision, bits);
             }

@@ -14,8 +14,8 @@
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/runtime/host_copy.h"
-#include "trismooth/cuda/runtime/memory_need.h"
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
@@ -68,8 +68,7 @@ class RingSmoother final : public PreparedSmoother {
         frame_(context_, 1),
         fixed_(mesh.fixed) {
     const Stopwatch watch;
-    smoother_ = make_device_smoother(
-        context_, pack_rings(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options), options);
+    smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
     if (options.measures_shape()) {
       fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
     }
@@ -168,7 +167,7 @@ class CudaBackend final : public Backend {
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
     require_device();
-    return find_rings_on_device(local, triangles, constraints, neighbour_finding(options.execution));
+    return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution));
   }
 
   std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,

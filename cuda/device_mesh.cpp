@@ -13,11 +13,12 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
-#include "trismooth/cuda/runtime/memory_need.h"
+#include "trismooth/cuda/topology/device_topology.h"
 
 namespace trismooth::cuda {
 
@@ -52,7 +53,7 @@ class Plan::Implementation {
         options_(options),
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
-                  neighbour_finding(options.execution)),
+                  neighbour_search(options.execution)),
         extent_(context_) {}
 
   SmoothingResult smooth(double* xy, Storage storage) {
@@ -65,9 +66,9 @@ class Plan::Implementation {
     require_points(xy, vertex_count_);
     require_on_device(xy, static_cast<std::size_t>(vertex_count_), "xy");
     DeviceBuffer<Point2<double>> stored(context_, static_cast<std::size_t>(vertex_count_));
-    widen(context_, xy, vertex_count_, stored.data());
+    widen_coordinates(context_, xy, vertex_count_, stored.data());
     SmoothingResult result = smooth_stored(stored.data(), Storage::float32);
-    narrow(context_, stored.data(), vertex_count_, xy);
+    narrow_coordinates(context_, stored.data(), vertex_count_, xy);
     context_.synchronize();
     return result;
   }
@@ -104,8 +105,7 @@ class Plan::Implementation {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
     if (smoother_ == nullptr) {
-      smoother_ =
-          make_device_smoother(context_, pack_rings(context_, topology_.rings(), std::move(local), options_), options_);
+      smoother_ = make_device_smoother(context_, topology_.rings(), std::move(local), options_);
       context_.synchronize();
     }
   }

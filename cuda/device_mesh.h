@@ -6,7 +6,7 @@
 
 #include <cuda_runtime_api.h>
 
-#include "trismooth/cuda/topology/topology.h"
+#include "trismooth/cuda/device_constraints.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -58,7 +58,7 @@ class Plan {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The same, once: analysis, sweeps and commit of a mesh in device memory, without a copy to the host and back.
+/// The same, once: analysis, sweeps and guard of a mesh in device memory, without a copy to the host and back.
 SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options = {},
                        cudaStream_t stream = nullptr);
 /// The same for coordinates of float.

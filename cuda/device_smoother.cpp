@@ -5,44 +5,49 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/guard/commit.h"
+#include "trismooth/cuda/guard/guard.h"
+#include "trismooth/cuda/packing/coordinates.h"
+#include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/sweep_engine.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
-#include "trismooth/cuda/sweeps/sweep_engine.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::cuda {
 
 namespace {
 
-/// What a launch of sweeps and the commit behind it leave for the host, in one piece: one copy brings it over.
+/// What a launch of sweeps and the guard behind it leave for the host, in one piece: one copy brings it over.
 struct RunRecord {
   static constexpr std::int32_t most_sweeps = 256;
 
   LoopState state;
-  CommitState commit;
+  GuardState guard;
   std::array<SweepSums, most_sweeps> sums;
 };
 
-template <class T, Layout layout>
-class TypedSmoother final : public DeviceSmoother {
+/// Drives an engine in working precision T from stored coordinates to stored coordinates.
+template <class T>
+class SweepDriver final : public DeviceSmoother {
  public:
-  TypedSmoother(Context& context, PackedDeviceRings rings, const SmoothingOptions& options)
+  SweepDriver(Context& context, PackedMesh mesh, const SmoothingOptions& options)
       : context_(context),
         options_(options),
         device_(require_device()),
-        rings_(std::move(rings)),
-        before_(context, static_cast<std::size_t>(rings_.vertex_count())),
+        order_(std::move(mesh.order)),
+        before_(context, static_cast<std::size_t>(order_.vertex_count())),
         record_(context, 1),
         timeline_(context) {
-    if (rings_.free_count() > 0) {
-      engine_ = make_sweep_engine<T, layout>(context, rings_, options);
+    if (order_.free_count() > 0) {
+      engine_.emplace(make_sweep_engine<T>(context, order_, std::move(mesh.rings), options.method));
       if (options.guard) {
-        commit_buffers_ = CommitBuffers(context, rings_.free_count());
+        guard_buffers_ = GuardBuffers(context, order_.free_count());
       }
     }
   }
@@ -52,19 +57,20 @@ class TypedSmoother final : public DeviceSmoother {
     SmoothingResult result;
     result.backend = "cuda";
     result.device = device_;
-    result.free_vertices = rings_.free_count();
-    result.colours = rings_.colours;
+    result.free_vertices = order_.free_count();
+    result.colours = order_.colours;
     result.reproducible = options_.order == Order::colour;
-    if (engine_ == nullptr) {
+    if (!engine_) {
       sweep_nothing(fixed_quotient, result);
       return result;
     }
     timeline_.rewind();
     timeline_.mark();
-    Commit commit{{&rings_, before_.data(), {}, {}, &record_.data()->state, false, frame, storage}, stored};
-    enter(commit, result);
-    run(fixed_quotient, commit, result);
-    end(commit, result);
+    Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
+                  stored};
+    enter(ending, result);
+    run(fixed_quotient, ending, result);
+    finish(ending, result);
     result.timings.smooth = timeline_.milliseconds(0);
     result.timings.commit = timeline_.milliseconds(1);
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
@@ -74,10 +80,17 @@ class TypedSmoother final : public DeviceSmoother {
  private:
   using Clock = std::chrono::steady_clock;
 
-  struct Commit {
-    CommitInput<T, layout> input;
+  /// What comes behind the last sweep: the guard, and the writing to `stored`.
+  struct Ending {
+    GuardInput<T> input;
     Point2<double>* stored;
   };
+
+  /// Calls body(engine) with the engine as it is.
+  template <class Body>
+  decltype(auto) with_engine(const Body& body) {
+    return std::visit(body, *engine_);
+  }
 
   bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
 
@@ -89,8 +102,8 @@ class TypedSmoother final : public DeviceSmoother {
     rules.tolerance = options_.tolerance;
     rules.target = options_.target_quality.value_or(no_target);
     rules.fixed_quotient = fixed_quotient;
-    rules.batch_count = static_cast<std::int32_t>(rings_.batches.size()) - 1;
-    rules.batches = rings_.batch_begins.data();
+    rules.batch_count = static_cast<std::int32_t>(order_.batches.size()) - 1;
+    rules.batches = order_.batch_begins.data();
     return rules;
   }
 
@@ -109,18 +122,19 @@ class TypedSmoother final : public DeviceSmoother {
   }
 
   /// Queues the way to the working positions from those that are stored.
-  void enter(const Commit& commit, SmoothingResult& result) {
-    const auto [first, second] = engine_->input();
-    launch_enter(commit.stored, rings_.input_index.data(), rings_.vertex_count(), commit.input.frame, before_.data(),
-                 first, second, context_.stream());
-    engine_->begin();
+  void enter(const Ending& ending, SmoothingResult& result) {
+    with_engine([&](auto& engine) {
+      const auto [first, second] = engine.input();
+      enter_frame_packed(context_, ending.stored, order_, ending.input.frame, before_.data(), first, second);
+      engine.begin();
+    });
     ++result.kernel_launches;
   }
 
-  /// Sweeps to a stop and queues the commit. Behind resident sweeps it is queued without waiting for them: should they
-  /// not have ended the run, it does nothing, and is queued again. Else the commit comes when the host knows of the
-  /// end, as it does where the caller may have said stop before that.
-  void run(double fixed_quotient, Commit& commit, SmoothingResult& result) {
+  /// Sweeps to a stop and queues the ending. Where the engine may be followed it is queued without waiting for the
+  /// sweeps: should they not have ended the run, it does nothing, and is queued again. Else it comes when the host
+  /// knows of the end, as it does where the caller may have said stop before that.
+  void run(double fixed_quotient, Ending& ending, SmoothingResult& result) {
     const auto start = Clock::now();
     const auto seconds_since = [](Clock::time_point moment) {
       return std::chrono::duration<double>(Clock::now() - moment).count();
@@ -130,10 +144,10 @@ class TypedSmoother final : public DeviceSmoother {
     state = LoopState{};
     if (options_.target_quality && min_shape_now(loop, result) >= *options_.target_quality) {
       result.stop_reason = StopReason::quality_target;
-      commit_now(commit, result);
+      end_now(ending, result);
       return;
     }
-    const bool commits_behind = options_.execution == Execution::resident && !options_.progress;
+    const bool follows = !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
     const bool watched = static_cast<bool>(options_.progress);
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
     for (;;) {
@@ -142,11 +156,11 @@ class TypedSmoother final : public DeviceSmoother {
       if (options_.max_sweeps > 0) {
         loop.remaining = options_.max_sweeps - result.sweeps;
         loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
-        commit.input.is_over = loop.sweeps == loop.remaining;
+        ending.input.is_over = loop.sweeps == loop.remaining;
       }
       launch(loop, result);
-      if (commits_behind) {
-        queue_commit(commit, result);
+      if (follows) {
+        queue_ending(ending, result);
       }
       read_record(result);
       bool stopped = read_sweeps(loop, result);
@@ -157,7 +171,7 @@ class TypedSmoother final : public DeviceSmoother {
       // The last sweep that the caller was told of is not the last that was made, or `current` not where it left us.
       const bool overran = stopped && (is_repeating || result.sweeps != sweeps_before_ + state.sweeps);
       if (overran) {
-        sweep_again(loop, commit, result);
+        sweep_again(loop, ending, result);
         result.stop_reason = StopReason::cancelled;
       } else if (is_repeating) {
         result.stop_reason = StopReason::sweep_limit;
@@ -173,8 +187,8 @@ class TypedSmoother final : public DeviceSmoother {
         batches.adapt(seconds_since(launched), seconds_since(start));
         continue;
       }
-      if (!commits_behind || result.stop_reason == StopReason::time_limit) {
-        commit_now(commit, result);
+      if (!follows || result.stop_reason == StopReason::time_limit) {
+        end_now(ending, result);
       }
       return;
     }
@@ -182,8 +196,8 @@ class TypedSmoother final : public DeviceSmoother {
 
   /// The run once more up to the sweep at which the caller said stop: it gives the same bits again (but for
   /// Order::unordered), and costs less than to keep the positions of every sweep.
-  void sweep_again(LoopRules loop, const Commit& commit, SmoothingResult& result) {
-    enter(commit, result);
+  void sweep_again(LoopRules loop, const Ending& ending, SmoothingResult& result) {
+    enter(ending, result);
     host_record_.state = LoopState{};
     loop.remaining = 0;
     for (std::int64_t left = result.sweeps; left > 0; left -= host_record_.state.sweeps) {
@@ -202,7 +216,8 @@ class TypedSmoother final : public DeviceSmoother {
     host_record_ = RunRecord{};
     host_record_.state = next;
     record_.upload({&host_record_, 1});
-    result.kernel_launches += engine_->sweep(loop, &record_.data()->state, record_.data()->sums.data());
+    result.kernel_launches += with_engine(
+        [&](auto& engine) { return engine.sweep(loop, &record_.data()->state, record_.data()->sums.data()); });
   }
 
   /// Waits for the record of what has been queued.
@@ -215,32 +230,33 @@ class TypedSmoother final : public DeviceSmoother {
     }
   }
 
-  void queue_commit(Commit& commit, SmoothingResult& result) {
+  void queue_ending(Ending& ending, SmoothingResult& result) {
     timeline_.rewind(1);
     timeline_.mark();
-    if (options_.execution == Execution::resident) {
-      commit.input.first = engine_->output(0);
-      commit.input.second = engine_->output(1);
-    } else {
-      commit.input.first = commit.input.second = engine_->output(host_record_.state.current);
-    }
-    result.kernel_launches +=
-        launch_commit(commit.input, commit_buffers_, commit.stored, &record_.data()->commit, context_.stream());
+    result.kernel_launches += with_engine([&](auto& engine) {
+      const auto [first, second] = engine.output(host_record_.state.current);
+      ending.input.first = first;
+      ending.input.second = second;
+      return launch_guard(engine.rings(), ending.input, guard_buffers_, ending.stored, &record_.data()->guard,
+                          context_.stream());
+    });
     timeline_.mark();
   }
 
-  /// Commits where the host knows that the run is over.
-  void commit_now(Commit& commit, SmoothingResult& result) {
-    commit.input.is_over = true;
-    queue_commit(commit, result);
+  /// The ending where the host knows that the run is over.
+  void end_now(Ending& ending, SmoothingResult& result) {
+    ending.input.is_over = true;
+    queue_ending(ending, result);
     record_.download({&host_record_, 1});
   }
 
-  /// What is left of the commit when its record has been read.
-  void end(const Commit& commit, SmoothingResult& result) {
+  /// What is left of the ending when its record has been read.
+  void finish(const Ending& ending, SmoothingResult& result) {
     const std::int64_t queued = result.kernel_launches;
-    CommitOutcome outcome = finish_commit(context_, commit.input, commit_buffers_, commit.stored,
-                                          &record_.data()->commit, host_record_.commit, result.kernel_launches);
+    DeviceGuardOutcome outcome = with_engine([&](const auto& engine) {
+      return finish_guard(context_, engine.rings(), ending.input, guard_buffers_, ending.stored, &record_.data()->guard,
+                          host_record_.guard, result.kernel_launches);
+    });
     if (result.kernel_launches > queued) {
       timeline_.rewind(2);
       timeline_.mark();
@@ -293,7 +309,7 @@ class TypedSmoother final : public DeviceSmoother {
   double min_shape_now(const LoopRules& loop, SmoothingResult& result) {
     host_record_ = RunRecord{};
     record_.upload({&host_record_, 1});
-    engine_->measure(record_.data()->sums.data());
+    with_engine([&](const auto& engine) { engine.measure(record_.data()->sums.data()); });
     record_.download({&host_record_, 1});
     ++result.kernel_launches;
     return min_shape_after(host_record_.sums.front(), loop);
@@ -302,33 +318,26 @@ class TypedSmoother final : public DeviceSmoother {
   Context& context_;
   SmoothingOptions options_;
   std::string device_;
-  PackedDeviceRings rings_;
+  VertexOrder order_;
   DeviceBuffer<Point2<double>> before_;
-  CommitBuffers commit_buffers_;
+  GuardBuffers guard_buffers_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
   std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began
   Timeline timeline_;
-  std::unique_ptr<SweepEngine<T, layout>> engine_;
+  std::optional<SweepEngine<T>> engine_;  ///< none where there is no free vertex
 };
-
-template <class T>
-std::unique_ptr<DeviceSmoother> make_in_layout(Context& context, PackedDeviceRings rings,
-                                               const SmoothingOptions& options) {
-  if (options.layout == Layout::aos) {
-    return std::make_unique<TypedSmoother<T, Layout::aos>>(context, std::move(rings), options);
-  }
-  return std::make_unique<TypedSmoother<T, Layout::soa>>(context, std::move(rings), options);
-}
 
 }  // namespace
 
-std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, PackedDeviceRings rings,
+std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, DeviceRings rings,
+                                                     DeviceBuffer<Point2<double>> points,
                                                      const SmoothingOptions& options) {
+  PackedMesh mesh = pack(context, std::move(rings), std::move(points), options);
   if (options.precision == Precision::double_precision) {
-    return make_in_layout<double>(context, std::move(rings), options);
+    return std::make_unique<SweepDriver<double>>(context, std::move(mesh), options);
   }
-  return make_in_layout<float>(context, std::move(rings), options);
+  return std::make_unique<SweepDriver<float>>(context, std::move(mesh), options);
 }
 
 }  // namespace trismooth::cuda

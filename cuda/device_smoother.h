@@ -4,7 +4,8 @@
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/cuda/packing/packing.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/cuda/topology/rings.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -18,16 +19,19 @@ class DeviceSmoother {
   DeviceSmoother& operator=(const DeviceSmoother&) = delete;
   virtual ~DeviceSmoother() = default;
 
-  /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, commit.
+  /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, guard.
   /// They are finite. `frame`: their local frame, on the device. `fixed_quotient`: see PreparedSmoother::smooth().
-  /// Fills all of the result but transfers and preparation. From the call on until the commit is done the device is not
-  /// waited for, unless there is a callback, a time limit or a quality target to ask.
+  /// Fills all of the result but transfers and preparation. From the call on until the result is written the device is
+  /// not waited for, unless there is a callback, a time limit or a quality target to ask.
   virtual SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                                  double fixed_quotient) = 0;
 };
 
-/// The smoother for the precision, the layout and the execution that the options name. `context` outlives it.
-std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, PackedDeviceRings rings,
+/// Packs rings in input numbering for these options and makes the smoother for them. `points`: one for every vertex,
+/// local frame, on the device; they steer the order in memory. Both give their memory back. `context` outlives the
+/// smoother.
+std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, DeviceRings rings,
+                                                     DeviceBuffer<Point2<double>> points,
                                                      const SmoothingOptions& options);
 
 }  // namespace trismooth::cuda

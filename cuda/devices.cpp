@@ -4,8 +4,9 @@
 
 #include <cuda_runtime_api.h>
 
+#include "trismooth/cuda/paper/cdp.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_probe.h"
-#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::cuda {
@@ -82,24 +83,8 @@ const std::string& require_device() {
   return name;
 }
 
-namespace {
-
-int attribute(cudaDeviceAttr name) {
-  int device = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
-  int value = 0;
-  TRISMOOTH_CUDA_CHECK(cudaDeviceGetAttribute(&value, name, device));
-  return value;
-}
-
-}  // namespace
-
-int multiprocessor_count() {
-  return attribute(cudaDevAttrMultiProcessorCount);
-}
-
-std::size_t most_shared_bytes() {
-  return static_cast<std::size_t>(attribute(cudaDevAttrMaxSharedMemoryPerBlockOptin));
+bool has_cdp() {
+  return built_with_cdp();
 }
 
 }  // namespace trismooth::cuda

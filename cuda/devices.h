@@ -34,9 +34,4 @@ bool has_cdp();
 /// the current device.
 const std::string& require_device();
 
-/// Of the current device. Throw DeviceError.
-int multiprocessor_count();
-/// The most shared memory that a block may ask for.
-std::size_t most_shared_bytes();
-
 }  // namespace trismooth::cuda

@@ -26,6 +26,8 @@ void SmoothingOptions::validate() const {
   checked_threads(threads);
   require(order == Order::colour || (form == Form::in_place && execution != Execution::resident),
           "order 'unordered' goes with form b and execution single-block or cdp only");
+  require(layout == Layout::aos || execution != Execution::resident,
+          "layout 'soa' goes with execution single-block or cdp only");
 }
 
 }  // namespace trismooth

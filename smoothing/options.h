@@ -27,10 +27,11 @@ enum class Form : std::uint8_t {
              ///< vertices are visited colour by colour, and no two of one colour share an edge
 };
 
-/// How coordinates lie in the memory of the device (CUDA only).
+/// How the data of the paper's versions lie in the memory of the device (CUDA single-block and cdp only).
+/// Execution::resident has a way of its own, and goes with `aos`.
 enum class Layout : std::uint8_t {
-  aos,  ///< an array of points: x and y of a vertex side by side
-  soa,  ///< an array of all x and one of all y
+  aos,  ///< an array of structures: x, y and all else of a vertex side by side
+  soa,  ///< a structure of arrays: all x, all y, ...
 };
 
 /// How the sweeps run on the device (CUDA only).
@@ -145,7 +146,8 @@ struct SmoothingOptions {
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
-  /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident.
+  /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident, Layout::soa with
+  /// Execution::resident.
   void validate() const;
 };
 

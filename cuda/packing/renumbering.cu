@@ -2,7 +2,7 @@
 
 #include "trismooth/cuda/packing/renumbering.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
 

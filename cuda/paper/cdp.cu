@@ -1,6 +1,6 @@
 #include "trismooth/cuda/paper/cdp.h"
 #include "trismooth/cuda/paper/cdp_parent.cuh"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/launch.h"
 
 namespace trismooth::cuda {
@@ -44,7 +44,7 @@ __global__ void __launch_bounds__(parent_block_size)
 
 }  // namespace
 
-bool has_cdp() {
+bool built_with_cdp() {
   return true;
 }
 

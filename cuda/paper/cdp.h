@@ -9,7 +9,7 @@
 namespace trismooth::cuda {
 
 /// Whether this build has the CDP version (TRISMOOTH_CDP).
-bool has_cdp();
+bool built_with_cdp();
 
 /// Queues the paper's version with CUDA dynamic parallelism ("CDP-" in its section 3.3.4). A parent of one block makes
 /// one pass (Form A: all vertices; Form B: one colour) and launches two children in order: one updates the quality of

@@ -3,7 +3,7 @@
 
 namespace trismooth::cuda {
 
-bool has_cdp() {
+bool built_with_cdp() {
   return false;
 }
 

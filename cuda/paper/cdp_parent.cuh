@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/cuda/paper/paper_kernels.cuh"
-#include "trismooth/cuda/primitives/block_tally.cuh"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
 
 namespace trismooth::cuda {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/smoothing/options.h"
 
 /// The paper's mesh data structures (its listing 1) in both layouts: coordinates, number and indices of neighbouring
@@ -17,7 +17,7 @@
 namespace trismooth::cuda {
 
 /// The three vertices of a triangle, counter-clockwise.
-struct Corners {
+struct TriangleVertices {
   std::int32_t a;
   std::int32_t b;
   std::int32_t c;
@@ -50,7 +50,7 @@ static_assert(offsetof(VertexRecord<double>, x) == 0 && offsetof(VertexRecord<do
 /// A triangle of the array of structures.
 template <class T>
 struct alignas(8) TriangleRecord {
-  Corners vertices;
+  TriangleVertices vertices;
   T quality[3];  ///< seen from each corner
 };
 static_assert(sizeof(TriangleRecord<float>) == 24 && alignof(TriangleRecord<float>) == 8);
@@ -107,8 +107,10 @@ struct MeshAoS {
     vertices[v].elements = ring_begin;
     vertices[v].boundary = boundary;
   }
-  TRISMOOTH_HOST_DEVICE Corners corners(std::int32_t t) const { return triangles[t].vertices; }
-  TRISMOOTH_HOST_DEVICE void store_corners(std::int32_t t, Corners corners) const { triangles[t].vertices = corners; }
+  TRISMOOTH_HOST_DEVICE TriangleVertices corners(std::int32_t t) const { return triangles[t].vertices; }
+  TRISMOOTH_HOST_DEVICE void store_corners(std::int32_t t, TriangleVertices corners) const {
+    triangles[t].vertices = corners;
+  }
   TRISMOOTH_HOST_DEVICE T quality(std::uint32_t corner) const { return triangles[corner / 3].quality[corner % 3]; }
   TRISMOOTH_HOST_DEVICE void store_quality(std::int32_t t, std::int32_t i, T quality) const {
     triangles[t].quality[i] = quality;
@@ -162,10 +164,10 @@ struct MeshSoA {
     element_begins[v] = ring_begin;
     boundary[v] = is_on_boundary;
   }
-  TRISMOOTH_HOST_DEVICE Corners corners(std::int32_t t) const {
+  TRISMOOTH_HOST_DEVICE TriangleVertices corners(std::int32_t t) const {
     return {triangle_vertices[t], triangle_vertices[at(1) + t], triangle_vertices[at(2) + t]};
   }
-  TRISMOOTH_HOST_DEVICE void store_corners(std::int32_t t, Corners corners) const {
+  TRISMOOTH_HOST_DEVICE void store_corners(std::int32_t t, TriangleVertices corners) const {
     triangle_vertices[t] = corners.a;
     triangle_vertices[at(1) + t] = corners.b;
     triangle_vertices[at(2) + t] = corners.c;

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "trismooth/cuda/paper/mesh_layouts.h"
-#include "trismooth/cuda/primitives/block_tally.cuh"
 #include "trismooth/cuda/runtime/thread_index.cuh"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
 #include "trismooth/cuda/sweeps/sweep_state.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/methods.h"
@@ -62,7 +62,7 @@ __device__ void measure_in_block(const Mesh& mesh, std::int32_t end, std::int32_
 /// The quality of one triangle, seen from each of its corners.
 template <class Mesh>
 __device__ void evaluate_triangle(const Mesh& mesh, std::int32_t t, std::int32_t buffer) {
-  const Corners corners = mesh.corners(t);
+  const TriangleVertices corners = mesh.corners(t);
   const auto a = mesh.load(corners.a, buffer);
   const auto b = mesh.load(corners.b, buffer);
   const auto c = mesh.load(corners.c, buffer);

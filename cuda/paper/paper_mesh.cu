@@ -34,7 +34,8 @@ __global__ void count_owned(RingsView rings, std::uint32_t* counts) {
 }
 
 /// Numbers the triangles of each vertex from its offset on and writes them down.
-__global__ void list_owned(RingsView rings, const std::uint32_t* offsets, Corners* triangles, std::uint32_t* elements) {
+__global__ void list_owned(RingsView rings, const std::uint32_t* offsets, TriangleVertices* triangles,
+                           std::uint32_t* elements) {
   const std::int64_t i = thread_index();
   if (i >= rings.size) {
     return;
@@ -91,7 +92,7 @@ __global__ void initiate_vertices(Mesh mesh, RingsView rings) {
 }
 
 template <class Mesh>
-__global__ void initiate_triangles(Mesh mesh, const Corners* triangles) {
+__global__ void initiate_triangles(Mesh mesh, const TriangleVertices* triangles) {
   const std::int64_t t = thread_index();
   if (t < mesh.triangle_count) {
     mesh.store_corners(static_cast<std::int32_t>(t), triangles[t]);
@@ -176,7 +177,7 @@ DeviceElements find_elements(Context& context, const RingsView& rings, std::size
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   sum_before(context, offsets.data(), std::int64_t{rings.size} + 1);
   const auto triangle_count = download(context, offsets.data() + rings.size);
-  found.triangles = DeviceBuffer<Corners>(context, triangle_count);
+  found.triangles = DeviceBuffer<TriangleVertices>(context, triangle_count);
   found.elements = DeviceBuffer<std::uint32_t>(context, ring_entries);
   list_owned<<<blocks, block_size, 0, context.stream()>>>(rings, offsets.data(), found.triangles.data(),
                                                           found.elements.data());
@@ -203,7 +204,7 @@ PaperMesh<T, layout>::PaperMesh(Context& context, const RingsView& rings, std::i
 }
 
 template <class T, Layout layout>
-void PaperMesh<T, layout>::initiate(Context& context, const PointArrays<T, layout>& points) {
+void PaperMesh<T, layout>::initiate(Context& context, const PointArray<T>& points) {
   write_positions<<<blocks_for(view_.vertex_count), block_size, 0, context.stream()>>>(view_, points);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   update_triangle_qualities<<<blocks_for(view_.triangle_count), block_size, 0, context.stream()>>>(view_, 0);
@@ -213,8 +214,7 @@ void PaperMesh<T, layout>::initiate(Context& context, const PointArrays<T, layou
 }
 
 template <class T, Layout layout>
-void PaperMesh<T, layout>::read_positions(Context& context, std::int32_t buffer,
-                                          const PointArrays<T, layout>& points) const {
+void PaperMesh<T, layout>::read_positions(Context& context, std::int32_t buffer, const PointArray<T>& points) const {
   copy_positions<<<blocks_for(view_.vertex_count), block_size, 0, context.stream()>>>(view_, buffer, points);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }

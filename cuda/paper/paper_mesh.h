@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/cuda/paper/mesh_layouts.h"
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/rings.h"
 
@@ -11,8 +11,8 @@ namespace trismooth::cuda {
 
 /// The triangles around the free vertices and each vertex's incident elements, found from the rings.
 struct DeviceElements {
-  DeviceBuffer<Corners> triangles;       ///< every triangle with a free vertex once, counter-clockwise
-  DeviceBuffer<std::uint32_t> elements;  ///< beside the rings' neighbours: the corner (v, n_i, n_i+1), as 3 t + i
+  DeviceBuffer<TriangleVertices> triangles;  ///< every triangle with a free vertex once, counter-clockwise
+  DeviceBuffer<std::uint32_t> elements;      ///< beside the rings' neighbours: the corner (v, n_i, n_i+1), as 3 t + i
 };
 
 /// Finds them. Complexity: linear, but for a search in the ring of a neighbour for each corner.
@@ -28,9 +28,9 @@ class PaperMesh {
 
   const MeshView<T, layout>& view() const { return view_; }
   /// Brings `points` into both buffers and evaluates all triangles and minima for the first time.
-  void initiate(Context& context, const PointArrays<T, layout>& points);
+  void initiate(Context& context, const PointArray<T>& points);
   /// Copies the positions of a buffer to `points`.
-  void read_positions(Context& context, std::int32_t buffer, const PointArrays<T, layout>& points) const;
+  void read_positions(Context& context, std::int32_t buffer, const PointArray<T>& points) const;
 
  private:
   MeshView<T, layout> view_{};

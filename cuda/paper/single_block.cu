@@ -1,7 +1,7 @@
 #include "trismooth/cuda/paper/paper_kernels.cuh"
 #include "trismooth/cuda/paper/single_block.h"
-#include "trismooth/cuda/primitives/block_tally.cuh"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
 
 namespace trismooth::cuda {
 

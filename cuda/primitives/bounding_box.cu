@@ -4,9 +4,9 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/primitives/falling_key.h"
 #include "trismooth/cuda/primitives/largest_key.cuh"
 #include "trismooth/cuda/runtime/launch.h"
-#include "trismooth/cuda/sweeps/sweep_state.h"
 
 namespace trismooth::cuda {
 

@@ -9,9 +9,9 @@
 #include <thrust/iterator/transform_iterator.h>
 
 #include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
-#include "trismooth/cuda/runtime/error.h"
 
 namespace trismooth::cuda {
 

@@ -1,15 +1,15 @@
 #include "trismooth/cuda/runtime/context.h"
 
-#include "trismooth/cuda/memory_pool.h"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_memory.h"
 
 namespace trismooth::cuda {
 
-Context::Context() : pool_(memory_pool()) {
+Context::Context() : pool_(current_pool()) {
   TRISMOOTH_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
 }
 
-Context::Context(cudaStream_t stream) : stream_(stream), owns_stream_(false), pool_(memory_pool()) {}
+Context::Context(cudaStream_t stream) : stream_(stream), owns_stream_(false), pool_(current_pool()) {}
 
 Context::~Context() {
   if (owns_stream_) {

@@ -23,8 +23,8 @@ class Context {
   /// Waits for everything queued. Throws DeviceError for what failed meanwhile.
   void synchronize() const;
 
-  /// Device memory of `bytes` (0: none) from memory_pool(), aligned to 256 bytes. Throws DeviceError that says how much
-  /// was asked for and how much is free.
+  /// Device memory of `bytes` (0: none) from current_pool(), aligned to 256 bytes. Throws DeviceError that says how
+  /// much was asked for and how much is free.
   void* allocate(std::size_t bytes);
   void free(void* memory, std::size_t bytes) noexcept;
 

@@ -7,8 +7,8 @@
 
 #include <cuda_runtime_api.h>
 
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/context.h"
-#include "trismooth/cuda/runtime/error.h"
 
 namespace trismooth::cuda {
 

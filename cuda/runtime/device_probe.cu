@@ -1,5 +1,5 @@
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_probe.h"
-#include "trismooth/cuda/runtime/error.h"
 
 namespace trismooth::cuda {
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/context.h"
-#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
 

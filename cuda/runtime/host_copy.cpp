@@ -7,7 +7,7 @@
 
 #include <cuda_runtime_api.h>
 
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 
 namespace trismooth::cuda {
 

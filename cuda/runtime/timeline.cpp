@@ -1,6 +1,6 @@
 #include "trismooth/cuda/runtime/timeline.h"
 
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 
 namespace trismooth::cuda {
 

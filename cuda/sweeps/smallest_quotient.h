@@ -2,15 +2,14 @@
 
 #include <cuda_runtime_api.h>
 
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
 
 namespace trismooth::cuda {
 
 /// Queues the measuring of the smallest quotient of the triangles with a free vertex into sums->min_quotient. `Rings`:
 /// RingsView or SlottedRingsView.
-template <class T, Layout layout, class Rings>
-void launch_smallest_quotient(const Rings& rings, const PointArrays<T, layout>& points, SweepSums* sums,
-                              cudaStream_t stream);
+template <class T, class Rings>
+void launch_smallest_quotient(const Rings& rings, const PointArray<T>& points, SweepSums* sums, cudaStream_t stream);
 
 }  // namespace trismooth::cuda

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 
 #include "trismooth/base/host_device.h"
+#include "trismooth/cuda/primitives/falling_key.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 
 namespace trismooth::cuda {
@@ -19,20 +19,9 @@ struct SweepSums {
   unsigned long long min_quotient;  ///< falling_key() of the smallest quotient; 0: none was measured
 };
 
-/// A number for each double that falls as the double rises and is never 0: the largest key is that of the smallest.
-TRISMOOTH_HOST_DEVICE inline unsigned long long falling_key(double value) {
-  constexpr unsigned long long sign = 1ULL << 63U;
-  const auto bits = std::bit_cast<unsigned long long>(value);
-  return (bits & sign) != 0 ? bits : ~(bits | sign);
-}
-TRISMOOTH_HOST_DEVICE inline double from_falling_key(unsigned long long key) {
-  constexpr unsigned long long sign = 1ULL << 63U;
-  return std::bit_cast<double>((key & sign) != 0 ? key : ~key & ~sign);
-}
-
 /// How the sweeps of one run go on the device.
 struct LoopRules {
-  bool swaps;                   ///< Form A
+  bool swaps;                   ///< Form A (Jacobi); else Form B (Gauss-Seidel)
   bool evaluates_all;           ///< every free vertex in every sweep
   bool measures_shape;          ///< fill SweepSums::min_quotient
   double tolerance;             ///< of SmoothingOptions

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/context.h"
-#include "trismooth/cuda/runtime/error.h"
 #include "trismooth/cuda/runtime/launch.h"
 
 namespace trismooth::cuda {

@@ -11,7 +11,7 @@
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
-#include "trismooth/cuda/topology/topology.h"
+#include "trismooth/cuda/topology/device_topology.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
 
 namespace trismooth::cuda {
@@ -41,7 +41,7 @@ OneRings copied_to_host(Context& context, const DeviceRings& rings) {
 }  // namespace
 
 MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                               const Constraints& constraints, NeighbourFinding way) {
+                               const Constraints& constraints, NeighbourSearch way) {
   check_mesh_size(std::ssize(points), std::ssize(triangles));
   const auto vertex_count = static_cast<std::int32_t>(points.size());
   check_lengths(vertex_count, triangles, constraints);

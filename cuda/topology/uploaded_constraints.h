@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "trismooth/cuda/device_constraints.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
-#include "trismooth/cuda/topology/constraints.h"
 #include "trismooth/smoothing/constraints.h"
 
 namespace trismooth::cuda {

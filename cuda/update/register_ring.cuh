@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 
 namespace trismooth::cuda {
 
@@ -43,9 +43,9 @@ inline constexpr int largest_register_ring = 12;
 
 /// Fetches the ring with this record into registers. All threads of the warp call it; those that are not `active`, or
 /// whose ring is longer than the capacity, fetch nothing: their ring has size 0.
-template <class T, int capacity, Layout layout, class Slot>
+template <class T, int capacity, class Slot>
 __device__ __forceinline__ void fetch_ring(std::int32_t v, const RingRecord<Slot>& record, bool active,
-                                           const std::int32_t* long_rings, const PointArrays<T, layout>& points,
+                                           const std::int32_t* long_rings, const PointArray<T>& points,
                                            RegisterRing<T, capacity>& ring) {
   constexpr int smallest = RegisterRing<T, capacity>::smallest;
   constexpr int slots = RingRecord<Slot>::slots;

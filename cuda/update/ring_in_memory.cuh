@@ -2,14 +2,14 @@
 
 #include <cstdint>
 
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 
 namespace trismooth::cuda {
 
 /// The positions of a ring of any size as an update reads them, straight from memory.
-template <class T, Layout layout, class Ring>
+template <class T, class Ring>
 struct RingInMemory {
-  PointArrays<T, layout> points;
+  PointArray<T> points;
   Ring ring;
   std::int32_t count;
 
@@ -18,9 +18,9 @@ struct RingInMemory {
 };
 
 /// That of a vertex among rings of any kind.
-template <class T, Layout layout, class Rings>
-__device__ auto ring_in_memory(const PointArrays<T, layout>& points, const Rings& rings, std::int32_t v) {
-  return RingInMemory<T, layout, decltype(rings.ring(v))>{points, rings.ring(v), rings.ring_size(v)};
+template <class T, class Rings>
+__device__ auto ring_in_memory(const PointArray<T>& points, const Rings& rings, std::int32_t v) {
+  return RingInMemory<T, decltype(rings.ring(v))>{points, rings.ring(v), rings.ring_size(v)};
 }
 
 }  // namespace trismooth::cuda

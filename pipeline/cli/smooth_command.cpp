@@ -76,7 +76,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
       ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except unordered)";
   add_enum_option(command, "--layout", options.layout,
-                  "Points on the device: an array of structures, or an array for each coordinate")
+                  "Of single-block and cdp: an array of structures, or a structure of arrays")
       ->group(group);
   add_enum_option(command, "--execution", options.execution,
                   "resident: by all of the GPU, the fastest; single-block, cdp: the paper's versions, by one block and "

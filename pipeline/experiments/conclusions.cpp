@@ -185,16 +185,14 @@ Conclusion layout_claim(const ExperimentResult& result) {
   };
   std::vector<Pair> pairs = pairs_of(Version::gpu);
   std::ranges::copy(pairs_of(Version::cdp), std::back_inserter(pairs));
-  Conclusion conclusion = judge(result, claim, pairs);
-  add_finding(conclusion, result, claim, "The resident version", pairs_of(Version::resident));
-  return conclusion;
+  return judge(result, claim, pairs);
 }
 
-/// Form B beside Form A in both layouts, for Form B in this order.
+/// Form B beside Form A in every layout that the version has, for Form B in this order.
 std::vector<Pair> form_pairs(Version version, Order order) {
   std::vector<Pair> pairs;
   for (const Layout layout : layouts) {
-    if (layout == Layout::aos || runs_on_device(version)) {
+    if (layout == Layout::aos || has_layouts(version)) {
       pairs.push_back({{version, Form::in_place, order, layout}, {version, Form::swap, Order::colour, layout}});
     }
   }

@@ -25,6 +25,10 @@ bool runs_on_device(Version version) {
   return version == Version::gpu || version == Version::cdp || version == Version::resident;
 }
 
+bool has_layouts(Version version) {
+  return version == Version::gpu || version == Version::cdp;
+}
+
 bool is_of_paper(const Case& what) {
   return what.version != Version::cpu && what.version != Version::resident &&
          what.order == order_of_paper(what.version, what.form);
@@ -35,7 +39,7 @@ Order order_of_paper(Version version, Form form) {
 }
 
 Case case_of_paper(Version version, Form form, Layout layout) {
-  return {version, form, order_of_paper(version, form), runs_on_device(version) ? layout : Layout::aos};
+  return {version, form, order_of_paper(version, form), has_layouts(version) ? layout : Layout::aos};
 }
 
 std::vector<Case> cases_of(std::span<const Version> versions) {
@@ -43,7 +47,7 @@ std::vector<Case> cases_of(std::span<const Version> versions) {
   for (const Version version : versions) {
     const auto add = [&](Form form, Order order) {
       cases.push_back({version, form, order, Layout::aos});
-      if (runs_on_device(version)) {
+      if (has_layouts(version)) {
         cases.push_back({version, form, order, Layout::soa});
       }
     };
@@ -70,7 +74,7 @@ std::string name_of(const Case& what) {
     case Version::resident:
       break;
   }
-  return "resident" + layout;
+  return "resident";
 }
 
 std::string name_of(Version version) {

@@ -32,12 +32,15 @@ struct Case {
   Form form = Form::swap;
   /// Order::unordered is the paper's literal Form B on a device.
   Order order = Order::colour;
-  Layout layout = Layout::aos;  ///< means nothing on the CPU
+  Layout layout = Layout::aos;  ///< see has_layouts()
 
   bool operator==(const Case&) const = default;
 };
 
 bool runs_on_device(Version version);
+
+/// Whether it comes in both layouts: the paper's versions on a device do. The others have Layout::aos in a Case.
+bool has_layouts(Version version);
 
 /// Whether the paper measured it. Its Form B on a device is unordered.
 bool is_of_paper(const Case& what);
@@ -45,13 +48,13 @@ bool is_of_paper(const Case& what);
 /// The order in which the paper runs this form of a version.
 Order order_of_paper(Version version, Form form);
 
-/// A version in one form and layout as the paper runs it; on the CPU, where there are no layouts, always AoS.
+/// A version in one form and layout as the paper runs it; always AoS where there are no layouts.
 Case case_of_paper(Version version, Form form, Layout layout);
 
 /// All cases of these versions, in the order of `versions`. Form B of `gpu` and `cdp` comes in both orders.
 std::vector<Case> cases_of(std::span<const Version> versions);
 
-/// "serial CPU", "optimised CPU", "GPU-AoS", "resident-SoA".
+/// "serial CPU", "optimised CPU", "GPU-AoS", "resident".
 std::string name_of(const Case& what);
 /// The same without the layout: "GPU version".
 std::string name_of(Version version);

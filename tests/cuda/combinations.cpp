@@ -1,6 +1,6 @@
-// Runs every combination of method, form, precision, execution, layout and topology on a device and compares the bits
-// of the result, before and after the commit, with the CPU's. Prints one row for each. A row counts only if the report
-// names a GPU and counts launches. Form B in no fixed order is held to the contract alone.
+// Runs every combination of method, form, precision, execution, its layouts and topology on a device and compares the
+// bits of the result, before and after the guard, with the CPU's. Prints one row for each. A row counts only if the
+// report names a GPU and counts launches. Form B in no fixed order is held to the contract alone.
 //
 //     test_cuda_combinations [--vertices N...] [--mesh FILE...] [--max-sweeps N]
 //
@@ -31,20 +31,14 @@
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
+#include "device_ways.h"
+
 namespace {
 
 using namespace trismooth;
+using namespace device_ways;
 
 constexpr int skipped = 77;
-
-/// The executions of this build.
-std::vector<Execution> paper_executions() {
-  std::vector<Execution> built{Execution::single_block};
-  if (cuda::has_cdp()) {
-    built.push_back(Execution::cdp);
-  }
-  return built;
-}
 
 /// What a run is known by.
 struct Outcome {
@@ -216,26 +210,21 @@ class Table {
     const Outcome expected = mesh.smooth(options);
     row(mesh.name(), options, expected, "cpu", "reference");
     options.backend = &cuda::backend();
-    std::vector<Execution> executions = paper_executions();
-    executions.push_back(Execution::resident);
-    for (const Execution execution : executions) {
-      for (const Layout layout : {Layout::aos, Layout::soa}) {
-        for (const Topology topology : {Topology::halfedge, Topology::device}) {
-          options.execution = execution;
-          options.layout = layout;
-          options.topology = topology;
-          const Outcome outcome = mesh.smooth(options);
-          const bool same = outcome.committed == expected.committed && outcome.uncommitted == expected.uncommitted &&
-                            outcome.result.sweeps == expected.result.sweeps &&
-                            outcome.result.stop_reason == expected.result.stop_reason &&
-                            outcome.result.moved_vertices == expected.result.moved_vertices &&
-                            outcome.result.guard_rounds == expected.result.guard_rounds;
-          const bool counts = ran_on_device(options, outcome.result);
-          ++rows_;
-          equal_ += same && counts ? 1 : 0;
-          row(mesh.name(), options, outcome, std::string(to_string(execution)),
-              !counts ? "NOT ON A GPU" : (same ? "equal" : "DIFFERENT"));
-        }
+    for (const DeviceWay& way : every_way()) {
+      for (const Topology topology : {Topology::halfedge, Topology::device}) {
+        way.choose_in(options);
+        options.topology = topology;
+        const Outcome outcome = mesh.smooth(options);
+        const bool same = outcome.committed == expected.committed && outcome.uncommitted == expected.uncommitted &&
+                          outcome.result.sweeps == expected.result.sweeps &&
+                          outcome.result.stop_reason == expected.result.stop_reason &&
+                          outcome.result.moved_vertices == expected.result.moved_vertices &&
+                          outcome.result.guard_rounds == expected.result.guard_rounds;
+        const bool counts = ran_on_device(options, outcome.result);
+        ++rows_;
+        equal_ += same && counts ? 1 : 0;
+        row(mesh.name(), options, outcome, std::string(to_string(way.execution)),
+            !counts ? "NOT ON A GPU" : (same ? "equal" : "DIFFERENT"));
       }
     }
   }
@@ -244,18 +233,15 @@ class Table {
     options.backend = &cuda::backend();
     options.form = Form::in_place;
     options.order = Order::unordered;
-    for (const Execution execution : paper_executions()) {
-      for (const Layout layout : {Layout::aos, Layout::soa}) {
-        options.execution = execution;
-        options.layout = layout;
-        const Outcome outcome = mesh.smooth(options);
-        const std::string breach = mesh.breach();
-        const bool counts = ran_on_device(options, outcome.result) && !outcome.result.reproducible;
-        ++unordered_rows_;
-        kept_ += breach.empty() && counts ? 1 : 0;
-        row(mesh.name(), options, outcome, std::string(to_string(execution)) + "*",
-            !counts ? "NOT ON A GPU" : (breach.empty() ? "contract kept" : "BROKEN: " + breach));
-      }
+    for (const DeviceWay& way : paper_ways()) {
+      way.choose_in(options);
+      const Outcome outcome = mesh.smooth(options);
+      const std::string breach = mesh.breach();
+      const bool counts = ran_on_device(options, outcome.result) && !outcome.result.reproducible;
+      ++unordered_rows_;
+      kept_ += breach.empty() && counts ? 1 : 0;
+      row(mesh.name(), options, outcome, std::string(to_string(way.execution)) + "*",
+          !counts ? "NOT ON A GPU" : (breach.empty() ? "contract kept" : "BROKEN: " + breach));
     }
   }
 

@@ -1,11 +1,10 @@
 // The main of test programs that need a device. Where there is none they say so and exit with 77: skipped, not passed.
 
-#define CATCH_CONFIG_RUNNER
 #include <cstdio>
 
 #include <cuda_runtime_api.h>
 
-#include "catch.h"
+#include "catch_main.h"
 
 int main(int argc, char** argv) {
   constexpr int skipped = 77;
@@ -15,5 +14,5 @@ int main(int argc, char** argv) {
     std::printf("skipped: %s\n", error == cudaSuccess ? "no CUDA device" : cudaGetErrorString(error));
     return skipped;
   }
-  return Catch::Session().run(argc, argv);
+  return run_catch(argc, argv);
 }

@@ -8,8 +8,8 @@
 
 #include <cuda_runtime.h>
 
-#include "trismooth/cuda/primitives/move_tally.cuh"
 #include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/sweeps/move_tally.cuh"
 #include "trismooth/smoothing/methods/one_ring_update.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <tuple>
+#include <variant>
 #include <vector>
 
 #include <cuda_runtime.h>
@@ -22,7 +24,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/packing/packing.h"
+#include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/paper/cdp_parent.cuh"
 #include "trismooth/cuda/paper/paper_mesh.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
@@ -118,18 +120,20 @@ void compare_executions(const test_meshes::Mesh& mesh) {
         std::vector<double> expected = mesh.xy();
         smooth(xy_points(expected), triangles, {}, options);
         options.backend = &cuda::backend();
-        for (const Execution execution : {Execution::resident, Execution::single_block}) {
-          for (const Layout layout : {Layout::aos, Layout::soa}) {
-            options.execution = execution;
-            options.layout = layout;
-            options.topology = layout == Layout::aos ? Topology::device : Topology::halfedge;
-            std::vector<double> xy = mesh.xy();
-            smooth(xy_points(xy), triangles, {}, options);
-            expect(same_bits(xy, expected), std::string(to_string(execution)) + " " + std::string(to_string(layout)) +
-                                                " " + std::string(to_string(method)) + " form " +
-                                                std::string(to_string(form)) + " " + std::string(to_string(precision)) +
-                                                " has other bits than the CPU");
-          }
+        for (const auto& [execution, layout, topology] :
+             {std::tuple(Execution::resident, Layout::aos, Topology::device),
+              std::tuple(Execution::resident, Layout::aos, Topology::halfedge),
+              std::tuple(Execution::single_block, Layout::aos, Topology::device),
+              std::tuple(Execution::single_block, Layout::soa, Topology::halfedge)}) {
+          options.execution = execution;
+          options.layout = layout;
+          options.topology = topology;
+          std::vector<double> xy = mesh.xy();
+          smooth(xy_points(xy), triangles, {}, options);
+          expect(same_bits(xy, expected), std::string(to_string(execution)) + " " + std::string(to_string(layout)) +
+                                              " " + std::string(to_string(method)) + " form " +
+                                              std::string(to_string(form)) + " " + std::string(to_string(precision)) +
+                                              " has other bits than the CPU");
         }
       }
     }
@@ -169,25 +173,23 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
   const OneRings rings = find_mesh_rings(local, mesh.triangles, {}, workers).rings;
   const std::vector<std::uint32_t> offsets(rings.offsets.begin(), rings.offsets.end());
   options.execution = Execution::cdp;
-  const cuda::PackedDeviceRings packed =
-      cuda::pack_rings(context, {{context, offsets}, {context, rings.neighbours}}, {context, local}, options);
+  options.layout = layout;
+  const cuda::PackedMesh packed =
+      cuda::pack(context, {{context, offsets}, {context, rings.neighbours}}, {context, local}, options);
+  const cuda::DeviceRings& packed_rings = std::get<cuda::PaperRings<layout>>(packed.rings).rings;
   const cuda::DeviceElements elements =
-      cuda::find_elements(context, packed.rings.view(), packed.rings.neighbours.size());
-  cuda::PaperMesh<T, layout> paper(context, packed.rings.view(), packed.vertex_count(), elements);
+      cuda::find_elements(context, packed_rings.view(), packed_rings.neighbours.size());
+  cuda::PaperMesh<T, layout> paper(context, packed_rings.view(), packed.order.vertex_count(), elements);
 
   std::vector<std::int32_t> input_index(mesh.points.size());
-  packed.input_index.download(input_index);
-  std::vector<T> numbers(2 * mesh.points.size());
-  const auto at = [&](std::size_t v, int axis) -> T& {
-    return numbers[layout == Layout::aos ? 2 * v + static_cast<std::size_t>(axis)
-                                         : static_cast<std::size_t>(axis) * mesh.points.size() + v];
-  };
+  packed.order.input_index.download(input_index);
+  std::vector<cuda::PointRecord<T>> positions(mesh.points.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    at(v, 0) = static_cast<T>(local[static_cast<std::size_t>(input_index[v])].x);
-    at(v, 1) = static_cast<T>(local[static_cast<std::size_t>(input_index[v])].y);
+    const Point2<double> p = local[static_cast<std::size_t>(input_index[v])];
+    positions[v] = {static_cast<T>(p.x), static_cast<T>(p.y)};
   }
-  cuda::DeviceBuffer<T> memory(context, numbers);
-  const cuda::PointArrays<T, layout> points(memory.data(), packed.vertex_count());
+  cuda::DeviceBuffer<cuda::PointRecord<T>> memory(context, positions);
+  const cuda::PointArray<T> points{memory.data()};
   paper.initiate(context, points);
 
   cuda::LoopRules rules{};
@@ -196,8 +198,8 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
   rules.target = no_target;
   rules.fixed_quotient = std::numeric_limits<double>::infinity();
   rules.sweeps = most_sweeps;
-  rules.batch_count = static_cast<std::int32_t>(packed.batches.size()) - 1;
-  rules.batches = packed.batch_begins.data();
+  rules.batch_count = static_cast<std::int32_t>(packed.order.batches.size()) - 1;
+  rules.batches = packed.order.batch_begins.data();
   RunRecord record{};
   cuda::DeviceBuffer<RunRecord> device_record(context, 1);
   device_record.upload({&record, 1});
@@ -214,13 +216,14 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
     TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   } while (record.state.stop == cuda::LoopState::running && record.state.sweeps < most_sweeps);
   paper.read_positions(context, record.state.current, points);
-  memory.download(numbers);
+  memory.download(positions);
 
   int different = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto input = static_cast<std::size_t>(input_index[v]);
-    const Point2<double> left = frame.leave({static_cast<double>(at(v, 0)), static_cast<double>(at(v, 1))});
-    const bool stays = at(v, 0) == static_cast<T>(local[input].x) && at(v, 1) == static_cast<T>(local[input].y);
+    const auto [x, y] = positions[v];
+    const Point2<double> left = frame.leave({static_cast<double>(x), static_cast<double>(y)});
+    const bool stays = x == static_cast<T>(local[input].x) && y == static_cast<T>(local[input].y);
     const Point2<double> stored = stays ? mesh.points[input] : left;
     different += stored.x == expected[2 * input] && stored.y == expected[2 * input + 1] ? 0 : 1;
   }
@@ -228,7 +231,7 @@ void compare_cdp_kernels(const test_meshes::Mesh& mesh, Form form) {
          "the kernels of the CDP version differ from the CPU at " + std::to_string(different) + " vertices");
 }
 
-/// Caller's fixed vertices, regions, holes, other cells; device topology, commit with reverted vertices.
+/// Caller's fixed vertices, regions, holes, other cells; device topology, guard with reverted vertices.
 void compare_constraints() {
   const test_meshes::Mesh mesh = test_meshes::tangled(30, 7);
   std::vector<std::uint8_t> fixed(mesh.points.size());
@@ -249,9 +252,9 @@ void compare_constraints() {
   options.topology = Topology::device;
   std::vector<double> xy = mesh.xy();
   const SmoothingResult result = smooth(xy_points(xy), mesh.indices(), constraints, options);
-  expect(same_bits(xy, expected), "constraints and commit give other bits than the CPU");
+  expect(same_bits(xy, expected), "constraints and guard give other bits than the CPU");
   expect(reference.reverted_vertices > 0 && result.reverted_vertices == reference.reverted_vertices,
-         "the commit takes back as many vertices as the CPU's");
+         "the guard takes back as many vertices as the CPU's");
 }
 
 int run_all() {

@@ -21,17 +21,18 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"
+#include "device_ways.h"
 #include "properties/contract.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
 #include "properties/with_unused.h"
 #include "support/used_frame.h"
 
+using namespace device_ways;
 using namespace properties;
 using test_meshes::Random;
 using trismooth::Evaluation;
 using trismooth::Execution;
-using trismooth::Layout;
 using trismooth::Order;
 using trismooth::Progress;
 using trismooth::SweepRecord;
@@ -41,12 +42,8 @@ namespace cuda = trismooth::cuda;
 
 namespace {
 
-Execution any_execution(Random& random) {
-  return static_cast<Execution>(random.below(cuda::has_cdp() ? 3 : 2));
-}
-
-Layout any_layout(Random& random) {
-  return static_cast<Layout>(random.below(2));
+void choose_any(const std::vector<DeviceWay>& ways, SmoothingOptions& options, Random& random) {
+  ways[random.below(ways.size())].choose_in(options);
 }
 
 /// What every backend has to do alike beside method, form, precision, sweep limit and tolerance.
@@ -119,7 +116,7 @@ RandomMesh in_floats(RandomMesh mesh) {
 
 }  // namespace
 
-TEST_CASE("random meshes have the CPU's bits, history and commit in every execution, layout and topology") {
+TEST_CASE("random meshes have the CPU's bits, history and guard in every execution, layout and topology") {
   for_random_meshes(2400, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
       draw_the_rest(options, random);
@@ -127,8 +124,7 @@ TEST_CASE("random meshes have the CPU's bits, history and commit in every execut
       const Run expected = run(mesh, options, storage);
       options.backend = &cuda::backend();
       for (int times = 0; times < 2; ++times) {
-        options.execution = any_execution(random);
-        options.layout = any_layout(random);
+        choose_any(every_way(), options, random);
         options.topology = static_cast<Topology>(random.below(2));
         const Run found = run(mesh, options, storage);
         if (const std::string wrong = difference(found, expected); !wrong.empty()) {
@@ -147,8 +143,7 @@ TEST_CASE("random meshes in device memory have the CPU's bits, in plans used aga
     return for_some_options(mesh, 1, [&](SmoothingOptions options, Random& random) -> std::string {
       draw_the_rest(options, random);
       const Run expected = run(mesh, options, is_float ? Storage::float32 : Storage::float64);
-      options.execution = any_execution(random);
-      options.layout = any_layout(random);
+      choose_any(every_way(), options, random);
       OnDevice device(mesh, options);
       for (int times = 0; times < 2; ++times) {
         const Run found =
@@ -208,8 +203,7 @@ TEST_CASE("unused vertices, however far, change no bit, by every way to the devi
             difference(std::span(found.xy).subspan(expected.xy.size()), std::span(before).subspan(expected.xy.size()));
         return wrong.empty() && moved.empty() ? "" : fmt::format("{}: {}{}", way, wrong, moved);
       };
-      options.execution = any_execution(random);
-      options.layout = any_layout(random);
+      choose_any(every_way(), options, random);
       OnDevice device(more.mesh, options);
       if (const auto wrong = verdict(device.smooth(more.mesh.mesh.xy(), Storage::float64), "a plan on the device");
           !wrong.empty()) {
@@ -230,8 +224,7 @@ TEST_CASE("in no fixed order random meshes are smoothed by the contract all the 
       options.backend = &cuda::backend();
       options.form = Form::in_place;
       options.order = Order::unordered;
-      options.execution = cuda::has_cdp() && random.below(2) == 0 ? Execution::cdp : Execution::single_block;
-      options.layout = any_layout(random);
+      choose_any(paper_ways(), options, random);
       const std::string wrong = breach(mesh, connectivity, run(mesh, options), true);
       return wrong.empty() ? wrong : fmt::format("{}: {}", text_of_device(options), wrong);
     });

@@ -6,9 +6,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +14,8 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/cuda/topology/device_topology.h"
 #include "trismooth/cuda/topology/find_rings.h"
-#include "trismooth/cuda/topology/topology.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
@@ -27,30 +24,27 @@
 
 #include "catch.h"
 #include "support/test_meshes.h"
+#include "topology_ways.h"
 
 using test_meshes::Mesh;
 using test_meshes::Random;
+using topology_ways::both_ways;
+using topology_ways::find_on_host;
+using topology_ways::require_same_error;
+using topology_ways::thrown_by;
 using trismooth::Constraints;
 using trismooth::FixedTriangles;
-using trismooth::MeshError;
 using trismooth::MeshRings;
 using trismooth::OneRings;
 using trismooth::Point2;
 using trismooth::Triangle;
 using trismooth::Workers;
-using trismooth::cuda::NeighbourFinding;
+using trismooth::cuda::NeighbourSearch;
 
 namespace cuda = trismooth::cuda;
 namespace hold = trismooth::hold;
 
 namespace {
-
-constexpr auto both_ways = {NeighbourFinding::parallel, NeighbourFinding::one_thread};
-
-MeshRings find_on_host(const Mesh& mesh, const Constraints& constraints) {
-  Workers workers(0);
-  return trismooth::find_mesh_rings(mesh.points, mesh.triangles, constraints, workers);
-}
 
 void require_same(const OneRings& found, const OneRings& expected) {
   REQUIRE(found.offsets == expected.offsets);
@@ -67,7 +61,7 @@ void require_same(const MeshRings& found, const MeshRings& expected) {
 
 void require_host_results(const Mesh& mesh, const Constraints& constraints = {}) {
   const MeshRings expected = find_on_host(mesh, constraints);
-  for (const NeighbourFinding way : both_ways) {
+  for (const NeighbourSearch way : both_ways) {
     CAPTURE(static_cast<int>(way));
     require_same(cuda::find_rings_on_device(mesh.points, mesh.triangles, constraints, way), expected);
   }
@@ -84,40 +78,8 @@ OneRings halfedge_rings(const Mesh& mesh) {
 
 void require_halfedge_rings(const Mesh& mesh) {
   const MeshRings found =
-      cuda::find_rings_on_device(mesh.points, mesh.triangles, Constraints{}, NeighbourFinding::parallel);
+      cuda::find_rings_on_device(mesh.points, mesh.triangles, Constraints{}, NeighbourSearch::parallel);
   require_same(found.rings, halfedge_rings(mesh));
-}
-
-/// What a call throws: the message, and whether it is a MeshError (true) or a std::invalid_argument (false).
-struct Thrown {
-  bool is_mesh_error;
-  std::string message;
-
-  friend bool operator==(const Thrown&, const Thrown&) = default;
-};
-
-template <class Call>
-std::optional<Thrown> thrown_by(const Call& call) {
-  try {
-    call();
-  } catch (const MeshError& error) {
-    return Thrown{true, error.what()};
-  } catch (const std::invalid_argument& error) {
-    return Thrown{false, error.what()};
-  }
-  return std::nullopt;
-}
-
-void require_same_error(const Mesh& mesh, const Constraints& constraints = {}) {
-  const auto expected = thrown_by([&] { find_on_host(mesh, constraints); });
-  REQUIRE(expected);
-  for (const NeighbourFinding way : both_ways) {
-    CAPTURE(static_cast<int>(way));
-    const auto found = thrown_by([&] { cuda::find_rings_on_device(mesh.points, mesh.triangles, constraints, way); });
-    REQUIRE(found);
-    CHECK(found->is_mesh_error == expected->is_mesh_error);
-    CHECK(found->message == expected->message);
-  }
 }
 
 Mesh random_delaunay(std::int64_t vertices, std::uint64_t seed) {
@@ -161,22 +123,6 @@ Mesh double_hub(std::int32_t size) {
   return mesh;
 }
 
-/// A Moebius band of which all but six triangles are an open fan around vertex 0: that it has one side only shows where
-/// triangles are joined over the edges at that vertex.
-Mesh twisted_fan(std::int32_t size) {
-  Mesh mesh;
-  const std::int32_t last = 1 + size;  // the fan runs over 1 .. last
-  for (std::int32_t v = 0; v <= last + 4; ++v) {
-    mesh.points.push_back({std::cos(v), std::sin(v)});
-  }
-  for (std::int32_t v = 1; v < last; ++v) {
-    mesh.triangles.push_back({0, v, v + 1});
-  }
-  const auto [a, b, c, d] = std::array{last + 1, last + 2, last + 3, last + 4};
-  mesh.triangles.insert(mesh.triangles.end(), {{0, last, b}, {0, b, a}, {a, b, d}, {a, d, c}, {c, d, 0}, {c, 0, 1}});
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("every mesh of the zoo, as it is, shuffled and with triangles listed either way") {
@@ -210,7 +156,7 @@ TEST_CASE("a mesh of a million vertices") {
   const MeshRings expected = find_on_host(mesh, {});
   // One thread takes seconds; several runs in parallel show that nothing depends on who is first.
   for (int run = 0; run < 3; ++run) {
-    require_same(cuda::find_rings_on_device(mesh.points, mesh.triangles, {}, NeighbourFinding::parallel), expected);
+    require_same(cuda::find_rings_on_device(mesh.points, mesh.triangles, {}, NeighbourSearch::parallel), expected);
   }
 }
 
@@ -319,7 +265,7 @@ TEST_CASE("constraints of every kind, alone and together") {
   require_host_results(mesh, {.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions});
   const MeshRings found = cuda::find_rings_on_device(
       mesh.points, mesh.triangles, {.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions},
-      NeighbourFinding::parallel);
+      NeighbourSearch::parallel);
   std::uint8_t reasons = 0;
   for (const std::uint8_t reason : found.fixed) {
     reasons |= reason;
@@ -381,51 +327,6 @@ TEST_CASE("a hub of 200000 triangles") {
   require_host_results(without_triangle(mixed, 12345));
 }
 
-TEST_CASE("a surface that cannot be oriented is refused with the host's message") {
-  for (std::int32_t length = 3; length < 9; ++length) {
-    const Mesh band = test_meshes::moebius_band(length);
-    require_same_error(band);
-    require_same_error(test_meshes::shuffled(band, 1));
-    require_same_error(test_meshes::partly_reversed(band, 2));
-    require_same_error(test_meshes::together(test_meshes::star(50), band, {3, 3}));
-  }
-  require_same_error(test_meshes::shuffled(test_meshes::moebius_band(20000), 3));
-  for (const std::int32_t size : {5, 60, 3000}) {
-    require_same_error(twisted_fan(size));
-    require_same_error(test_meshes::shuffled(twisted_fan(size), 1));
-  }
-}
-
-TEST_CASE("triangles with an index out of range or a vertex twice are refused with the host's message") {
-  const std::vector<Triangle> bad_triangles{{0, 1, 5}, {-1, 1, 2}, {1, 2147483647, 2}, {1, 1, 2},
-                                            {1, 2, 1}, {2, 1, 1},  {-2147483648, 0, 1}};
-  for (const Triangle& bad : bad_triangles) {
-    Mesh mesh = test_meshes::star(4);
-    mesh.triangles.insert(mesh.triangles.begin() + 2, bad);
-    require_same_error(mesh);
-    mesh.triangles.push_back({7, 7, 7});
-    require_same_error(mesh);
-  }
-  require_same_error({{}, {{0, 1, 2}}});
-}
-
-TEST_CASE("constraints that do not fit are refused with the host's message, after the triangles") {
-  const Mesh mesh = test_meshes::star(6);
-  const std::vector<std::int32_t> out_of_range{0, 1000};
-  const std::vector<std::int32_t> too_high{0, 7, -1};
-  const std::vector<std::int32_t> negative{0, -1, 7};
-  const std::vector<std::uint8_t> short_flags(3, 1);
-  const std::vector<std::int32_t> long_regions(7, 1);
-  for (const Mesh& any : {mesh, test_meshes::together(mesh, test_meshes::moebius_band(5), {9, 9})}) {
-    require_same_error(any, {.fixed_ids = out_of_range});
-    require_same_error(any, {.fixed = short_flags});
-    require_same_error(any, {.other_cells = short_flags});
-    require_same_error(any, {.regions = long_regions});
-  }
-  require_same_error(mesh, {.fixed_ids = too_high});
-  require_same_error(mesh, {.fixed_ids = negative});
-}
-
 TEST_CASE("no triangle, no vertex") {
   require_host_results({});
   require_host_results({{{1, 1}}, {}});
@@ -445,8 +346,7 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
   cuda::Context context;
   const cuda::DeviceBuffer<Triangle> triangles(context, mesh.triangles);
   cuda::DeviceTopology topology(context, mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()),
-                                reinterpret_cast<const std::int32_t*>(triangles.data()), {},
-                                NeighbourFinding::parallel);
+                                reinterpret_cast<const std::int32_t*>(triangles.data()), {}, NeighbourSearch::parallel);
   const auto orient_by = [&](const Mesh& positions) {
     const cuda::DeviceBuffer<Point2<double>> points(context, positions.points);
     const bool changed = topology.orient(points.data());
@@ -482,14 +382,14 @@ TEST_CASE("the smallest quotient of the triangles without a free vertex is the h
     const cuda::DeviceBuffer<Point2<double>> points(context, mesh.points);
     cuda::DeviceTopology topology(context, mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()),
                                   reinterpret_cast<const std::int32_t*>(triangles.data()), {},
-                                  NeighbourFinding::one_thread);
+                                  NeighbourSearch::one_thread);
     CHECK(topology.orient(points.data()));
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
           FixedTriangles(mesh.triangles, expected.reversed, expected.fixed)
               .smallest_quotient([&points_of = mesh.points](std::int32_t v) { return points_of[v]; }));
   }
   cuda::Context context;
-  cuda::DeviceTopology nothing(context, 0, 0, nullptr, {}, NeighbourFinding::parallel);
+  cuda::DeviceTopology nothing(context, 0, 0, nullptr, {}, NeighbourSearch::parallel);
   CHECK(nothing.orient(nullptr));
   CHECK_FALSE(nothing.orient(nullptr));
   CHECK(nothing.smallest_fixed_quotient(nullptr) == std::numeric_limits<double>::infinity());
@@ -504,7 +404,7 @@ TEST_CASE("device memory stays near what is announced") {
   {
     cuda::DeviceTopology topology(context, mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()),
                                   reinterpret_cast<const std::int32_t*>(triangles.data()), {},
-                                  NeighbourFinding::parallel);
+                                  NeighbourSearch::parallel);
     topology.orient(points.data());
     const cuda::DeviceRings rings = topology.rings();
     CHECK(context.bytes_in_use() - before < 72 * mesh.points.size());

@@ -10,8 +10,8 @@
 
 #include <cuda_runtime.h>
 
+#include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
-#include "trismooth/smoothing/options.h"
 
 #include "catch.h"
 #include "hard_rings.h"
@@ -20,7 +20,6 @@
 namespace update_checks {
 
 using hard_rings::Vertex;
-using trismooth::Layout;
 using trismooth::Move;
 using trismooth::Point2;
 
@@ -96,13 +95,10 @@ struct PointList {
     }
   }
 
-  std::vector<T> coordinates(Layout layout) const {
-    const std::size_t count = points.size();
-    const bool aos = layout == Layout::aos;
-    std::vector<T> values(2 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-      values[aos ? 2 * i : i] = points[i].x;
-      values[aos ? 2 * i + 1 : count + i] = points[i].y;
+  std::vector<trismooth::cuda::PointRecord<T>> records() const {
+    std::vector<trismooth::cuda::PointRecord<T>> values;
+    for (const Point2<T>& point : points) {
+      values.push_back({point.x, point.y});
     }
     return values;
   }

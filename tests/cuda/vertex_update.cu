@@ -9,7 +9,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/update/reciprocals.cuh"
 #include "trismooth/cuda/update/register_ring.cuh"
@@ -88,18 +88,18 @@ struct Attempt {
   bool decided;
 };
 
-template <class T, Layout layout, class Slot>
+template <class T, class Slot>
 struct RegisterInput {
   int count;
   const std::int32_t* numbers;
   const std::uint8_t* active;
   const cuda::RingRecord<Slot>* records;
   const std::int32_t* long_rings;
-  cuda::PointArrays<T, layout> points;
+  cuda::PointArray<T> points;
 };
 
-template <class Update, class T, Layout layout, class Slot>
-__global__ void try_in_registers(RegisterInput<T, layout, Slot> input, Attempt<T>* attempts) {
+template <class Update, class T, class Slot>
+__global__ void try_in_registers(RegisterInput<T, Slot> input, Attempt<T>* attempts) {
   const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const bool active = i < input.count && input.active[i] != 0;
   const int own = active ? i : 0;
@@ -126,19 +126,18 @@ struct Decisions {
 };
 
 /// What try_update() says of every vertex: where it has decided it has to be right.
-template <class Update, Layout layout, class Slot, class T>
+template <class Update, class Slot, class T>
 Decisions check_in_registers(const Vertices<T>& vertices) {
   const PointList<T> list(vertices.all);
   const Records<Slot> rings(list);
-  const SharedArray<T> coordinates(list.coordinates(layout));
+  const SharedArray<cuda::PointRecord<T>> points(list.records());
   const SharedArray<std::int32_t> numbers(list.numbers);
   const SharedArray<std::uint8_t> active(vertices.active);
   const SharedArray<cuda::RingRecord<Slot>> records(rings.records);
   const SharedArray<std::int32_t> long_rings(rings.long_rings);
   const SharedArray<Attempt<T>> attempts(vertices.all.size());
-  const RegisterInput<T, layout, Slot> input{
-      vertex_count,   numbers.data(),    active.data(),
-      records.data(), long_rings.data(), {coordinates.data(), static_cast<std::int64_t>(list.points.size())}};
+  const RegisterInput<T, Slot> input{vertex_count,   numbers.data(),    active.data(),
+                                     records.data(), long_rings.data(), {points.data()}};
   try_in_registers<Update><<<cuda::blocks_for(vertex_count), cuda::block_size>>>(input, attempts.data());
   finish_launch();
 
@@ -253,18 +252,18 @@ TEMPLATE_TEST_CASE("what the filter decides is what the smart Laplacian does", "
     CHECK(decisions.undecided_ties > vertex_count / 1000);
   };
   SECTION("records of 16 bits, points in one array") {
-    require_useful(check_in_registers<SmartLaplacian, Layout::aos, std::int16_t>(vertices));
+    require_useful(check_in_registers<SmartLaplacian, std::int16_t>(vertices));
   }
   SECTION("records of 32 bits, coordinates in two arrays") {
-    require_useful(check_in_registers<SmartLaplacian, Layout::soa, std::int32_t>(vertices));
+    require_useful(check_in_registers<SmartLaplacian, std::int32_t>(vertices));
   }
 }
 
 TEMPLATE_TEST_CASE("the Laplacian in registers is the Laplacian, and always decided", "", float, double) {
   const Vertices<TestType> vertices(vertex_count, 2);
-  const Decisions decisions = check_in_registers<Laplacian, Layout::aos, std::int16_t>(vertices);
+  const Decisions decisions = check_in_registers<Laplacian, std::int16_t>(vertices);
   CHECK(decisions.undecided == 0);
-  CHECK(check_in_registers<Laplacian, Layout::soa, std::int32_t>(vertices).undecided == 0);
+  CHECK(check_in_registers<Laplacian, std::int32_t>(vertices).undecided == 0);
 }
 
 TEMPLATE_TEST_CASE("a team does what one thread does, with rings of every size", "", float, double) {

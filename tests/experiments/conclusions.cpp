@@ -104,15 +104,6 @@ TEST_CASE("AoS at least as fast as SoA holds where it is faster or cannot be tol
   CHECK(says(part, "1K: 0.312; 100K: 2.50"));
 }
 
-TEST_CASE("layouts of the resident version are told, and decide nothing") {
-  const auto resident_soa = [](std::int64_t, const Case& what) {
-    return what.layout == Layout::soa && what.version == Version::resident;
-  };
-  const Conclusion conclusion = conclude(layout, scaled(0.1, resident_soa));
-  CHECK(conclusion.verdict == Verdict::holds);
-  CHECK(says(conclusion, "The resident version: AoS is faster in 0 of 4 comparisons, SoA in 4"));
-}
-
 TEST_CASE("Form A slower than Form B is judged by the paper's literal Form B, with the sweeps of both") {
   const Conclusion conclusion = conclude(form, &sample::regular_time);
   CHECK(conclusion.verdict == Verdict::holds);

@@ -237,7 +237,7 @@ TEST_CASE("the progress never goes back, names what runs and counts the runs") {
   CHECK(seen.back().part < 1);
   CHECK(seen.back().part > 0.9);
   CHECK(seen.back().run == 2);
-  CHECK(seen.back().what == "resident-SoA, Form B");
+  CHECK(seen.back().what == "resident, Form B");
 }
 
 TEST_CASE("an experiment without sizes, versions, runs or time is refused") {

@@ -40,10 +40,9 @@ TEST_CASE("a report names the machine that was measured") {
 
 TEST_CASE("the remarks name each version that was not measured, once, and why") {
   const auto remarks = remarks_on(report_of(sample::experiment({1'000, 5'000}, &sample::cpu_time)));
-  CHECK(
-      says(remarks,
-           "Not measured, for they need a CUDA device: GPU-AoS, GPU-SoA, CDP-AoS, CDP-SoA, resident-AoS, resident-SoA "
-           "(no device: for a <test>)."));
+  CHECK(says(remarks,
+             "Not measured, for they need a CUDA device: GPU-AoS, GPU-SoA, CDP-AoS, CDP-SoA, resident "
+             "(no device: for a <test>)."));
   CHECK_FALSE(says(remarks, "unordered"));
   CHECK_FALSE(says(remarks_on(report_of(sample::experiment({1'000}, &sample::regular_time))), "Not measured"));
 }
@@ -54,7 +53,7 @@ TEST_CASE("the remarks name each case that failed, with its size") {
   row.measured.reset();
   row.lack = trismooth::experiments::Lack::working_device;
   row.missing_reason = "cudaErrorMemoryAllocation";
-  CHECK(says(remarks_on(report_of(result)), "Failed: 5K resident-SoA, Form B (cudaErrorMemoryAllocation)."));
+  CHECK(says(remarks_on(report_of(result)), "Failed: 5K resident, Form B (cudaErrorMemoryAllocation)."));
   CHECK_FALSE(says(remarks_on(report_of(result)), "need a CUDA device"));
 }
 
@@ -69,7 +68,7 @@ TEST_CASE("the remarks say whether the bits were the same, and that unordered on
   CHECK(says(remarks_on(report_of(result)), "gave the same coordinates bit for bit"));
   CHECK(says(remarks_on(report_of(result)), "every run gives another result"));
   result.rows.back().measured->same_bits_as_first = false;
-  CHECK(says(remarks_on(report_of(result)), "THESE GAVE OTHER BITS THAN THEY MUST: 1K resident-SoA, Form B."));
+  CHECK(says(remarks_on(report_of(result)), "THESE GAVE OTHER BITS THAN THEY MUST: 1K resident, Form B."));
   CHECK_FALSE(says(remarks_on(report_of(result)), "gave the same coordinates"));
 }
 

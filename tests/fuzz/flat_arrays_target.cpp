@@ -212,6 +212,8 @@ SmoothingOptions choose_options(InputBytes& input) {
   options.precision = input.one_of({trismooth::Precision::double_precision, trismooth::Precision::single_precision});
   options.evaluation = input.one_of({trismooth::Evaluation::changed, trismooth::Evaluation::all});
   options.layout = input.one_of({trismooth::Layout::aos, trismooth::Layout::soa});
+  options.execution =
+      options.layout == trismooth::Layout::aos ? trismooth::Execution::resident : trismooth::Execution::single_block;
   options.topology = input.one_of({trismooth::Topology::halfedge, trismooth::Topology::device});
   options.guard = input.below(4) != 0;
   options.record_min_shape = input.flag();

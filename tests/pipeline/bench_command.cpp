@@ -127,7 +127,7 @@ TEST_CASE("with a device bench measures every version on it") {
   const Outcome outcome = bench({}, cuda_with(backend));
   CHECK(outcome.code == 0);
   CHECK(backend.smoothed == 3 * 16 * 2);
-  CHECK(outcome.shows("resident-SoA"));
+  CHECK(outcome.shows("resident"));
   CHECK_FALSE(outcome.shows("Not measured"));
 }
 

@@ -140,6 +140,8 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--quiet", "--verbose"}, "--quiet excludes --verbose"},
       {{"smooth", "a.off", "b.off", "--verbose", "--quiet"}, "--quiet excludes --verbose"},
       {{"smooth", "a.off", "b.off", "--order", "unordered"}, "unordered"},
+      {{"smooth", "a.off", "b.off", "--layout", "soa"}, "layout 'soa' goes with execution single-block or cdp only"},
+      {{"smooth", "a.off", "b.off", "--layout", "soa", "--backend", "cpu"}, "layout 'soa' goes with"},
       {{"smooth", "a.off", "b.off", "--order", "unordered", "--execution", "cdp"}, "CUDA"},
       {{"quality"}, "INPUT is required"},
       {{"quality", "a.off", "--form", "a"}, "--form"},

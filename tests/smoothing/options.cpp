@@ -12,6 +12,7 @@
 
 using trismooth::Execution;
 using trismooth::Form;
+using trismooth::Layout;
 using trismooth::Order;
 using trismooth::SmoothingOptions;
 
@@ -50,6 +51,15 @@ void check_order(Form form, Execution execution, bool valid) {
     o.execution = execution;
   });
   CHECK(said.empty() == valid);
+}
+
+void check_layout(Layout layout, Execution execution, bool valid) {
+  CAPTURE(layout, execution);
+  const std::string said = complaint([&](auto& o) {
+    o.layout = layout;
+    o.execution = execution;
+  });
+  CHECK(said == (valid ? "" : "layout 'soa' goes with execution single-block or cdp only"));
 }
 
 }  // namespace
@@ -96,6 +106,13 @@ TEST_CASE("tolerances are numbers from 0, targets from -1 to 1") {
   check_target(not_a_number, false);
   check_target(-1.001, false);
   check_target(infinity, false);
+}
+
+TEST_CASE("the structure of arrays goes with a single block or CDP alone") {
+  check_layout(Layout::soa, Execution::single_block, true);
+  check_layout(Layout::soa, Execution::cdp, true);
+  check_layout(Layout::soa, Execution::resident, false);
+  check_layout(Layout::aos, Execution::resident, true);
 }
 
 TEST_CASE("the unordered order goes with form b in a single block or CDP alone") {

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
-#include "trismooth/cuda/primitives/changed_vertices.cuh"
-#include "trismooth/cuda/primitives/move_tally.cuh"
-#include "trismooth/cuda/primitives/point_arrays.h"
+#include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/primitives/vertex_marks.cuh"
+#include "trismooth/cuda/sweeps/move_tally.cuh"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
@@ -13,20 +13,20 @@
 namespace trismooth::cuda {
 
 /// What a sweep reads and writes.
-template <class T, Layout layout, class Slot>
+template <class T, class Slot>
 struct SweepData {
   SlottedRingsView<Slot> rings;
-  PointArrays<T, layout> from;
-  PointArrays<T, layout> to;  ///< the same in Form B
-  std::uint32_t* marks;       ///< for the next sweep (Form A), or for those to come (Form B)
+  PointArray<T> from;
+  PointArray<T> to;      ///< the same in Form B
+  std::uint32_t* marks;  ///< for the next sweep (Form A), or for those to come (Form B)
   T tolerance;
   /// Set where a vertex is elsewhere than `to` had it, that is two sweeps before (Form A). Null: nobody asks.
   std::uint32_t* differs = nullptr;
 };
 
 /// Marks a vertex for the next sweep unless it is fixed.
-template <class T, Layout layout, class Slot>
-__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, layout, Slot>& data) {
+template <class T, class Slot>
+__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, Slot>& data) {
   if (v < data.rings.size) {
     mark(data.marks, v);
   }
@@ -47,8 +47,8 @@ __device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<
 }
 
 /// Writes where an evaluated vertex is.
-template <class T, Layout layout, class Slot>
-__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, layout, Slot>& data) {
+template <class T, class Slot>
+__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, Slot>& data) {
   if (data.differs != nullptr && !(data.to.load(v) == move.position)) {
     *data.differs = 1;
   }
@@ -56,16 +56,16 @@ __device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, cons
 }
 
 /// The update of a vertex by one thread, its ring read from memory: for rings of any size.
-template <class Update, class T, Layout layout, class Slot>
-__device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position,
-                                                         PointArrays<T, layout> points, SlottedRingsView<Slot> rings) {
+template <class Update, class T, class Slot>
+__device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position, PointArray<T> points,
+                                                         SlottedRingsView<Slot> rings) {
   return update_over<Update>(position, ring_in_memory(points, rings, v));
 }
 
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
 /// Those that are not `active` do nothing. Exact for every ring.
-template <class Update, bool marks, class T, Layout layout, class Slot>
-__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const SweepData<T, layout, Slot>& data,
+template <class Update, bool marks, class T, class Slot>
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const SweepData<T, Slot>& data,
                                               ThreadTally<T>& tally) {
   const Point2<T> position = data.from.load(v);
   const SlottedRing<Slot> numbers = data.rings.ring(v);
@@ -95,9 +95,9 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
 /// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
 /// marks the vertex itself for the next sweep.
-template <class Update, bool marks, class T, Layout layout, class Slot>
+template <class Update, bool marks, class T, class Slot>
 __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active,
-                                      const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally) {
+                                      const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
   // Asked for first: it arrives together with the ring.
   const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
   VertexMove<T> result;
@@ -134,8 +134,8 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
 }
 
 /// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
-template <class Update, bool marks, class T, Layout layout, class Slot, class Vertex>
-__device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, layout, Slot>& data, ThreadTally<T>& tally,
+template <class Update, bool marks, class T, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, Slot>& data, ThreadTally<T>& tally,
                                                const Vertex& vertex) {
   if constexpr (has_register_update<Update, T>) {
     for (int base = 0; base < count; base += teams) {

@@ -1,5 +1,5 @@
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
 #include "trismooth/cuda/sweeps/patches/patch_visit.cuh"
 
@@ -95,8 +95,8 @@ __device__ void list_classes(std::int32_t count, std::int32_t colours, const Pat
 }
 
 /// Brings in positions and moves from the last group, and marks what they changed.
-template <class T, Layout layout>
-__device__ void enter_group(const PatchBuffer<T, layout>& from, const std::int32_t* vertices, std::int32_t count,
+template <class T>
+__device__ void enter_group(const PatchBuffer<T>& from, const std::int32_t* vertices, std::int32_t count,
                             std::int32_t free_count, bool swaps, const PatchMemory<T>& patch, BlockWork& work) {
   constexpr int threads = threads_for<T>;
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
@@ -144,9 +144,9 @@ __device__ unsigned long long bits_of(const PatchSums& sums, std::int32_t sweep)
          (sums.beyond_tolerance > 0 ? 1ULL << (beyond_shift + static_cast<unsigned>(sweep)) : 0ULL);
 }
 
-template <class Update, class T, Layout layout, bool swaps>
+template <class Update, class T, bool swaps>
 __global__ void __launch_bounds__(threads_for<T>, 1)
-    sweep_patches(PatchedMesh<T, layout> mesh, LoopRules rules, std::int32_t group_length, std::int32_t free_count,
+    sweep_patches(PatchedMesh<T> mesh, LoopRules rules, std::int32_t group_length, std::int32_t free_count,
                   LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found) {
   constexpr int threads = threads_for<T>;
   extern __shared__ __align__(16) std::uint8_t memory[];
@@ -173,8 +173,8 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   }
   PatchRules patch_rules{place.own_begin, place.own_end, rules.tolerance, 0};
   const bool is_alone = gridDim.x == 1;
-  PatchBuffer<T, layout> from = mesh.first;
-  PatchBuffer<T, layout> to = mesh.second;
+  PatchBuffer<T> from = mesh.first;
+  PatchBuffer<T> to = mesh.second;
   std::int32_t current = state->current;
   if (current != 0) {
     from = mesh.second;
@@ -251,7 +251,7 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
     }
     sweep += made;
     current = 1 - current;
-    const PatchBuffer<T, layout> old = from;
+    const PatchBuffer<T> old = from;
     from = to;
     to = old;
   }
@@ -262,17 +262,17 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   }
 }
 
-template <class Update, class T, Layout layout, bool swaps>
-void launch_with(const PatchedMesh<T, layout>& mesh, const LoopRules& rules, std::size_t shared_bytes,
-                 std::int32_t free_count, LoopState* state, SweepSums* sums, BarrierWord* barriers,
-                 unsigned long long* found, cudaStream_t stream) {
-  const auto* const kernel = reinterpret_cast<const void*>(&sweep_patches<Update, T, layout, swaps>);
+template <class Update, class T, bool swaps>
+void launch_with(const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes, std::int32_t free_count,
+                 LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found,
+                 cudaStream_t stream) {
+  const auto* const kernel = reinterpret_cast<const void*>(&sweep_patches<Update, T, swaps>);
   allow_most_patch_bytes(kernel);
   std::int32_t group_length = longest_group;
   if (mesh.patches.count > 1) {
     group_length = swaps ? Patches::sweeps_in_group_a : Patches::sweeps_in_group_b;
   }
-  PatchedMesh<T, layout> mesh_argument = mesh;
+  PatchedMesh<T> mesh_argument = mesh;
   LoopRules rules_argument = rules;
   void* arguments[] = {&mesh_argument, &rules_argument, &group_length, &free_count, &state, &sums, &barriers, &found};
   TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(kernel, dim3(static_cast<unsigned>(mesh.patches.count)),
@@ -282,34 +282,22 @@ void launch_with(const PatchedMesh<T, layout>& mesh, const LoopRules& rules, std
 }  // namespace
 
 template <class T>
-std::size_t patch_bytes(const Patches& patches, bool swaps) {
-  return memory_bytes<T>(static_cast<std::size_t>(patches.most_vertices()),
-                         static_cast<std::size_t>(patches.most_entries()), swaps);
-}
-
-template <class T, Layout layout>
-void launch_patch_sweeps(Method method, const PatchedMesh<T, layout>& mesh, const LoopRules& rules,
-                         std::size_t shared_bytes, std::int32_t free_count, LoopState* state, SweepSums* sums,
-                         unsigned long long* barriers, unsigned long long* found, cudaStream_t stream) {
+void launch_patch_sweeps(Method method, const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes,
+                         std::int32_t free_count, LoopState* state, SweepSums* sums, unsigned long long* barriers,
+                         unsigned long long* found, cudaStream_t stream) {
   visit_method(method, [&]<class Update>(Update) {
     if (rules.swaps) {
-      launch_with<Update, T, layout, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+      launch_with<Update, T, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
     } else {
-      launch_with<Update, T, layout, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found,
-                                            stream);
+      launch_with<Update, T, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
     }
   });
 }
 
-template std::size_t patch_bytes<float>(const Patches&, bool);
-template std::size_t patch_bytes<double>(const Patches&, bool);
-#define INSTANTIATE(T, layout)                                                                                      \
-  template void launch_patch_sweeps(Method, const PatchedMesh<T, layout>&, const LoopRules&, std::size_t,           \
-                                    std::int32_t, LoopState*, SweepSums*, unsigned long long*, unsigned long long*, \
-                                    cudaStream_t)
-INSTANTIATE(float, Layout::aos);
-INSTANTIATE(float, Layout::soa);
-INSTANTIATE(double, Layout::aos);
-INSTANTIATE(double, Layout::soa);
+#define INSTANTIATE(T)                                                                                          \
+  template void launch_patch_sweeps(Method, const PatchedMesh<T>&, const LoopRules&, std::size_t, std::int32_t, \
+                                    LoopState*, SweepSums*, unsigned long long*, unsigned long long*, cudaStream_t)
+INSTANTIATE(float);
+INSTANTIATE(double);
 
 }  // namespace trismooth::cuda

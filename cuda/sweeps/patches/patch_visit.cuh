@@ -3,9 +3,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "trismooth/cuda/primitives/move_tally.cuh"
+#include "trismooth/cuda/packing/patch_memory.cuh"
 #include "trismooth/cuda/primitives/warp_list.cuh"
-#include "trismooth/cuda/sweeps/patches/patch_memory.cuh"
+#include "trismooth/cuda/sweeps/move_tally.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
 

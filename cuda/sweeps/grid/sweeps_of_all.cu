@@ -1,12 +1,11 @@
 #include <algorithm>
 
-#include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/primitives/block_tally.cuh"
 #include "trismooth/cuda/primitives/warp_list.cuh"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
-#include "trismooth/cuda/sweeps/grid/resident.h"
-#include "trismooth/cuda/sweeps/grid/resident_instances.h"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
+#include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 
 namespace trismooth::cuda {
@@ -16,7 +15,7 @@ namespace {
 constexpr std::int32_t threads = 256;
 /// Blocks of a multiprocessor: what their registers allow.
 template <class T>
-constexpr std::int32_t resident_blocks = sizeof(T) == sizeof(float) ? 3 : 2;
+constexpr std::int32_t blocks_at_once = sizeof(T) == sizeof(float) ? 3 : 2;
 constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them. In
@@ -60,9 +59,9 @@ struct Pieces {
 constexpr int enough_left_over = 32;
 
 /// Evaluates the block's vertices. `list` is the warp's own.
-template <class Update, bool marks, class T, Layout layout, class Slot>
-__device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepData<T, layout, Slot>& data,
-                                             std::int32_t* list, ThreadTally<T>& tally) {
+template <class Update, bool marks, class T, class Slot>
+__device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepData<T, Slot>& data, std::int32_t* list,
+                                             ThreadTally<T>& tally) {
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   const auto fetch = [&](std::int64_t first) {
     return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
@@ -91,9 +90,9 @@ __device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepDa
 
 /// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
 /// to be marked is what this kernel does.
-template <class Update, bool marks, class T, Layout layout, class Slot>
-__global__ void __launch_bounds__(threads, resident_blocks<T>)
-    sweep_batch(ResidentMesh<T, layout, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
+template <class Update, bool marks, class T, class Slot>
+__global__ void __launch_bounds__(threads, blocks_at_once<T>)
+    sweep_batch(GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
   if (state->stop != LoopState::running || state->evaluates_all == 0 || (state->marks != 0) != marks ||
       state->sweeps >= rules.sweeps) {
@@ -107,9 +106,9 @@ __global__ void __launch_bounds__(threads, resident_blocks<T>)
   __syncthreads();
   const bool second = state->current != 0;
   const bool to_second = rules.swaps ? !second : second;
-  const SweepData<T, layout, Slot> data{
-      mesh.rings, second ? mesh.second.points : mesh.first.points, to_second ? mesh.second.points : mesh.first.points,
-      to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
+  const SweepData<T, Slot> data{mesh.rings, second ? mesh.second.points : mesh.first.points,
+                                to_second ? mesh.second.points : mesh.first.points,
+                                to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
   ThreadTally<T> tally;
   sweep_pieces<Update, marks>(pieces, data, left_over[threadIdx.x / 32], tally);
   if (threadIdx.x == 0 && blockIdx.x == 0) {
@@ -133,11 +132,11 @@ __global__ void __launch_bounds__(threads, resident_blocks<T>)
 
 }  // namespace
 
-template <class T, Layout layout, class Slot>
-std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+template <class T, class Slot>
+std::int32_t launch_sweeps_of_all(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
                                   SweepSums* sums, cudaStream_t stream) {
-  const std::int32_t most_blocks = multiprocessor_count() * resident_blocks<T>;
+  const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
   std::int32_t launches = 0;
   const auto launch_sweep = [&](auto kernel) {
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
@@ -154,19 +153,22 @@ std::int32_t launch_sweeps_of_all(Method method, const ResidentMesh<T, layout, S
   };
   visit_method(method, [&]<class Update>(Update) {
     for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-      launch_sweep(&sweep_batch<Update, false, T, layout, Slot>);
+      launch_sweep(&sweep_batch<Update, false, T, Slot>);
     }
     if (!rules.evaluates_all) {
-      launch_sweep(&sweep_batch<Update, true, T, layout, Slot>);
+      launch_sweep(&sweep_batch<Update, true, T, Slot>);
     }
   });
   return launches;
 }
 
-#define INSTANTIATE(T, layout, Slot)                                                                              \
-  template std::int32_t launch_sweeps_of_all(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&,      \
+#define INSTANTIATE(T, Slot)                                                                                      \
+  template std::int32_t launch_sweeps_of_all(Method, const GridMesh<T, Slot>&, const LoopRules&,                  \
                                              std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*, \
                                              cudaStream_t)
-TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
+INSTANTIATE(float, std::int16_t);
+INSTANTIATE(float, std::int32_t);
+INSTANTIATE(double, std::int16_t);
+INSTANTIATE(double, std::int32_t);
 
 }  // namespace trismooth::cuda

@@ -1,41 +1,25 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
-#include "trismooth/base/storage.h"
-#include "trismooth/cuda/guard/commit.h"
+#include "trismooth/cuda/guard/guard.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth::cuda {
 
-/// A CommitInput with one kind of rings, for kernels.
-template <class ScalarType, Layout layout, class Rings>
-struct CommitView {
-  using Scalar = ScalarType;
-  using Points = PointArrays<Scalar, layout>;
+/// The input with one kind of rings, for kernels.
+template <class T, class Rings>
+struct GuardView : GuardInput<T> {
+  using Scalar = T;
 
-  Rings rings;                      ///< of the free vertices
-  const std::int32_t* input_index;  ///< of all vertices
-  const double2* before;
-  Points first;
-  Points second;
-  const LoopState* state;
-  bool is_over;
-  const LocalFrame* frame;
-  Storage storage;
+  Rings rings;  ///< of the free vertices
 
-  __device__ bool run_is_over() const { return is_over || state->stop != LoopState::running; }
-  __device__ Points working() const { return state->current == 0 ? first : second; }
+  __device__ bool run_is_over() const { return this->is_over || this->state->stop != LoopState::running; }
+  __device__ PointArray<T> working() const { return this->state->current == 0 ? this->first : this->second; }
 };
 
-template <class T>
-__device__ Point2<T> narrow(Point2<double> point) {
-  return {static_cast<T>(point.x), static_cast<T>(point.y)};
-}
-
-/// A vertex as the commit sees it.
-struct Corner {
+/// A vertex as the guard sees it.
+struct JudgedVertex {
   Point2<double> before;
   Point2<double> after;
   std::int32_t input;   ///< the caller's number
@@ -53,7 +37,7 @@ class Positions {
   __device__ explicit Positions(const View& view)
       : free_count_(view.rings.size),
         input_index_(view.input_index),
-        before_(view.before),
+        before_(reinterpret_cast<const double2*>(view.before)),
         working_(view.working()),
         frame_(*view.frame),
         storage_(view.storage) {}
@@ -71,27 +55,27 @@ class Positions {
                                                          static_cast<double>(static_cast<float>(left.y))};
   }
   __device__ Point2<double> stored(std::int32_t v) const { return stored(working_.load(v)); }
-  /// The same in the local frame: what the commit evaluates.
+  /// The same in the local frame: what the guard evaluates.
   __device__ Point2<double> after(std::int32_t v, Point2<double> before) const {
     if (v >= free_count_) {
       return before;
     }
     const Point2<T> working = working_.load(v);
-    return working == narrow<T>(before) ? before : frame_.enter(stored(working));
+    return working == working_point<T>(before) ? before : frame_.enter(stored(working));
   }
-  __device__ Corner corner(std::int32_t v) const {
+  __device__ JudgedVertex judged(std::int32_t v) const {
     // Asked for first: it arrives while the positions are on their way.
     const std::int32_t input = input_index_[v];
     const Point2<double> old = before(v);
     return {old, after(v, old), input, v};
   }
-  __device__ void take_back(std::int32_t v) const { working_.store(v, narrow<T>(before(v))); }
+  __device__ void take_back(std::int32_t v) const { working_.store(v, working_point<T>(before(v))); }
 
  private:
   std::int32_t free_count_;
   const std::int32_t* input_index_;
   const double2* before_;
-  typename View::Points working_;
+  PointArray<T> working_;
   LocalFrame frame_;
   Storage storage_;
 };
@@ -103,7 +87,7 @@ struct Quotients {
 
 /// canonical_quotient() of the element (a, b, c), before and after. The corner with the smallest input number is
 /// brought to the front without branches, so that the threads of a warp divide together.
-__device__ inline Quotients quotients(const Corner& a, const Corner& b, const Corner& c) {
+__device__ inline Quotients quotients(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) {
   const bool a_first = a.input <= b.input && a.input <= c.input;
   const bool b_first = !a_first && b.input <= c.input;
   const auto pick = [&](Point2<double> if_a, Point2<double> if_b, Point2<double> if_c) {
@@ -126,16 +110,16 @@ __device__ void for_elements(const View& view, const Positions<View>& positions,
     return;
   }
   const auto ring = view.rings.ring(v);
-  const Corner own = positions.corner(v);
-  Corner last{};
+  const JudgedVertex own = positions.judged(v);
+  JudgedVertex last{};
   bool has_last = false;
   std::int32_t number = ring[size - 1];
   for (std::int32_t i = 0; i <= size; ++i) {
     const std::int32_t following = ring[i < size ? i : 0];
     const bool counts = number >= lowest;
-    Corner next{};
+    JudgedVertex next{};
     if (counts) {
-      next = positions.corner(number);
+      next = positions.judged(number);
       if (has_last) {
         visit(own, last, next);
       }
@@ -143,23 +127,6 @@ __device__ void for_elements(const View& view, const Positions<View>& positions,
     last = next;
     has_last = counts;
     number = following;
-  }
-}
-
-/// Calls body(view) with the input as kernels take it.
-template <class T, Layout layout, class Body>
-void with_view(const CommitInput<T, layout>& input, const Body& body) {
-  const auto call = [&](const auto& rings) {
-    body(CommitView<T, layout, std::remove_cvref_t<decltype(rings)>>{
-        rings, input.rings->input_index.data(), reinterpret_cast<const double2*>(input.before), input.first,
-        input.second, input.state, input.is_over, input.frame, input.storage});
-  };
-  if (input.rings->near_rings.records.size() > 0) {
-    call(input.rings->near_rings.view());
-  } else if (input.rings->wide_rings.records.size() > 0) {
-    call(input.rings->wide_rings.view());
-  } else {
-    call(input.rings->rings.view());
   }
 }
 

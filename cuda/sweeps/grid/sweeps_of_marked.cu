@@ -1,14 +1,13 @@
 #include <algorithm>
 
-#include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/primitives/block_tally.cuh"
-#include "trismooth/cuda/primitives/changed_vertices.cuh"
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
+#include "trismooth/cuda/primitives/vertex_marks.cuh"
 #include "trismooth/cuda/primitives/warp_list.cuh"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
-#include "trismooth/cuda/sweeps/grid/resident.h"
-#include "trismooth/cuda/sweeps/grid/resident_instances.h"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
+#include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 #include "trismooth/cuda/sweeps/smallest_quotient.cuh"
 
@@ -32,9 +31,9 @@ struct BlockWork {
 };
 
 /// Updates the marked vertices of one batch that this warp looks after. `list` is its own.
-template <class Update, class T, Layout layout, class Slot>
+template <class Update, class T, class Slot>
 __device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
-                             const SweepData<T, layout, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
+                             const SweepData<T, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
   // The words of a warp are far apart: what changes is often near to each other.
   const std::int64_t warps = static_cast<std::int64_t>(gridDim.x) * (threads / 32);
   const std::int64_t warp = thread_index() / 32;
@@ -73,9 +72,9 @@ __device__ void swap_values(T& a, T& b) {
 /// blocks, in 16 bits each.
 constexpr unsigned field_bits = 16;
 
-template <class Update, class T, Layout layout, class Slot>
-__global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, layout, Slot> mesh, LoopRules rules,
-                                                             LoopState* state, SweepSums* sums, BarrierWord* barriers) {
+template <class Update, class T, class Slot>
+__global__ void __launch_bounds__(threads, 1)
+    sweep_grid(GridMesh<T, Slot> mesh, LoopRules rules, LoopState* state, SweepSums* sums, BarrierWord* barriers) {
   __shared__ BlockWork work;
   __shared__ std::int32_t lists[threads / 32][words_at_a_time * 32];
   std::int32_t stop = state->stop;
@@ -85,8 +84,8 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
     work.differs = 0;
   }
   const auto nothing = [] {};
-  SweepData<T, layout, Slot> data{mesh.rings, mesh.first.points, rules.swaps ? mesh.second.points : mesh.first.points,
-                                  rules.swaps ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
+  SweepData<T, Slot> data{mesh.rings, mesh.first.points, rules.swaps ? mesh.second.points : mesh.first.points,
+                          rules.swaps ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
   std::uint32_t* marks = mesh.first.marks;
   std::int32_t current = state->current;
   const std::int32_t first_sweep = state->sweeps;
@@ -151,26 +150,26 @@ __global__ void __launch_bounds__(threads, 1) sweep_resident(ResidentMesh<T, lay
   }
 }
 
-template <class Update, class T, Layout layout, class Slot>
-void launch_with(const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules, std::int32_t largest_batch,
-                 LoopState* state, SweepSums* sums, BarrierWord* barriers, cudaStream_t stream) {
+template <class Update, class T, class Slot>
+void launch_with(const GridMesh<T, Slot>& mesh, const LoopRules& rules, std::int32_t largest_batch, LoopState* state,
+                 SweepSums* sums, BarrierWord* barriers, cudaStream_t stream) {
   const int blocks = std::clamp(largest_batch / smallest_share, 1, multiprocessor_count());
-  ResidentMesh<T, layout, Slot> mesh_argument = mesh;
+  GridMesh<T, Slot> mesh_argument = mesh;
   LoopRules rules_argument = rules;
   void* arguments[] = {&mesh_argument, &rules_argument, &state, &sums, &barriers};
-  const auto kernel = &sweep_resident<Update, T, layout, Slot>;
+  const auto kernel = &sweep_grid<Update, T, Slot>;
   TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(
       reinterpret_cast<const void*>(kernel), dim3(static_cast<unsigned>(blocks)), dim3(threads), arguments, 0, stream));
 }
 
 }  // namespace
 
-std::size_t resident_barriers(const LoopRules& rules) {
+std::size_t barrier_words(const LoopRules& rules) {
   return static_cast<std::size_t>(rules.sweeps) * (static_cast<std::size_t>(rules.batch_count) + 1);
 }
 
-template <class T, Layout layout, class Slot>
-void launch_sweeps_of_marked(Method method, const ResidentMesh<T, layout, Slot>& mesh, const LoopRules& rules,
+template <class T, class Slot>
+void launch_sweeps_of_marked(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                              std::int32_t largest_batch, LoopState* state, SweepSums* sums,
                              unsigned long long* barriers, cudaStream_t stream) {
   visit_method(method, [&]<class Update>(Update) {
@@ -178,9 +177,12 @@ void launch_sweeps_of_marked(Method method, const ResidentMesh<T, layout, Slot>&
   });
 }
 
-#define INSTANTIATE(T, layout, Slot)                                                                                  \
-  template void launch_sweeps_of_marked(Method, const ResidentMesh<T, layout, Slot>&, const LoopRules&, std::int32_t, \
-                                        LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
-TRISMOOTH_FOR_RESIDENT_MESHES(INSTANTIATE);
+#define INSTANTIATE(T, Slot)                                                                                          \
+  template void launch_sweeps_of_marked(Method, const GridMesh<T, Slot>&, const LoopRules&, std::int32_t, LoopState*, \
+                                        SweepSums*, unsigned long long*, cudaStream_t)
+INSTANTIATE(float, std::int16_t);
+INSTANTIATE(float, std::int32_t);
+INSTANTIATE(double, std::int16_t);
+INSTANTIATE(double, std::int32_t);
 
 }  // namespace trismooth::cuda

@@ -1,4 +1,4 @@
-#include "trismooth/cuda/topology/topology.h"
+#include "trismooth/cuda/topology/device_topology.h"
 
 #include <cstddef>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/topology/ring_building.h"
 #include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
@@ -32,8 +32,7 @@ void throw_host_error(const Context& context, std::int32_t vertex_count, const T
 }  // namespace
 
 DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
-                               const std::int32_t* triangles, const DeviceConstraints& constraints,
-                               NeighbourFinding way)
+                               const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way)
     : context_(&context), triangles_{triangles, triangle_count} {
   check_mesh_size(vertex_count, triangle_count);
   DeviceBuffer<Findings> device_findings(context, 1);

@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "trismooth/base/hilbert_curve.h"
-#include "trismooth/cuda/packing/colouring.h"
-#include "trismooth/cuda/packing/packing.h"
-#include "trismooth/cuda/packing/renumbering.h"
+#include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/launch.h"
@@ -110,16 +108,10 @@ __global__ void make_window_keys(RingsView rings, const std::int32_t* order, con
   keys[own] = static_cast<std::uint64_t>(window) << size_bits | static_cast<std::uint64_t>(size);
 }
 
-/// How vertices are ordered within windows of the curve.
-enum class Windows {
-  none,      ///< along the curve
-  by_size,   ///< by ring size
-  far_last,  ///< and those with a neighbour far away last
-};
+}  // namespace
 
-/// Fills input_index, batches and batch_begins. `colours`: a batch each, of `batch_count`; null: one batch.
 void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point2<double>> points,
-                    const std::int32_t* colours, std::int32_t batch_count, Windows order, PackedDeviceRings& packed) {
+                    const std::int32_t* colours, std::int32_t batch_count, Windows windows, VertexOrder& order) {
   const auto count = static_cast<std::size_t>(rings.size);
   DeviceBuffer<std::uint64_t> keys(context, count);
   DeviceBuffer<std::int32_t> vertices(context, count);
@@ -134,79 +126,28 @@ void order_vertices(Context& context, const RingsView& rings, DeviceBuffer<Point
   sort_by_key(context, keys, vertices, curve_bits + batch_bits);
   std::vector<std::uint32_t> sizes(static_cast<std::size_t>(batch_count) + 1);
   batch_sizes.download(sizes);
-  packed.batches.assign(1, 0);
+  order.batches.assign(1, 0);
   for (std::int32_t batch = 0; batch < batch_count; ++batch) {
-    packed.batches.push_back(packed.batches.back() + static_cast<std::int32_t>(sizes[batch]));
+    order.batches.push_back(order.batches.back() + static_cast<std::int32_t>(sizes[batch]));
   }
-  packed.batch_begins = DeviceBuffer<std::int32_t>(context, packed.batches);
-  if (order == Windows::none) {
-    packed.input_index = std::move(vertices);
+  order.batch_begins = DeviceBuffer<std::int32_t>(context, order.batches);
+  if (windows == Windows::none) {
+    order.input_index = std::move(vertices);
     return;
   }
-  DeviceBuffer<std::int32_t> place(context, order == Windows::far_last ? count : 0);
-  if (order == Windows::far_last) {
+  DeviceBuffer<std::int32_t> place(context, windows == Windows::far_last ? count : 0);
+  if (windows == Windows::far_last) {
     find_places<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(vertices.data(), rings.size, place.data());
     TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   }
   make_window_keys<<<blocks_for(rings.size), block_size, 0, context.stream()>>>(
-      rings, vertices.data(), place.data(), packed.batch_begins.data(), batch_count, keys.data());
+      rings, vertices.data(), place.data(), order.batch_begins.data(), batch_count, keys.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   place.reset();
-  const auto windows = static_cast<unsigned>(rings.size / window_size + batch_count + 1);
+  const auto window_count = static_cast<unsigned>(rings.size / window_size + batch_count + 1);
   // One bit more than windows need, for the fixed vertices.
-  sort_by_key(context, keys, vertices, size_bits + std::bit_width(windows) + 1);
-  packed.input_index = std::move(vertices);
-}
-
-}  // namespace
-
-PackedDeviceRings pack_rings(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>> points,
-                             const SmoothingOptions& options) {
-  PackedDeviceRings packed;
-  // A parameter lives as long as the caller's expression; the memory is to go back with this function.
-  const DeviceRings source = std::move(rings);
-  const RingsView from = source.view();
-  if (from.size == 0) {
-    packed.batches = {0, 0};
-    return packed;
-  }
-  const bool is_resident = options.execution == Execution::resident;
-  const bool by_colour = options.form == Form::in_place && options.order == Order::colour;
-  DeviceColouring colouring;
-  if (by_colour) {
-    colouring = colour_vertices(context, from);
-    packed.colours = colouring.count;
-  }
-  if (is_resident && Patches::may_suit(from.size, packed.colours, options)) {
-    DeviceBuffer<Point2<double>> copy(context, points.size());
-    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(copy.data(), points.data(), points.size() * sizeof(Point2<double>),
-                                         cudaMemcpyDeviceToDevice, context.stream()));
-    order_vertices(context, from, std::move(copy), nullptr, 1, Windows::none, packed);
-    const Renumbering numbers(context, from, packed.input_index.data(), packed.free_count());
-    packed.rings = renumbered(context, numbers, source.neighbours.size());
-    const DeviceBuffer<std::uint8_t> colours = renumbered(context, numbers, colouring.colours.data());
-    packed.patches = Patches::cut(context, packed.rings.view(), from.size, colours.data(), packed.colours, options);
-    if (packed.patches != nullptr) {
-      points.reset();
-      return packed;
-    }
-    packed.rings = {};
-  }
-  const bool has_near_rings = is_resident && !by_colour;
-  // The paper's versions read a neighbour where it lies in memory: being near counts for more than rings of like size.
-  const Windows windows = !is_resident ? Windows::none : has_near_rings ? Windows::far_last : Windows::by_size;
-  order_vertices(context, from, std::move(points), colouring.colours.data(), std::max(1, packed.colours), windows,
-                 packed);
-  colouring.colours.reset();
-  const Renumbering numbers(context, from, packed.input_index.data(), packed.free_count());
-  if (has_near_rings) {
-    packed.near_rings = slotted<std::int16_t>(context, numbers);
-  } else if (is_resident) {
-    packed.wide_rings = slotted<std::int32_t>(context, numbers);
-  } else {
-    packed.rings = renumbered(context, numbers, source.neighbours.size());
-  }
-  return packed;
+  sort_by_key(context, keys, vertices, size_bits + std::bit_width(window_count) + 1);
+  order.input_index = std::move(vertices);
 }
 
 }  // namespace trismooth::cuda

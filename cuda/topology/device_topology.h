@@ -9,7 +9,7 @@
 #include "trismooth/cuda/topology/constraints.h"
 #include "trismooth/cuda/topology/incident_corners.h"
 #include "trismooth/cuda/topology/large_fans.h"
-#include "trismooth/cuda/topology/neighbour_finding.h"
+#include "trismooth/cuda/topology/neighbour_search.h"
 #include "trismooth/cuda/topology/orientation.h"
 #include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/topology/triangle_list.h"
@@ -28,7 +28,7 @@ class DeviceTopology {
   /// Throws MeshError and std::invalid_argument, with the same messages, as connect_triangles() and
   /// check_constraints() do (lengths of arrays apart), and DeviceError.
   DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
-                 const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourFinding way);
+                 const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way);
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

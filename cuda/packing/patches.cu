@@ -4,10 +4,10 @@
 
 #include <cub/block/block_scan.cuh>
 
-#include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/runtime/error.h"
-#include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
-#include "trismooth/cuda/sweeps/patches/patches.h"
+#include "trismooth/cuda/packing/patch_memory.cuh"
+#include "trismooth/cuda/packing/patches.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_properties.h"
 
 namespace trismooth::cuda {
 
@@ -265,58 +265,66 @@ void allow_most_patch_bytes(const void* kernel) {
       cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(most_patch_bytes())));
 }
 
+template <class T>
+std::size_t patch_bytes(const Patches& patches, bool swaps) {
+  return memory_bytes<T>(static_cast<std::size_t>(patches.most_vertices()),
+                         static_cast<std::size_t>(patches.most_entries()), swaps);
+}
+template std::size_t patch_bytes<float>(const Patches&, bool);
+template std::size_t patch_bytes<double>(const Patches&, bool);
+
 bool Patches::may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options) {
-  return vertices <= largest_mesh && colours <= most_colours && !options.record_min_shape && !options.target_quality &&
-         set_bytes(vertices) <= most_patch_bytes();
+  return options.execution == Execution::resident && vertices <= largest_mesh && colours <= most_colours &&
+         !options.record_min_shape && !options.target_quality && set_bytes(vertices) <= most_patch_bytes();
 }
 
-std::unique_ptr<Patches> Patches::cut(Context& context, const RingsView& rings, std::int32_t vertex_count,
-                                      const std::uint8_t* colours, std::int32_t colour_count,
-                                      const SmoothingOptions& options) {
+std::optional<Patches> Patches::cut(Context& context, const RingsView& rings, std::int32_t vertex_count,
+                                    const std::uint8_t* colours, std::int32_t colour_count,
+                                    const SmoothingOptions& options) {
   if (rings.size == 0) {
-    return nullptr;
+    return std::nullopt;
   }
-  std::unique_ptr<Patches> patches(new Patches);
+  Patches patches;
   const std::int32_t count = count_of_patches(rings.size);
   std::vector<PatchPlace> places(static_cast<std::size_t>(count));
-  patches->count_ = count;
-  patches->places_ = DeviceBuffer<PatchPlace>(context, places.size());
-  patches->places_.fill_bytes(0);
+  patches.count_ = count;
+  patches.places_ = DeviceBuffer<PatchPlace>(context, places.size());
+  patches.places_.fill_bytes(0);
   Cut cut{};
   cut.rings = rings;
   cut.vertex_count = vertex_count;
   cut.colours = colours;
   cut.colour_count = colour_count;
-  cut.places = patches->places_.data();
+  cut.places = patches.places_.data();
   launch_cut(cut, count, context.stream());
-  patches->places_.download(places);
+  patches.places_.download(places);
   std::uint32_t vertices = 0;
   std::uint32_t entries = 0;
   for (PatchPlace& place : places) {
-    patches->most_vertices_ = std::max(patches->most_vertices_, place.vertex_count);
-    patches->most_entries_ = std::max(patches->most_entries_, place.entry_count);
+    patches.most_vertices_ = std::max(patches.most_vertices_, place.vertex_count);
+    patches.most_entries_ = std::max(patches.most_entries_, place.entry_count);
     place.first_vertex = vertices;
     place.first_entry = entries;
     vertices += static_cast<std::uint32_t>(place.vertex_count);
     entries += static_cast<std::uint32_t>(place.entry_count);
   }
   const std::size_t shared = options.precision == Precision::double_precision
-                                 ? patch_bytes<double>(*patches, options.form == Form::swap)
-                                 : patch_bytes<float>(*patches, options.form == Form::swap);
-  if (patches->most_vertices_ > most_numbers || patches->most_entries_ > most_numbers || shared > most_patch_bytes()) {
-    return nullptr;
+                                 ? patch_bytes<double>(patches, options.form == Form::swap)
+                                 : patch_bytes<float>(patches, options.form == Form::swap);
+  if (patches.most_vertices_ > most_numbers || patches.most_entries_ > most_numbers || shared > most_patch_bytes()) {
+    return std::nullopt;
   }
-  patches->places_.upload(places);
-  patches->vertices_ = DeviceBuffer<std::int32_t>(context, vertices);
-  patches->sweeps_ = DeviceBuffer<std::uint8_t>(context, vertices);
-  patches->colours_ = DeviceBuffer<std::uint8_t>(context, vertices);
-  patches->ring_begins_ = DeviceBuffer<std::uint16_t>(context, static_cast<std::size_t>(vertices) + places.size());
-  patches->ring_entries_ = DeviceBuffer<std::uint16_t>(context, entries);
-  cut.vertices = patches->vertices_.data();
-  cut.sweeps = patches->sweeps_.data();
-  cut.patch_colours = patches->colours_.data();
-  cut.ring_begins = patches->ring_begins_.data();
-  cut.ring_entries = patches->ring_entries_.data();
+  patches.places_.upload(places);
+  patches.vertices_ = DeviceBuffer<std::int32_t>(context, vertices);
+  patches.sweeps_ = DeviceBuffer<std::uint8_t>(context, vertices);
+  patches.colours_ = DeviceBuffer<std::uint8_t>(context, vertices);
+  patches.ring_begins_ = DeviceBuffer<std::uint16_t>(context, static_cast<std::size_t>(vertices) + places.size());
+  patches.ring_entries_ = DeviceBuffer<std::uint16_t>(context, entries);
+  cut.vertices = patches.vertices_.data();
+  cut.sweeps = patches.sweeps_.data();
+  cut.patch_colours = patches.colours_.data();
+  cut.ring_begins = patches.ring_begins_.data();
+  cut.ring_entries = patches.ring_entries_.data();
   launch_cut(cut, count, context.stream());
   context.synchronize();
   return patches;

@@ -11,19 +11,19 @@
 namespace trismooth::cuda {
 
 /// Who finds the neighbours. What is found is the same.
-enum class NeighbourFinding : std::uint8_t {
+enum class NeighbourSearch : std::uint8_t {
   parallel,   ///< one thread for each triangle
   one_thread  ///< one block of one thread, the paper's way
 };
 
 /// Who finds them for this execution.
-constexpr NeighbourFinding neighbour_finding(Execution execution) {
-  return execution == Execution::single_block ? NeighbourFinding::one_thread : NeighbourFinding::parallel;
+constexpr NeighbourSearch neighbour_search(Execution execution) {
+  return execution == Execution::single_block ? NeighbourSearch::one_thread : NeighbourSearch::parallel;
 }
 
 /// Finds the neighbours and incident elements of every vertex, and reports triangles that name a vertex out of range or
 /// one twice, which are left out, and the large vertices. Queued.
 IncidentCorners find_neighbours(Context& context, std::int32_t vertex_count, const TriangleList& triangles,
-                                NeighbourFinding way, Findings* findings);
+                                NeighbourSearch way, Findings* findings);
 
 }  // namespace trismooth::cuda

@@ -15,7 +15,7 @@
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/guard/commit.h"
+#include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
@@ -65,13 +65,10 @@ Points random_points(std::size_t count, Point2<double> low, Point2<double> exten
 /// when the host knows of the end (a callback, a time limit), and single-block.
 void require_cpu_commit(const Mesh& mesh, SmoothingOptions options, const Run& expected) {
   options.backend = &cuda::backend();
-  for (const Layout layout : {Layout::aos, Layout::soa}) {
-    for (const Topology topology : {Topology::halfedge, Topology::device}) {
-      options.layout = layout;
-      options.topology = topology;
-      CAPTURE(to_string(layout), to_string(topology));
-      require_same(run(mesh, options), expected);
-    }
+  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+    options.topology = topology;
+    CAPTURE(to_string(topology));
+    require_same(run(mesh, options), expected);
   }
   SmoothingOptions watched = options;
   watched.progress = [](const SweepRecord&) { return Progress::proceed; };
@@ -231,7 +228,7 @@ TEST_CASE("more offenders than the list has room for go back all the same, and t
     const Run expected = run(mesh, options);
     REQUIRE(expected.result.guard_rounds > 1);
     REQUIRE(expected.result.reverted_vertices >
-            cuda::CommitBuffers::list_size(static_cast<std::int32_t>(expected.result.free_vertices)));
+            cuda::GuardBuffers::list_size(static_cast<std::int32_t>(expected.result.free_vertices)));
     require_cpu_commit(mesh, options, expected);
     options.backend = &cuda::backend();
     auto again = plan(mesh.vertex_count(), mesh.indices(), {}, options);

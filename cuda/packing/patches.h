@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/rings.h"
@@ -50,16 +50,17 @@ class Patches {
   static constexpr std::int32_t sweeps_in_group_a = 4;
   static constexpr std::int32_t sweeps_in_group_b = 1;
 
-  /// Whether a mesh of so many vertices is worth an attempt: where patches have their size, they are faster than sweeps
-  /// over memory. Not where a quality target asks for the smallest shape after each sweep. `colours`: 0 for Form A.
+  /// Whether a mesh of so many vertices is worth an attempt in Execution::resident: where patches have their size, they
+  /// are faster than sweeps over memory. Not where a quality target asks for the smallest shape after each sweep.
+  /// `colours`: 0 for Form A.
   static bool may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options);
 
   /// Cuts the free vertices into patches, one for each multiprocessor or fewer. `rings` are packed; of `vertex_count`
-  /// vertices. `colours`: one for each free vertex, 0 .. colour_count - 1, for Form B; null for Form A. Null where a
+  /// vertices. `colours`: one for each free vertex, 0 .. colour_count - 1, for Form B; null for Form A. None where a
   /// patch would be too large for a multiprocessor's shared memory, or for local numbers.
-  static std::unique_ptr<Patches> cut(Context& context, const RingsView& rings, std::int32_t vertex_count,
-                                      const std::uint8_t* colours, std::int32_t colour_count,
-                                      const SmoothingOptions& options);
+  static std::optional<Patches> cut(Context& context, const RingsView& rings, std::int32_t vertex_count,
+                                    const std::uint8_t* colours, std::int32_t colour_count,
+                                    const SmoothingOptions& options);
 
   PatchesView view() const;
   std::int32_t most_vertices() const { return most_vertices_; }
@@ -78,5 +79,9 @@ class Patches {
   DeviceBuffer<std::uint16_t> ring_begins_;
   DeviceBuffer<std::uint16_t> ring_entries_;
 };
+
+/// Bytes of shared memory that a block needs for its patch. `swaps`: Form A.
+template <class T>
+std::size_t patch_bytes(const Patches& patches, bool swaps);
 
 }  // namespace trismooth::cuda

@@ -3,7 +3,7 @@
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
-#include "trismooth/cuda/topology/neighbour_finding.h"
+#include "trismooth/cuda/topology/neighbour_search.h"
 #include "trismooth/cuda/topology/vertex_fan.h"
 
 namespace trismooth::cuda {
@@ -106,14 +106,14 @@ struct FindLargeVertices {
 }  // namespace
 
 IncidentCorners find_neighbours(Context& context, std::int32_t vertex_count, const TriangleList& triangles,
-                                NeighbourFinding way, Findings* findings) {
+                                NeighbourSearch way, Findings* findings) {
   const auto triangle_count = static_cast<std::uint32_t>(triangles.count);
   IncidentCorners found{{context, static_cast<std::size_t>(vertex_count) + 2},
                         {context, 3 * static_cast<std::size_t>(triangle_count)}};
   std::uint32_t* const offsets = found.offsets.data();
   std::int32_t* const corners = found.corners.data();
   found.offsets.fill_bytes(0);
-  if (way == NeighbourFinding::one_thread) {
+  if (way == NeighbourSearch::one_thread) {
     for_one_thread(context, FindAlone{triangles, vertex_count, offsets, corners, findings});
   } else {
     for_each(context, triangle_count, CountCorners{triangles, vertex_count, offsets, findings});

@@ -1,16 +1,18 @@
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
-#include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/guard/commit.h"
-#include "trismooth/cuda/guard/commit_view.cuh"
+#include "trismooth/cuda/guard/guard.h"
+#include "trismooth/cuda/guard/guard_view.cuh"
+#include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/primitives/falling_key.h"
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
 #include "trismooth/cuda/primitives/largest_key.cuh"
+#include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
+#include "trismooth/cuda/topology/rings.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 
 namespace trismooth::cuda {
@@ -27,7 +29,7 @@ __device__ void raise(unsigned long long* word, unsigned long long key) {
 /// Keys of the elements of moved vertices that a thread looks at.
 class KeyTally {
  public:
-  __device__ void operator()(const Corner& a, const Corner& b, const Corner& c) {
+  __device__ void operator()(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) {
     if (a.moved() || b.moved() || c.moved()) {
       const Quotients found = quotients(a, b, c);
       const double worsened = worsened_quotient(found.before, found.after);
@@ -45,7 +47,7 @@ class KeyTally {
 /// Looks at every element of a moved vertex once: at the corner with the smallest packed number, which is a free vertex
 /// if any is, as these are numbered first. The keys of the block say later whether to look at its elements again.
 template <class View>
-__global__ void __launch_bounds__(block_size, 4) judge(View view, GuardKeys* keys, CommitState* state) {
+__global__ void __launch_bounds__(block_size, 4) judge(View view, GuardKeys* keys, GuardState* state) {
   if (!view.run_is_over()) {
     return;
   }
@@ -72,8 +74,8 @@ __global__ void __launch_bounds__(block_size, 4) judge(View view, GuardKeys* key
   }
 }
 
-/// The buffers of a guarded commit, for kernels.
-struct Work {
+/// The buffers, for kernels.
+struct GuardWork {
   GuardKeys* keys;
   std::uint32_t* marks;
   Offender* list;
@@ -105,10 +107,10 @@ class RepeatedBarrier {
 /// Marks and lists the moved corners of elements that offend, each once.
 class OffenderSearch {
  public:
-  __device__ OffenderSearch(const Work& work, unsigned long long threshold, std::uint32_t* listed)
+  __device__ OffenderSearch(const GuardWork& work, unsigned long long threshold, std::uint32_t* listed)
       : work_(work), threshold_(from_falling_key(threshold)), listed_(listed) {}
 
-  __device__ void operator()(const Corner& a, const Corner& b, const Corner& c) const {
+  __device__ void operator()(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) const {
     if (!a.moved() && !b.moved() && !c.moved()) {
       return;
     }
@@ -120,7 +122,7 @@ class OffenderSearch {
   }
 
  private:
-  __device__ void add(const Corner& corner) const {
+  __device__ void add(const JudgedVertex& corner) const {
     const std::uint32_t bit = 1U << (corner.vertex % 32);
     if (!corner.moved() || (atomicOr(&work_.marks[corner.vertex / 32], bit) & bit) != 0) {
       return;
@@ -131,7 +133,7 @@ class OffenderSearch {
     }
   }
 
-  const Work& work_;
+  const GuardWork& work_;
   double threshold_;
   std::uint32_t* listed_;
 };
@@ -146,7 +148,7 @@ constexpr unsigned warp_size = 32;
 template <class View>
 class Rounds {
  public:
-  __device__ Rounds(const View& view, const Work& work, CommitState* state)
+  __device__ Rounds(const View& view, const GuardWork& work, GuardState* state)
       : view_(view),
         work_(work),
         state_(state),
@@ -254,8 +256,8 @@ class Rounds {
   }
 
   const View& view_;
-  const Work& work_;
-  CommitState* state_;
+  const GuardWork& work_;
+  GuardState* state_;
   Positions<View> positions_;
   RepeatedBarrier barrier_;
   std::int64_t threads_;
@@ -263,7 +265,7 @@ class Rounds {
 };
 
 template <class View>
-__global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, Work work, CommitState* state) {
+__global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, GuardWork work, GuardState* state) {
   if (view.run_is_over() && !state->nothing_offends()) {
     Rounds<View>(view, work, state).run();
   }
@@ -271,8 +273,7 @@ __global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, Work 
 
 /// Writes the vertices that are elsewhere; if `guarded`, only where nothing offends any more.
 template <class View>
-__global__ void __launch_bounds__(block_size)
-    write_moved(View view, bool guarded, double2* stored, CommitState* state) {
+__global__ void __launch_bounds__(block_size) write_moved(View view, bool guarded, double2* stored, GuardState* state) {
   if (!view.run_is_over() || (guarded && !state->may_write())) {
     return;
   }
@@ -294,42 +295,24 @@ __global__ void __launch_bounds__(block_size)
   }
 }
 
-/// `has_second`: `second` is not `first` again.
-template <class T, Layout layout>
-__global__ void __launch_bounds__(block_size)
-    enter(const double2* stored, const std::int32_t* input_index, std::uint32_t vertex_count, const LocalFrame* frame,
-          double2* before, PointArrays<T, layout> first, PointArrays<T, layout> second, bool has_second) {
-  const std::uint32_t i = blockIdx.x * block_size + threadIdx.x;
-  if (i < vertex_count) {
-    const auto v = static_cast<std::int32_t>(i);
-    const double2 point = stored[input_index[v]];
-    const Point2<double> local = frame->enter({point.x, point.y});
-    before[v] = {local.x, local.y};
-    first.store(v, narrow<T>(local));
-    if (has_second) {
-      second.store(v, narrow<T>(local));
-    }
-  }
-}
-
-/// Queues the rounds of a guarded commit, and the writing. Returns the number of launches.
+/// Queues the rounds of the guard, and the writing. Returns the number of launches.
 template <class View>
-std::int64_t launch_rounds(const View& view, CommitBuffers& buffers, Point2<double>* stored, CommitState* state,
+std::int64_t launch_rounds(const View& view, GuardBuffers& buffers, Point2<double>* stored, GuardState* state,
                            cudaStream_t stream) {
-  if (buffers.guard()) {
+  if (buffers.guards()) {
     View view_argument = view;
-    Work work{buffers.keys.data(), buffers.marks.data(), buffers.list.data(),
-              static_cast<std::uint32_t>(buffers.list.size())};
+    GuardWork work{buffers.keys.data(), buffers.marks.data(), buffers.list.data(),
+                   static_cast<std::uint32_t>(buffers.list.size())};
     void* arguments[] = {&view_argument, &work, &state};
     const auto blocks =
         std::min(blocks_for(view.rings.size, round_threads), static_cast<unsigned>(multiprocessor_count()));
     TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(&make_rounds<View>), dim3(blocks),
                                                      dim3(round_threads), arguments, 0, stream));
   }
-  write_moved<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.guard(),
+  write_moved<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.guards(),
                                                                       reinterpret_cast<double2*>(stored), state);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  return buffers.guard() ? 2 : 1;
+  return buffers.guards() ? 2 : 1;
 }
 
 /// Adds the first `count` of the list.
@@ -343,33 +326,30 @@ void collect(const DeviceBuffer<Offender>& list, std::uint32_t count, std::vecto
 
 }  // namespace
 
-CommitBuffers::CommitBuffers(Context& context, std::int32_t free_count)
+GuardBuffers::GuardBuffers(Context& context, std::int32_t free_count)
     : keys(context, blocks_for(free_count)),
       marks(context, (static_cast<std::size_t>(free_count) + 31) / 32),
       list(context, static_cast<std::size_t>(list_size(free_count))) {
   marks.fill_bytes(0);
 }
 
-template <class T, Layout layout>
-std::int64_t launch_commit(const CommitInput<T, layout>& input, CommitBuffers& buffers, Point2<double>* stored,
-                           CommitState* state, cudaStream_t stream) {
+template <class T, class Rings>
+std::int64_t launch_guard(const Rings& rings, const GuardInput<T>& input, GuardBuffers& buffers, Point2<double>* stored,
+                          GuardState* state, cudaStream_t stream) {
+  const GuardView<T, Rings> view{input, rings};
   std::int64_t launches = 0;
-  with_view(input, [&](const auto& view) {
-    if (buffers.guard()) {
-      judge<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.keys.data(), state);
-      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-      ++launches;
-    }
-    launches += launch_rounds(view, buffers, stored, state, stream);
-  });
-  return launches;
+  if (buffers.guards()) {
+    judge<<<blocks_for(rings.size), block_size, 0, stream>>>(view, buffers.keys.data(), state);
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+    ++launches;
+  }
+  return launches + launch_rounds(view, buffers, stored, state, stream);
 }
 
-template <class T, Layout layout>
-CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& input, CommitBuffers& buffers,
-                            Point2<double>* stored, CommitState* state, CommitState found, std::int64_t& launches) {
-  const auto free_count = static_cast<std::size_t>(input.rings->free_count());
-  CommitOutcome outcome;
+template <class T, class Rings>
+DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const GuardInput<T>& input, GuardBuffers& buffers,
+                                Point2<double>* stored, GuardState* state, GuardState found, std::int64_t& launches) {
+  DeviceGuardOutcome outcome;
   collect(buffers.list, found.taken_back, outcome.reverted);
   while (!found.may_write()) {
     // The round that did not fit is found once more, among all elements: those of vertices that went back have changed
@@ -377,14 +357,13 @@ CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& inpu
     buffers.marks.fill_bytes(0);
     buffers.keys.fill_bytes(0xFF);  // outdated
     if (const std::size_t round_size = found.listed - found.taken_back; round_size > buffers.list.size()) {
-      buffers.list = DeviceBuffer<Offender>(context, std::min(2 * round_size, free_count));
+      buffers.list = DeviceBuffer<Offender>(context, std::min(2 * round_size, static_cast<std::size_t>(rings.size)));
     }
     found.listed = 0;
     std::ranges::fill(found.barriers, 0ULL);
     std::ranges::fill(found.thresholds, 0ULL);
     TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(state, &found, sizeof(found), cudaMemcpyHostToDevice, context.stream()));
-    with_view(input,
-              [&](const auto& view) { launches += launch_rounds(view, buffers, stored, state, context.stream()); });
+    launches += launch_rounds(GuardView<T, Rings>{input, rings}, buffers, stored, state, context.stream());
     found = download(context, state);
     collect(buffers.list, found.taken_back, outcome.reverted);
   }
@@ -394,28 +373,16 @@ CommitOutcome finish_commit(Context& context, const CommitInput<T, layout>& inpu
   return outcome;
 }
 
-template <class T, Layout layout>
-void launch_enter(const Point2<double>* stored, const std::int32_t* input_index, std::int32_t vertex_count,
-                  const LocalFrame* frame, Point2<double>* before, const PointArrays<T, layout>& first,
-                  const PointArrays<T, layout>& second, cudaStream_t stream) {
-  const bool has_second = std::memcmp(&first, &second, sizeof(first)) != 0;
-  enter<<<blocks_for(vertex_count), block_size, 0, stream>>>(
-      reinterpret_cast<const double2*>(stored), input_index, static_cast<std::uint32_t>(vertex_count), frame,
-      reinterpret_cast<double2*>(before), first, second, has_second);
-  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-}
-
-#define INSTANTIATE(T, layout)                                                                                      \
-  template std::int64_t launch_commit(const CommitInput<T, layout>&, CommitBuffers&, Point2<double>*, CommitState*, \
-                                      cudaStream_t);                                                                \
-  template CommitOutcome finish_commit(Context&, const CommitInput<T, layout>&, CommitBuffers&, Point2<double>*,    \
-                                       CommitState*, CommitState, std::int64_t&);                                   \
-  template void launch_enter(const Point2<double>*, const std::int32_t*, std::int32_t, const LocalFrame*,           \
-                             Point2<double>*, const PointArrays<T, layout>&, const PointArrays<T, layout>&,         \
-                             cudaStream_t)
-INSTANTIATE(float, Layout::aos);
-INSTANTIATE(float, Layout::soa);
-INSTANTIATE(double, Layout::aos);
-INSTANTIATE(double, Layout::soa);
+#define INSTANTIATE(T, Rings)                                                                                         \
+  template std::int64_t launch_guard(const Rings&, const GuardInput<T>&, GuardBuffers&, Point2<double>*, GuardState*, \
+                                     cudaStream_t);                                                                   \
+  template DeviceGuardOutcome finish_guard(Context&, const Rings&, const GuardInput<T>&, GuardBuffers&,               \
+                                           Point2<double>*, GuardState*, GuardState, std::int64_t&)
+INSTANTIATE(float, RingsView);
+INSTANTIATE(float, SlottedRingsView<std::int16_t>);
+INSTANTIATE(float, SlottedRingsView<std::int32_t>);
+INSTANTIATE(double, RingsView);
+INSTANTIATE(double, SlottedRingsView<std::int16_t>);
+INSTANTIATE(double, SlottedRingsView<std::int32_t>);
 
 }  // namespace trismooth::cuda

@@ -1,4 +1,4 @@
-#include "trismooth/cuda/runtime/error.h"
+#include "trismooth/cuda/runtime/check.h"
 
 #include <string>
 #include <string_view>

@@ -3,21 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {
 
-/// How large a mesh is, for what it takes on the device.
-struct MeshSize {
-  std::int64_t vertices = 0;
-  std::int64_t free_vertices = 0;
-  std::int64_t ring_entries = 0;  ///< the sizes of all rings together
-};
-
 /// An estimate of the device memory in bytes that it takes to pack rings and smooth their vertices; the larger of both
 /// peaks. Not in it: the coordinates as they are stored, which are there already or allocated beside it, and the list
-/// of what the commit takes back
-/// (32 bytes for each vertex of a round).
+/// of what the guard takes back (32 bytes for each vertex of a round).
 std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options);
 
 /// Bytes that a DeviceTopology keeps, the caller's triangles apart, and what it takes beside a smoother to orient the

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/paper/cdp.h"
+#include "trismooth/cuda/paper/paper_mesh.h"
+#include "trismooth/cuda/paper/single_block.h"
+#include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/sweeps/smallest_quotient.h"
+#include "trismooth/cuda/sweeps/sweep_state.h"
+
+namespace trismooth::cuda {
+
+/// The paper's two versions on its mesh structure. Functions as those of GridEngine.
+template <class T, Layout layout>
+class PaperEngine {
+ public:
+  using Points = PointArray<T>;
+  /// Positions are copied out of the structure, from a buffer that the host has to know.
+  static constexpr bool may_be_followed = false;
+
+  PaperEngine(Context& context, const VertexOrder& order, PaperRings<layout> rings, Method method)
+      : context_(&context),
+        method_(method),
+        rings_(std::move(rings)),
+        elements_(find_elements(context, rings_.view(), rings_.rings.neighbours.size())),
+        mesh_(context, rings_.view(), order.vertex_count(), elements_),
+        memory_(context, static_cast<std::size_t>(order.vertex_count())),
+        points_{memory_.data()} {
+    elements_.triangles.reset();
+  }
+
+  static std::size_t bytes(const MeshSize& size) {
+    const auto vertices = static_cast<std::size_t>(size.vertices);
+    const auto ring_entries = static_cast<std::size_t>(size.ring_entries);
+    // A triangle has up to three places in the rings, and a mesh of the plane has two for each vertex at most.
+    const std::size_t triangles = std::min(ring_entries, 2 * vertices);
+    return vertices * (sizeof(VertexRecord<T>) + 2 * sizeof(PointRecord<T>)) +
+           triangles * (sizeof(TriangleRecord<T>) + sizeof(TriangleVertices)) + ring_entries * sizeof(std::uint32_t);
+  }
+
+  RingsView rings() const { return rings_.view(); }
+  std::pair<Points, Points> input() const { return {points_, points_}; }
+  void begin() { mesh_.initiate(*context_, points_); }
+  std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) {
+    if (rings_.with_children) {
+      launch_cdp(method_, mesh_.view(), rules, state, sums, context_->stream());
+    } else {
+      launch_single_block(method_, mesh_.view(), rules, state, sums, context_->stream());
+    }
+    return 1;
+  }
+  void measure(SweepSums* sums) const { launch_smallest_quotient(rings(), points_, sums, context_->stream()); }
+  std::pair<Points, Points> output(std::int32_t current) {
+    mesh_.read_positions(*context_, current, points_);
+    return input();
+  }
+
+ private:
+  Context* context_;
+  Method method_;
+  PaperRings<layout> rings_;
+  DeviceElements elements_;
+  PaperMesh<T, layout> mesh_;
+  DeviceBuffer<PointRecord<T>> memory_;
+  Points points_;
+};
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/paper/paper_engine.h"
+#include "trismooth/cuda/sweeps/grid/grid_engine.h"
+#include "trismooth/cuda/sweeps/patches/patch_engine.h"
+
+namespace trismooth::cuda {
+
+/// What sweeps over rings of a kind.
+template <class T, class Rings>
+struct EngineOf;
+template <class T, Form form>
+struct EngineOf<T, GridRings<form>> {
+  using Type = GridEngine<T, form>;
+};
+template <class T>
+struct EngineOf<T, PatchedRings> {
+  using Type = PatchEngine<T>;
+};
+template <class T, Layout layout>
+struct EngineOf<T, PaperRings<layout>> {
+  using Type = PaperEngine<T, layout>;
+};
+template <class T, class Rings>
+using EngineOver = typename EngineOf<T, Rings>::Type;
+
+/// A packed mesh at work: owns its rings and what its sweeps need beside them. Their functions are said at GridEngine.
+template <class T>
+using SweepEngine = std::variant<GridEngine<T, Form::swap>, GridEngine<T, Form::in_place>, PatchEngine<T>,
+                                 PaperEngine<T, Layout::aos>, PaperEngine<T, Layout::soa>>;
+
+/// The engine for these rings, of a mesh with a free vertex. `context` outlives it.
+template <class T>
+SweepEngine<T> make_sweep_engine(Context& context, const VertexOrder& order, PackedRings rings, Method method) {
+  return std::visit(
+      [&]<class Rings>(Rings& kind) -> SweepEngine<T> {
+        return EngineOver<T, Rings>(context, order, std::move(kind), method);
+      },
+      rings);
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
+#include "trismooth/cuda/sweeps/smallest_quotient.h"
+#include "trismooth/cuda/sweeps/sweep_state.h"
+
+namespace trismooth::cuda {
+
+/// Sweeps on patches in shared memory. Functions as those of GridEngine.
+template <class T>
+class PatchEngine {
+ public:
+  using Points = PointArray<T>;
+  static constexpr bool may_be_followed = true;
+
+  PatchEngine(Context& context, const VertexOrder& order, PatchedRings rings, Method method)
+      : context_(&context),
+        method_(method),
+        free_count_(order.free_count()),
+        rings_(std::move(rings)),
+        shared_bytes_(patch_bytes<T>(rings_.patches, rings_.form == Form::swap)) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      points_[i] = DeviceBuffer<PointRecord<T>>(context, static_cast<std::size_t>(order.vertex_count()));
+      moved_[i] = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(free_count_));
+    }
+    mesh_.patches = rings_.patches.view();
+    mesh_.colours = order.colours;
+    mesh_.first = {{points_[0].data()}, moved_[0].data()};
+    mesh_.second = {{points_[1].data()}, moved_[1].data()};
+  }
+
+  RingsView rings() const { return rings_.view(); }
+  std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
+  void begin() { moved_[0].fill_bytes(1); }
+  std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) {
+    const std::size_t groups = static_cast<std::size_t>(rules.sweeps);
+    if (words_.size() < 2 * groups) {
+      words_ = DeviceBuffer<unsigned long long>(*context_, 2 * groups);
+    }
+    words_.fill_bytes(0);
+    launch_patch_sweeps(method_, mesh_, rules, shared_bytes_, free_count_, state, sums, words_.data(),
+                        words_.data() + groups, context_->stream());
+    return 1;
+  }
+  void measure(SweepSums* sums) const {
+    launch_smallest_quotient(rings(), mesh_.first.points, sums, context_->stream());
+  }
+  std::pair<Points, Points> output(std::int32_t /*current*/) const { return input(); }
+
+ private:
+  Context* context_;
+  Method method_;
+  std::int32_t free_count_;
+  PatchedRings rings_;
+  std::size_t shared_bytes_;
+  DeviceBuffer<PointRecord<T>> points_[2];
+  DeviceBuffer<std::uint8_t> moved_[2];
+  PatchedMesh<T> mesh_{};
+  DeviceBuffer<unsigned long long> words_;
+};
+
+}  // namespace trismooth::cuda
