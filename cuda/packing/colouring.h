@@ -7,7 +7,7 @@
 
 namespace trismooth::cuda {
 
-/// The colours of Form B, as colour_free_vertices() finds them on the host.
+/// The colours of Form B (coloured Gauss-Seidel), as colour_free_vertices() finds them on the host.
 struct DeviceColouring {
   /// On meshes of millions of vertices there are under 20.
   static constexpr int most_rounds = 64;

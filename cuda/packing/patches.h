@@ -42,9 +42,10 @@ struct PatchesView {
 /// through a whole group on its own, computing of the halo what the halo's owners compute as well; only then do blocks
 /// have to wait for each other.
 ///
-/// In Form A a vertex depends on its neighbours before the sweep: a group of sweeps on so many rings around. In Form B
-/// it depends on neighbours of lower colours after their update in the same sweep, so a group is one sweep, and the
-/// halo is what can be reached by falling colours. A single patch has no halo, and a group may have any length.
+/// In Form A (Jacobi) a vertex depends on its neighbours before the sweep: a group of sweeps on so many rings around.
+/// In Form B (coloured Gauss-Seidel) it depends on neighbours of lower colours after their update in the same sweep, so
+/// a group is one sweep, and the halo is what can be reached by falling colours. A single patch has no halo, and a
+/// group may have any length.
 class Patches {
  public:
   static constexpr std::int32_t sweeps_in_group_a = 4;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
@@ -39,29 +38,15 @@ void sum_before(Context& context, std::uint32_t* values, std::int64_t count) {
   }
 }
 
-template <class Value>
-void sort_by_key(Context& context, DeviceBuffer<std::uint64_t>& keys, DeviceBuffer<Value>& values, int key_bits) {
-  const auto count = static_cast<std::int64_t>(keys.size());
-  if (count == 0) {
-    return;
-  }
-  DeviceBuffer<std::uint64_t> other_keys(context, keys.size());
-  DeviceBuffer<Value> other_values(context, values.size());
-  cub::DoubleBuffer<std::uint64_t> both_keys(keys.data(), other_keys.data());
-  cub::DoubleBuffer<Value> both_values(values.data(), other_values.data());
+SortedIn sort_words(Context& context, std::int64_t count, std::uint64_t* keys, std::uint64_t* other_keys,
+                    std::uint32_t* values, std::uint32_t* other_values, int key_bits) {
+  cub::DoubleBuffer<std::uint64_t> both_keys(keys, other_keys);
+  cub::DoubleBuffer<std::uint32_t> both_values(values, other_values);
   with_scratch(context, [&](void* scratch, std::size_t& bytes) {
     return cub::DeviceRadixSort::SortPairs(scratch, bytes, both_keys, both_values, count, 0, key_bits,
                                            context.stream());
   });
-  if (both_keys.Current() != keys.data()) {
-    std::swap(keys, other_keys);
-  }
-  if (both_values.Current() != values.data()) {
-    std::swap(values, other_values);
-  }
+  return {both_keys.Current() != keys, both_values.Current() != values};
 }
-
-template void sort_by_key(Context&, DeviceBuffer<std::uint64_t>&, DeviceBuffer<std::uint32_t>&, int);
-template void sort_by_key(Context&, DeviceBuffer<std::uint64_t>&, DeviceBuffer<std::int32_t>&, int);
 
 }  // namespace trismooth::cuda

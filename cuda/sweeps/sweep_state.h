@@ -19,9 +19,11 @@ struct SweepSums {
   unsigned long long min_quotient;  ///< falling_key() of the smallest quotient; 0: none was measured
 };
 
-/// How the sweeps of one run go on the device.
+/// How the sweeps of one run go on the device. In Form A (Jacobi) every move of a sweep is computed from the positions
+/// before the sweep, out of one buffer into another. In Form B (coloured Gauss-Seidel) vertices move in place, colour
+/// by colour; no two vertices of a colour share an edge, so that their order does not matter.
 struct LoopRules {
-  bool swaps;                   ///< Form A (Jacobi); else Form B (Gauss-Seidel)
+  bool swaps;                   ///< Form A, whose buffers swap; else Form B
   bool evaluates_all;           ///< every free vertex in every sweep
   bool measures_shape;          ///< fill SweepSums::min_quotient
   double tolerance;             ///< of SmoothingOptions
@@ -47,7 +49,7 @@ struct LoopState {
   std::int32_t error = 0;       ///< the cudaError_t of a launch by the device that failed
   std::uint64_t children = 0;   ///< kernels launched by the device
 
-  // Of the resident execution. The host hands them on from launch to launch.
+  // Of sweeps by the whole grid. The host hands them on from launch to launch.
   std::int32_t evaluates_all = 1;  ///< the next sweep evaluates every vertex
   std::int32_t marks = 0;          ///< and marks for the sweep after it, which will not
   std::uint32_t blocks_done = 0;   ///< blocks that have ended the sweep

@@ -43,7 +43,7 @@ namespace cuda = trismooth::cuda;
 namespace {
 
 void choose_any(const std::vector<DeviceWay>& ways, SmoothingOptions& options, Random& random) {
-  ways[random.below(ways.size())].choose_in(options);
+  ways[static_cast<std::size_t>(random.below(static_cast<std::int32_t>(ways.size())))].choose_in(options);
 }
 
 /// What every backend has to do alike beside method, form, precision, sweep limit and tolerance.
