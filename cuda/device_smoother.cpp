@@ -92,13 +92,11 @@ class SweepDriver final : public DeviceSmoother {
     return std::visit(body, *engine_);
   }
 
-  bool measures_shape() const { return options_.record_min_shape || options_.target_quality.has_value(); }
-
   LoopRules rules(double fixed_quotient) const {
     LoopRules rules{};
     rules.swaps = options_.form == Form::swap;
     rules.evaluates_all = options_.evaluation == Evaluation::all;
-    rules.measures_shape = measures_shape();
+    rules.measures_shape = options_.measures_shape();
     rules.tolerance = options_.tolerance;
     rules.target = options_.target_quality.value_or(no_target);
     rules.fixed_quotient = fixed_quotient;
@@ -115,7 +113,7 @@ class SweepDriver final : public DeviceSmoother {
       return;
     }
     result.sweeps = 1;
-    result.history.push_back({1, 0, 0, 0, measures_shape() ? shape : no_target});
+    result.history.push_back({1, 0, 0, 0, options_.measures_shape() ? shape : no_target});
     if (options_.progress) {
       options_.progress(result.history.back());
     }

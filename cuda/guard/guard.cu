@@ -143,7 +143,7 @@ constexpr unsigned round_threads = 1024;
 constexpr unsigned warp_size = 32;
 
 /// The rounds that take offenders back, until there are none or more than the list holds. All blocks of threads are on
-/// the device at the same time. A warp looks after every so-manieth block of vertices: a round reads the keys of each,
+/// the device at the same time. Each warp looks after some blocks of vertices. A round reads the keys of every block,
 /// but looks at elements only where vertices have gone back or something offends.
 template <class View>
 class Rounds {

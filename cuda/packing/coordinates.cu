@@ -5,7 +5,7 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// One access for a point.
+/// Reads and writes each point in one access.
 struct EnterFrame {
   const double2* stored;
   const LocalFrame* frame;

@@ -53,7 +53,7 @@ struct CutWork {
   std::int32_t list[list_capacity];  ///< the vertices that are evaluated, in the order of their discovery
 };
 
-/// Adds to the list the neighbours of list[begin .. end) that `depends(v, neighbour)` says of.
+/// Adds to the list those free neighbours of its vertices list[begin .. end) for which depends(v, neighbour) is true.
 template <class Depends>
 __device__ void grow(const RingsView& rings, const VertexSet& set, std::int32_t begin, std::int32_t end, CutWork& work,
                      const Depends& depends) {
@@ -275,7 +275,7 @@ template std::size_t patch_bytes<double>(const Patches&, bool);
 
 bool Patches::may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options) {
   return options.execution == Execution::resident && vertices <= largest_mesh && colours <= most_colours &&
-         !options.record_min_shape && !options.target_quality && set_bytes(vertices) <= most_patch_bytes();
+         !options.measures_shape() && set_bytes(vertices) <= most_patch_bytes();
 }
 
 std::optional<Patches> Patches::cut(Context& context, const RingsView& rings, std::int32_t vertex_count,

@@ -10,7 +10,7 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// The pool keeps freed memory up to this part of the device's: enough for a mesh of millions of vertices to be
+/// The pool keeps freed memory, at most the device's divided by this: enough for a mesh of millions of vertices to be
 /// smoothed again and again, little enough for others on the device.
 constexpr std::size_t kept_part = 16;
 

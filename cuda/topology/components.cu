@@ -36,7 +36,7 @@ struct FlattenForest {
 /// Replaces the root by its number.
 struct NumberRoots {
   std::uint32_t* words;
-  const std::uint32_t* numbers;  ///< of a root, and 1 more
+  const std::uint32_t* numbers;  ///< numbers[root] - 1 is the root's number
 
   TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
     const std::uint32_t word = words[t];

@@ -22,7 +22,7 @@ struct CornersView {
 
 /// Owns them.
 struct IncidentCorners {
-  DeviceBuffer<std::uint32_t> offsets;  ///< and one more, which is not used any more
+  DeviceBuffer<std::uint32_t> offsets;  ///< vertex_count + 2: the last one is used only while they are filled
   DeviceBuffer<std::int32_t> corners;
 
   CornersView view() const { return {static_cast<std::int32_t>(offsets.size() - 2), offsets.data(), corners.data()}; }

@@ -11,7 +11,7 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// How a triangle would have its component turned.
+/// A triangle's vote on whether its component is listed counter-clockwise, as its first triangle is listed.
 struct SignVotes {
   TriangleList triangles;
   const Point2<double>* points;
