@@ -15,6 +15,7 @@
 #include <cuda_runtime_api.h>
 
 #include "trismooth/base/rounding.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
