@@ -9,11 +9,11 @@
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
-#include "trismooth/smoothing/backend_choice.h"
 #include "support/test_meshes.h"
 
 using fakes::Failure;
