@@ -13,7 +13,7 @@ namespace trismooth {
 namespace {
 
 /// Vertices whose elements have one minimum in common.
-constexpr std::int32_t block_size = 64;
+constexpr std::int32_t vertices_a_block = 64;
 /// Blocks that a thread takes at a time.
 constexpr std::int64_t block_grain = 32;
 
@@ -25,7 +25,7 @@ class Guard {
         before_(before),
         after_(after),
         workers_(workers),
-        block_count_((std::int64_t{rings.size()} + block_size - 1) / block_size),
+        block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
         tree_(static_cast<std::size_t>(block_count_)) {}
 
   GuardOutcome run() {
@@ -64,9 +64,9 @@ class Guard {
   /// of the smallest number is in it. So every element of a moved vertex is in one block.
   template <class Visit>
   void for_elements(std::int32_t block, const Visit& visit) const {
-    const auto size = std::min<std::int64_t>(block_size, rings_.size() - std::int64_t{block} * block_size);
+    const auto size = std::min<std::int64_t>(vertices_a_block, rings_.size() - std::int64_t{block} * vertices_a_block);
     for (std::int32_t i = 0; i < size; ++i) {
-      const std::int32_t v = block * block_size + i;
+      const std::int32_t v = block * vertices_a_block + i;
       if (!has_moved(v)) {
         continue;
       }
@@ -126,10 +126,10 @@ class Guard {
     blocks_.clear();
     for (const std::int32_t v : offenders_) {
       after_[v] = before_[v];
-      blocks_.push_back(v / block_size);
+      blocks_.push_back(v / vertices_a_block);
       for (const std::int32_t neighbour : rings_[v]) {
         if (neighbour < rings_.size()) {
-          blocks_.push_back(neighbour / block_size);
+          blocks_.push_back(neighbour / vertices_a_block);
         }
       }
     }

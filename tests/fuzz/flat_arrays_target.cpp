@@ -66,6 +66,11 @@ double choose_coordinate(InputBytes& input) {
   }
 }
 
+Arrays arrays_of(const test_meshes::Mesh& mesh) {
+  const std::span<const std::int32_t> indices = mesh.indices();
+  return {mesh.xy(), {indices.begin(), indices.end()}};
+}
+
 Arrays choose_soup(InputBytes& input) {
   Arrays arrays;
   const int vertices = 1 + input.below(24);
@@ -87,13 +92,13 @@ Arrays choose_grid(InputBytes& input) {
   const double jitter = input.below(64) / 32.0;
   const test_meshes::Mesh grid = test_meshes::jittered_grid(columns, rows, jitter, input.byte());
   const test_meshes::Mesh mesh = input.flag() ? test_meshes::shuffled(grid, input.byte()) : grid;
-  return {mesh.xy(), mesh.indices()};
+  return arrays_of(mesh);
 }
 
 Arrays choose_strip(InputBytes& input) {
   const int size = 3 + input.below(20);
   const test_meshes::Mesh mesh = input.flag() ? test_meshes::moebius_band(size) : test_meshes::star(size, input.byte());
-  return {mesh.xy(), mesh.indices()};
+  return arrays_of(mesh);
 }
 
 /// Damages the arrays here and there.
