@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <fmt/format.h>
-
 #include "trismooth/base/utf8.h"
 
 namespace trismooth {
@@ -42,7 +40,11 @@ std::string escaped(std::string_view word) {
   while (!word.empty()) {
     const std::size_t length = printable_length(word);
     if (length == 0) {
-      text += fmt::format("\\{:03o}", static_cast<unsigned char>(word.front()));
+      const unsigned byte = static_cast<unsigned char>(word.front());
+      text += '\\';
+      for (const unsigned shift : {6U, 3U, 0U}) {
+        text += static_cast<char>('0' + (byte >> shift & 7U));
+      }
     } else if (word.front() == '\'' || word.front() == '\\') {
       text.append("\\").append(1, word.front());
     } else {

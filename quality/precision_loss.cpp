@@ -3,9 +3,8 @@
 #include <atomic>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/digits.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -54,7 +53,7 @@ std::string describe(const PrecisionLoss& loss) {
     }
   };
   add(loss.collapsed, "triangles that collapse");
-  add(loss.distorted, fmt::format("triangles whose shape changes by more than {}", distortion_limit));
+  add(loss.distorted, "triangles whose shape changes by more than " + shortest_digits(distortion_limit));
   return "single precision cannot hold this mesh; rounded to it, " + lost;
 }
 

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "trismooth/quality/digits.h"
 #include "trismooth/quality/report_text.h"
 #include "trismooth/quality/text_columns.h"
 
@@ -24,13 +23,13 @@ constexpr std::size_t number_columns = 9;
 /// number_text() in no more columns than a table has for it.
 std::string cell_text(double value, int digits) {
   std::string text = number_text(value, digits);
-  return text.size() <= number_columns ? text : fmt::format("{:.1e}", value);
+  return text.size() <= number_columns ? text : scientific_digits(value, 1);
 }
 
 /// ">= 30": what counts as acceptable.
 std::string acceptable_text(const MetricInfo& metric) {
-  return metric.larger_is_better ? fmt::format(">= {}", metric.acceptable_low)
-                                 : fmt::format("<= {}", metric.acceptable_high);
+  return metric.larger_is_better ? ">= " + shortest_digits(metric.acceptable_low)
+                                 : "<= " + shortest_digits(metric.acceptable_high);
 }
 
 std::string metrics_text(const QualityReport& report) {
@@ -52,8 +51,9 @@ std::string change_text(double before, double after) {
   if (std::isnan(change) || change == 0) {
     return "";
   }
-  std::string text = fmt::format("{:+.2g}", change);
-  return text.size() <= number_columns - 1 ? text : fmt::format("{:+.0e}", change);
+  const std::string sign = change > 0 ? "+" : "";
+  std::string text = sign + general_digits(change, 2);
+  return text.size() <= number_columns - 1 ? text : sign + scientific_digits(change, 0);
 }
 
 std::string metrics_text(const QualityReport& before, const QualityReport& after) {
@@ -126,7 +126,7 @@ std::string histogram_text(const std::vector<const QualityReport*>& reports) {
   }
   for (std::size_t bin = first; bin <= last; ++bin) {
     const auto limit = [](std::size_t i) { return static_cast<double>(i) / static_cast<double>(shape_bins); };
-    add_row(fmt::format("{:.2f} to {:.2f}", limit(bin), limit(bin + 1)),
+    add_row(fixed_digits(limit(bin), 2) + " to " + fixed_digits(limit(bin + 1), 2),
             [bin](const QualityReport& report) { return report.shape_histogram[bin]; });
   }
   return columns.text();
@@ -139,7 +139,7 @@ std::string worst_text(const QualityReport& report, std::string_view title) {
   for (std::size_t rank = 0; rank < report.worst.size(); ++rank) {
     const WorstElement& element = report.worst[rank];
     columns.add_row({std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
-                     fmt::format("({:.8g}, {:.8g})", element.centroid.x, element.centroid.y),
+                     "(" + general_digits(element.centroid.x, 8) + ", " + general_digits(element.centroid.y, 8) + ")",
                      element.all_fixed ? "all fixed" : ""});
   }
   return columns.text({{0, 3, title}});

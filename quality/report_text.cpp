@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
+#include "trismooth/quality/digits.h"
 
 namespace trismooth {
 
@@ -26,14 +26,14 @@ std::string number_text(double value, int decimals, int more) {
     return "-";
   }
   if (value == 0 || std::isinf(value)) {
-    return value == 0 ? "0" : fmt::format("{}", value);
+    return value == 0 ? "0" : shortest_digits(value);
   }
   const double magnitude = std::abs(value);
   if (magnitude < std::pow(10.0, 2 - decimals) || magnitude >= 1e4) {
-    return fmt::format("{:.{}e}", value, 2 + more);
+    return scientific_digits(value, 2 + more);
   }
   const int places_before_point = magnitude < 10 ? 1 : magnitude < 100 ? 2 : magnitude < 1000 ? 3 : 4;
-  return fmt::format("{:.{}f}", value, std::min(decimals, 6 - places_before_point) + more);
+  return fixed_digits(value, std::min(decimals, 6 - places_before_point) + more);
 }
 
 TextPair distinct_texts(double before, double after, int decimals) {
@@ -57,10 +57,10 @@ std::string size_text(std::int64_t vertices) {
   constexpr std::int64_t thousand = 1'000;
   constexpr std::int64_t million = thousand * thousand;
   if (vertices >= million && vertices % (million / 10) == 0) {
-    return fmt::format("{}M", static_cast<double>(vertices) / million);
+    return shortest_digits(static_cast<double>(vertices) / million) + "M";
   }
   if (vertices >= thousand && vertices % (thousand / 10) == 0) {
-    return fmt::format("{}K", static_cast<double>(vertices) / thousand);
+    return shortest_digits(static_cast<double>(vertices) / thousand) + "K";
   }
   return count_text(vertices);
 }
@@ -70,10 +70,9 @@ std::string bytes_text(std::int64_t bytes) {
   constexpr double gibibyte = 1024.0 * mebibyte;
   const auto size = static_cast<double>(bytes);
   if (size >= gibibyte) {
-    return fmt::format("{:.1f} GiB", size / gibibyte);
+    return fixed_digits(size / gibibyte, 1) + " GiB";
   }
-  return size < 9.95 * mebibyte ? fmt::format("{:.2f} MiB", size / mebibyte)
-                                : fmt::format("{:.0f} MiB", size / mebibyte);
+  return size < 9.95 * mebibyte ? fixed_digits(size / mebibyte, 2) + " MiB" : fixed_digits(size / mebibyte, 0) + " MiB";
 }
 
 std::string percent_text(double fraction) {
@@ -83,7 +82,7 @@ std::string percent_text(double fraction) {
   if (fraction == 0 || fraction == 1) {
     return fraction == 0 ? "0" : "100";
   }
-  return fmt::format("{:.2f}", std::clamp(std::floor(fraction * 1e4) / 100, 0.01, 99.99));
+  return fixed_digits(std::clamp(std::floor(fraction * 1e4) / 100, 0.01, 99.99), 2);
 }
 
 double worst_of(Metric metric, const MetricSummary& summary) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace trismooth {
 
 namespace {
@@ -49,8 +47,8 @@ std::string TextColumns::text(const std::vector<Title>& titles) const {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       line.append(columns_[i].gap, ' ');
-      line += columns_[i].align == Align::left ? fmt::format("{:<{}}", cells[i], widths_[i])
-                                               : fmt::format("{:>{}}", cells[i], widths_[i]);
+      const std::string padding(widths_[i] - cells[i].size(), ' ');
+      line += columns_[i].align == Align::left ? cells[i] + padding : padding + cells[i];
     }
     append_line(text, std::move(line));
   }
