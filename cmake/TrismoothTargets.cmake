@@ -3,10 +3,13 @@
 
 # Sources say `#include "trismooth/quality/metrics.h"` in the tree as well as installed: the build tree
 # holds one link for each folder.
-file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include/trismooth")
+set(trismooth_headers "${PROJECT_BINARY_DIR}/include/trismooth")
+file(MAKE_DIRECTORY "${trismooth_headers}")
 foreach(folder IN ITEMS base quality smoothing mesh_io pipeline cuda)
-  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${PROJECT_BINARY_DIR}/include/trismooth/${folder}" SYMBOLIC)
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${trismooth_headers}/${folder}" SYMBOLIC)
 endforeach()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/version.h.in" "${trismooth_headers}/version.h" @ONLY)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/trismooth.h" "${trismooth_headers}/trismooth.h" COPYONLY)
 
 function(trismooth_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -44,15 +47,25 @@ function(trismooth_carry_exact_arithmetic target)
               $<$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>:-fmad=false;-ftz=false;-prec-div=true;-prec-sqrt=true;-Xcompiler=-ffp-contract=off>)
 endfunction()
 
-# trismooth_library(<name> <source>...) makes target trismooth_<name>, used as trismooth::<name>.
+# trismooth_library(<name> <source>...) makes target trismooth_<name>, used as trismooth::<name>. It is static unless
+# BUILD_SHARED_LIBS says otherwise.
 function(trismooth_library name)
   add_library(trismooth_${name} ${ARGN})
   add_library(trismooth::${name} ALIAS trismooth_${name})
-  set_target_properties(trismooth_${name} PROPERTIES EXPORT_NAME ${name})
+  # Below 1.0 every minor version may change the interface.
+  set_target_properties(trismooth_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+                                                     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   trismooth_configure(trismooth_${name})
   trismooth_guide_fuzzer(trismooth_${name})
   target_include_directories(
     trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()
+
+# trismooth_public_headers(<name> <header>...): what others may include, by their paths below trismooth/. These are
+# installed; all other headers are private.
+function(trismooth_public_headers name)
+  list(TRANSFORM ARGN PREPEND "${trismooth_headers}/" OUTPUT_VARIABLE headers)
+  target_sources(trismooth_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_BINARY_DIR}/include" FILES ${headers})
 endfunction()
 
 # Adds to a target that compiles CUDA what its .cu files need: the host's rules once more, for nvcc.

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "trismooth/base/digits.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/quality/digits.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {

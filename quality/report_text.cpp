@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trismooth/quality/digits.h"
+#include "trismooth/base/digits.h"
 
 namespace trismooth {
 

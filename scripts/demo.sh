@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/install-deps.sh"
 configure
-build_target trismooth
+build_target trismooth_program
 
 cd "$project"
 mkdir -p out

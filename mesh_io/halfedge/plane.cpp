@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "trismooth/base/digits.h"
 #include "trismooth/base/local_frame.h"
 
 namespace trismooth {
@@ -285,11 +285,7 @@ Eigen::Vector3d Plane::moved(const Eigen::Vector3d& point, Point2<double> from, 
 }
 
 std::string PlaneFit::fault() const {
-  std::array<char, 32> digits{};
-  const char* const end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), distance, std::chars_format::general, 3).ptr;
-  return "the mesh is not planar: vertex " + std::to_string(outside) + " is " +
-         std::string(digits.data(), static_cast<std::size_t>(end - digits.data())) +
+  return "the mesh is not planar: vertex " + std::to_string(outside) + " is " + general_digits(distance, 3) +
          " away from the plane that fits best, more than 1e-6 of the extent or a tenth of the size of its elements";
 }
 

@@ -27,7 +27,7 @@
 #include "trismooth/pipeline/cli/printable_stream.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/usage_message.h"
-#include "trismooth/pipeline/version.h"
+#include "trismooth/version.h"
 
 namespace trismooth {
 

@@ -10,7 +10,7 @@
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/report/labelled_line.h"
-#include "trismooth/pipeline/version.h"
+#include "trismooth/version.h"
 
 namespace trismooth {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trismooth/pipeline/experiments/experiment_report.h"
-#include "trismooth/pipeline/version.h"
+#include "trismooth/version.h"
 
 namespace trismooth::experiments {
 

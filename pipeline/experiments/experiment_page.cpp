@@ -9,8 +9,8 @@
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
-#include "trismooth/pipeline/version.h"
 #include "trismooth/quality/report_text.h"
+#include "trismooth/version.h"
 
 namespace trismooth::experiments {
 

@@ -10,9 +10,9 @@
 #include "trismooth/pipeline/experiments/experiment_report.h"
 #include "trismooth/pipeline/experiments/wording.h"
 #include "trismooth/pipeline/report/labelled_line.h"
-#include "trismooth/pipeline/version.h"
 #include "trismooth/quality/report_text.h"
 #include "trismooth/quality/text_columns.h"
+#include "trismooth/version.h"
 
 namespace trismooth::experiments {
 

@@ -16,8 +16,8 @@
 #include "trismooth/pipeline/report/svg_charts.h"
 #include "trismooth/pipeline/report/text_report.h"
 #include "trismooth/pipeline/report/timings.h"
-#include "trismooth/pipeline/version.h"
 #include "trismooth/quality/report_text.h"
+#include "trismooth/version.h"
 
 namespace trismooth {
 

@@ -8,8 +8,8 @@
 
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/timings.h"
-#include "trismooth/pipeline/version.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/version.h"
 
 namespace trismooth {
 

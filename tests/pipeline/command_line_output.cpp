@@ -8,8 +8,8 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/cli/command_line.h"
-#include "trismooth/pipeline/version.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/version.h"
 
 #include "catch.h"
 #include "command_line_calls.h"

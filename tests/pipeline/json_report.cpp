@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/version.h"
+#include "trismooth/version.h"
 
 #include "catch.h"
 #include "sample_run.h"

@@ -1,4 +1,4 @@
-#include "trismooth/quality/digits.h"
+#include "trismooth/base/digits.h"
 
 #include <limits>
 

@@ -1,0 +1,47 @@
+# What is built. On its own the project builds all its parts; as a part of another project (add_subdirectory,
+# FetchContent) the libraries base, quality and smoothing alone, which need TBB and nothing else.
+
+if(PROJECT_IS_TOP_LEVEL)
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+  endif()
+  include(CheckLanguage)
+  check_language(CUDA)
+endif()
+
+# trismooth_part(<option> <help> [<option that it needs>...]): on where the project stands alone and what it needs is on.
+# Who asks for a part without what it needs is told so.
+function(trismooth_part option help)
+  set(default ${PROJECT_IS_TOP_LEVEL})
+  set(missing)
+  foreach(needed IN LISTS ARGN)
+    if(NOT ${needed})
+      set(default OFF)
+      list(APPEND missing "${needed}=ON")
+    endif()
+  endforeach()
+  option(${option} "${help}" ${default})
+  if(${option} AND missing)
+    list(JOIN missing " and " missing)
+    message(FATAL_ERROR "${option}=ON needs ${missing}. Switch that on, or ${option} off.")
+  endif()
+endfunction()
+
+trismooth_part(TRISMOOTH_MESH_IO "Build the component mesh_io: reading and writing of files")
+trismooth_part(TRISMOOTH_VTK "Have mesh_io read and write .vtu and .vtp (needs VTK and Expat)" TRISMOOTH_MESH_IO)
+trismooth_part(TRISMOOTH_HALFEDGE "Build the component halfedge: OpenMesh meshes (needs OpenMesh and Eigen)")
+trismooth_part(TRISMOOTH_PIPELINE "Build the component pipeline: from file to file (needs fmt and xxHash)"
+               TRISMOOTH_MESH_IO TRISMOOTH_HALFEDGE)
+trismooth_part(TRISMOOTH_CLI "Build the program (needs CLI11, nlohmann_json and fmt)" TRISMOOTH_PIPELINE)
+if(CMAKE_CUDA_COMPILER)
+  trismooth_part(TRISMOOTH_CUDA "Build the component cuda (needs nvcc)")
+else()
+  option(TRISMOOTH_CUDA "Build the component cuda (needs nvcc)" OFF)
+endif()
+trismooth_part(TRISMOOTH_INSTALL "Make the rules that install the project")
+trismooth_part(TRISMOOTH_TESTS "Build the tests" TRISMOOTH_CLI TRISMOOTH_VTK)
+trismooth_part(TRISMOOTH_EXAMPLES "Build the example programs")
+trismooth_part(TRISMOOTH_BENCHMARKS "Build the benchmark programs" TRISMOOTH_CLI)
+option(TRISMOOTH_FUZZ "Build the fuzz targets (needs Clang)" OFF)
+option(TRISMOOTH_PACKAGE_TESTS "Put the test programs into the portable package" OFF)
+option(TRISMOOTH_WERROR "Treat compiler warnings as errors" OFF)

@@ -1,0 +1,53 @@
+# Files for pkg-config, one a component: trismooth-smoothing.pc and others. They name no folder of this machine, so an
+# installed tree may be moved. Not for cuda, nor for pipeline, which may hold it: where the CUDA toolkit is, only CMake
+# finds out.
+
+file(RELATIVE_PATH prefix_from_pkg_config "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
+
+# trismooth_pkg_config(<module> <description> [FLAGS <flag>...] [REQUIRES <package>...] [LIBRARIES <flag>...]
+#                      [INSIDE_REQUIRES <package>...] [INSIDE_LIBRARIES <flag>...])
+# The last two are what the sources need and the headers do not. A shared library is linked with them already; with a
+# static one whoever links the library links them.
+function(trismooth_pkg_config module description)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "FLAGS;REQUIRES;LIBRARIES;INSIDE_REQUIRES;INSIDE_LIBRARIES")
+  get_target_property(type trismooth_${module} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    list(APPEND arg_REQUIRES ${arg_INSIDE_REQUIRES})
+    list(APPEND arg_LIBRARIES ${arg_INSIDE_LIBRARIES})
+    set(arg_INSIDE_REQUIRES)
+    set(arg_INSIDE_LIBRARIES)
+  endif()
+  list(JOIN arg_FLAGS " " flags)
+  list(JOIN arg_REQUIRES ", " requires)
+  list(JOIN arg_LIBRARIES " " libraries)
+  list(JOIN arg_INSIDE_REQUIRES ", " requires_private)
+  list(JOIN arg_INSIDE_LIBRARIES " " libraries_private)
+  set(file "${PROJECT_BINARY_DIR}/pkgconfig/trismooth-${module}.pc")
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/trismooth.pc.in" "${file}" @ONLY)
+  install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+
+# The flag is that of trismooth_carry_exact_arithmetic().
+trismooth_pkg_config(base "Points, arrays as views and errors of trismooth" FLAGS -ffp-contract=off INSIDE_REQUIRES tbb)
+trismooth_pkg_config(quality "Quality of planar triangle meshes" REQUIRES trismooth-base)
+trismooth_pkg_config(smoothing "Smart Laplacian smoothing of planar triangle meshes" REQUIRES trismooth-quality)
+if(TRISMOOTH_MESH_IO)
+  set(requires)
+  set(libraries)
+  if(TRISMOOTH_VTK)
+    set(requires expat)
+    get_target_property(linked trismooth_mesh_io LINK_LIBRARIES)
+    foreach(library IN LISTS linked)
+      # VTK::IOXML is the file libvtkIOXML-9.1.so.
+      if(library MATCHES "^VTK::")
+        string(REPLACE "VTK::" "-lvtk" flag "${library}")
+        list(APPEND libraries "${flag}-${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION}")
+      endif()
+    endforeach()
+  endif()
+  trismooth_pkg_config(mesh_io "Mesh files of trismooth: OFF, OBJ, PLY, STL, VTK" REQUIRES trismooth-base
+                       INSIDE_REQUIRES ${requires} INSIDE_LIBRARIES ${libraries})
+endif()
+if(TRISMOOTH_HALFEDGE)
+  trismooth_pkg_config(halfedge "Smart Laplacian smoothing of OpenMesh meshes" REQUIRES trismooth-smoothing eigen3 openmesh)
+endif()
