@@ -2,7 +2,6 @@
 # Every module is a component with an export file of its own: who asks for `smoothing` alone needs neither
 # OpenMesh nor VTK on the machine.
 
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(trismooth_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/trismooth")
 

@@ -1,9 +1,13 @@
-# The portable package: the target `package` makes trismooth-<version>-linux-<processor>.tar.gz. It holds the programs
-# with every shared library that they need beside the C library, unpacks anywhere and runs on any Linux whose C library
-# is as new as that of the machine that made it.
+# The target `package` makes two packages of the programs:
 #
-# What it holds is the install component `portable`, which an ordinary `cmake --install` leaves out: that one is for
-# building against trismooth, on a machine that has the libraries.
+# - trismooth-<version>-linux-<processor>.tar.gz, the portable one. It holds the programs with every shared library that
+#   they need beside the C library, unpacks anywhere and runs on any Linux whose C library is as new as that of the
+#   machine that made it.
+# - trismooth_<version>_<architecture>.deb, for the release of Debian or Ubuntu that made it: the program, whose
+#   libraries are those of the system. Needs the package dpkg-dev.
+#
+# What they hold are the install components `portable` and `debian`, which an ordinary `cmake --install` leaves out: that
+# one is for building against trismooth, on a machine that has the libraries.
 
 # trismooth_programs_below(<variable> <folder>) lists the executables that the folder and all below it make.
 function(trismooth_programs_below variable folder)
@@ -74,6 +78,7 @@ set(packages_compiled_in \"${packages_compiled_in}\")
 set(with_cuda \"${TRISMOOTH_CUDA}\")
 set(strip \"${CMAKE_STRIP}\")
 set(licences \"share/doc/trismooth/third-party\")
+set(licence_file LICENSE)
 include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_libraries.cmake\")
 include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_licences.cmake\")"
         COMPONENT portable EXCLUDE_FROM_ALL)
@@ -84,10 +89,48 @@ install(DIRECTORY docs/images DESTINATION share/doc/trismooth/docs COMPONENT por
 install(DIRECTORY examples/data DESTINATION examples COMPONENT portable EXCLUDE_FROM_ALL
         FILES_MATCHING PATTERN "*.off" PATTERN "*.vtk" PATTERN "*.vtu" PATTERN "README.md")
 
+# The Debian package: the program alone, its libraries where it cannot do without, and whose code it holds.
+install(TARGETS trismooth_program RUNTIME DESTINATION bin COMPONENT debian EXCLUDE_FROM_ALL)
+set(shared_libraries)
+foreach(module IN LISTS trismooth_installed_modules)
+  get_target_property(type trismooth_${module} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY")
+    list(APPEND shared_libraries trismooth_${module})
+  endif()
+endforeach()
+if(shared_libraries)
+  install(TARGETS ${shared_libraries} LIBRARY DESTINATION lib COMPONENT debian EXCLUDE_FROM_ALL NAMELINK_SKIP)
+endif()
+install(CODE "
+set(bundled_libraries \"\")
+set(packages_compiled_in \"${packages_compiled_in}\")
+set(with_cuda \"${TRISMOOTH_CUDA}\")
+set(licences \"share/doc/trismooth/third-party\")
+set(licence_file copyright)
+# The system knows where its libraries are.
+file(RPATH_REMOVE FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/trismooth\")
+include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_licences.cmake\")"
+        COMPONENT debian EXCLUDE_FROM_ALL)
+install(FILES LICENSE DESTINATION share/doc/trismooth RENAME copyright COMPONENT debian EXCLUDE_FROM_ALL)
+install(FILES README.md CHANGELOG.md DESTINATION share/doc/trismooth COMPONENT debian EXCLUDE_FROM_ALL)
+
 string(TOLOWER "${CMAKE_SYSTEM_NAME}" system)
 set(CPACK_PACKAGE_FILE_NAME "trismooth-${PROJECT_VERSION}-${system}-${CMAKE_SYSTEM_PROCESSOR}")
 set(CPACK_GENERATOR TGZ)
+find_program(TRISMOOTH_DPKG_SHLIBDEPS dpkg-shlibdeps)
+mark_as_advanced(TRISMOOTH_DPKG_SHLIBDEPS)
+if(TRISMOOTH_DPKG_SHLIBDEPS)
+  list(APPEND CPACK_GENERATOR DEB)
+endif()
 set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};trismooth;portable;/")
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_LIST_DIR}/package_kinds.cmake")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "the trismooth authors")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Reads a planar triangle mesh, checks its quality, smooths it on the CPU or on an
+NVIDIA GPU, and writes it back with everything else in the file untouched.
+Boundaries and interfaces between regions stay as they are.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 include(CPack)
@@ -102,4 +145,11 @@ if(TRISMOOTH_TESTS)
       -P "${PROJECT_SOURCE_DIR}/tests/install/portable_package.cmake")
   # Installing writes a list of files into the build folder: one at a time.
   set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install)
+  set(test "install: the Debian package has the program and depends on what runs it")
+  find_package(Python3 COMPONENTS Interpreter REQUIRED)
+  add_test(NAME "${test}"
+           COMMAND Python3::Interpreter -B "${PROJECT_SOURCE_DIR}/tests/install/debian_package.py" "${CMAKE_CPACK_COMMAND}"
+                   "${PROJECT_BINARY_DIR}/CPackConfig.cmake" "${PROJECT_BINARY_DIR}/tests/install/debian"
+                   "${PROJECT_SOURCE_DIR}/examples/data/plate.off")
+  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install SKIP_RETURN_CODE 77)
 endif()

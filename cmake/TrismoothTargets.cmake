@@ -52,9 +52,11 @@ endfunction()
 function(trismooth_library name)
   add_library(trismooth_${name} ${ARGN})
   add_library(trismooth::${name} ALIAS trismooth_${name})
-  # Below 1.0 every minor version may change the interface.
+  # Below 1.0 every minor version may change the interface. All symbols are visible: no macro tells the sources of a
+  # shared library from those of a static one, and what was compiled serves both.
   set_target_properties(trismooth_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-                                                     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+                                                     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+                                                     DEFINE_SYMBOL "")
   trismooth_configure(trismooth_${name})
   trismooth_guide_fuzzer(trismooth_${name})
   target_include_directories(

@@ -1,6 +1,6 @@
 # Part of installing the portable package: writes to its folder `licences` whose code it holds beside trismooth's own.
 # Debian and its kin know that, with the licence of each package; elsewhere only the libraries are listed.
-# Expects beside the variables of an install script: bundled_libraries, packages_compiled_in, with_cuda, licences.
+# Expects beside the variables of an install script: bundled_libraries, packages_compiled_in, with_cuda, licences, licence_file.
 cmake_policy(VERSION 3.22)
 
 set(folder "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${licences}")
@@ -88,14 +88,18 @@ if(with_cuda)
   in the programs that use CUDA\n")
 endif()
 
-file(WRITE "${folder}/NOTICE" "trismooth is under the licence in ../LICENSE. This package holds code of others as well.
-
-Shared libraries in lib/ and the Debian packages that they came with. Search paths were taken out of them; they are
+set(shared_notice "")
+if(shared)
+  set(shared_notice "Shared libraries in lib/ and the Debian packages that they came with. Search paths were taken out of them; they are
 otherwise as they were. They may be replaced by others of the same name.
 
 ${shared}
 
-Compiled into the programs, by Debian package:
+")
+endif()
+file(WRITE "${folder}/NOTICE" "trismooth is under the licence in ../${licence_file}. This package holds code of others as well.
+
+${shared_notice}Compiled into the programs, by Debian package:
 
 ${compiled_in}
 <package>.txt is the copyright notice of a package. Texts that notices find in /usr/share/common-licenses are in

@@ -8,9 +8,31 @@
 
 // The component base comes with the others: points, arrays as views, errors.
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/smooth.h"
+
+#if __has_include("trismooth/mesh_io/mesh_file.h")
+#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#endif
+#if __has_include("trismooth/mesh_io/halfedge/smooth_mesh.h") && \
+    __has_include(<OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>) && __has_include(<Eigen/Core>)
+#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#endif
+#if __has_include("trismooth/pipeline/pipeline.h")
+#include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/pipeline.h"
+#endif
+#if __has_include("trismooth/cuda/backend.h") && __has_include(<cuda_runtime_api.h>)
+#include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/memory_pool.h"
+#endif

@@ -3,6 +3,7 @@
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
 #   scripts/install-deps.sh --tests    also what single tests need: a locale, strace, valgrind, a browser
+#   scripts/install-deps.sh --package  also what the target `package` makes a .deb with
 #   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and a venv for clang-tidy
 #   scripts/install-deps.sh --docs     also Doxygen
 set -euo pipefail
@@ -17,16 +18,17 @@ packages=(
 case "${1:-}" in
   '') ;;
   --tests)
-    packages+=(locales strace valgrind)
+    packages+=(dpkg-dev locales strace valgrind)
     # Ubuntu has it as a snap only: there that test is skipped.
     if grep --quiet --no-messages '^ID=debian$' /etc/os-release; then
       packages+=(chromium)
     fi
     ;;
+  --package) packages+=(dpkg-dev) ;;
   --tools) packages+=(clang libclang-rt-dev llvm clang-format-14 python3-venv) ;;
   --docs) packages+=(doxygen) ;;
   *)
-    echo "usage: install-deps.sh [--tests|--tools|--docs]" >&2
+    echo "usage: install-deps.sh [--tests|--package|--tools|--docs]" >&2
     exit 2
     ;;
 esac
