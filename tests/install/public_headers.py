@@ -47,4 +47,5 @@ with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecu
     words = pathlib.Path(dependencies).read_text(encoding="utf-8").split()
 included = {str(pathlib.Path(word).relative_to(include)) for word in words if word.startswith(str(include))}
 wrong += [f"not included by {everything}: {header}" for header in sorted(installed - included)]
-sys.exit("\n".join(wrong))
+if wrong:
+    sys.exit("\n".join(wrong))
