@@ -58,7 +58,7 @@ TEST_CASE("a table's cells are the measurements of its cases, and the paper's ro
       const Case soa{table.version, table.form, table.order, Layout::soa};
       check_equal(row.serial_ms, sample::regular_time(row.vertices, {Version::serial, table.form}));
       check_equal(row.aos_ms, sample::regular_time(row.vertices, aos));
-      check_equal(row.soa_ms, sample::regular_time(row.vertices, soa));
+      check_equal(row.soa_ms, has_layouts(table.version) ? sample::regular_time(row.vertices, soa) : std::nullopt);
       check_equal(row.aos_speedup, result.speedup(row.vertices, aos));
       check_equal(row.soa_speedup, result.speedup(row.vertices, soa));
       CHECK((row.published != nullptr) == (table.number > 0 && row.vertices != 2'000));
