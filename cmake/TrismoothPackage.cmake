@@ -84,7 +84,8 @@ include(\"${CMAKE_CURRENT_LIST_DIR}/bundle_licences.cmake\")"
         COMPONENT portable EXCLUDE_FROM_ALL)
 
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION share/doc/trismooth COMPONENT portable EXCLUDE_FROM_ALL)
-install(DIRECTORY docs/images DESTINATION share/doc/trismooth/docs COMPONENT portable EXCLUDE_FROM_ALL)
+install(DIRECTORY docs DESTINATION share/doc/trismooth COMPONENT portable EXCLUDE_FROM_ALL
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
 # Where the README and the tests expect them, seen from the top of the package.
 install(DIRECTORY examples/data DESTINATION examples COMPONENT portable EXCLUDE_FROM_ALL
         FILES_MATCHING PATTERN "*.off" PATTERN "*.vtk" PATTERN "*.vtu" PATTERN "README.md")

@@ -11,7 +11,7 @@ file(REMOVE_RECURSE "${FOLDER}")
 execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --config "${CONFIGURATION}" --component portable
                         --prefix "${FOLDER}/prefix" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 file(RENAME "${FOLDER}/prefix" "${package}")
-foreach(document IN ITEMS README.md LICENSE CHANGELOG.md third-party/NOTICE)
+foreach(document IN ITEMS README.md docs/library.md docs/images/before.svg LICENSE CHANGELOG.md third-party/NOTICE)
   if(NOT EXISTS "${package}/share/doc/trismooth/${document}")
     message(SEND_ERROR "${document} is missing")
   endif()
