@@ -126,7 +126,7 @@ TEST_CASE("with a device bench measures every version on it") {
   const fakes::FakeBackend backend;
   const Outcome outcome = bench({}, cuda_with(backend));
   CHECK(outcome.code == 0);
-  CHECK(backend.smoothed == 3 * 16 * 2);
+  CHECK(backend.smoothed == 3 * 14 * 2);
   CHECK(outcome.shows("resident"));
   CHECK_FALSE(outcome.shows("Not measured"));
 }
