@@ -63,7 +63,7 @@ class FullDiskTest(tool.ToolTest):
         self.assertEqual(outcome.code, NOT_WRITTEN, outcome)
         self.assertRegex(outcome.err, f"^trismooth: error: {re.escape(target)}: [^\n]*{reason}[^\n]*\n$")
 
-    def sweep(self, target, *arguments, old=b"precious", most=7, same_bytes=True):
+    def sweep(self, target, *arguments, old=b"precious", most=7 if tool.thorough else 4, same_bytes=True):
         """Runs the program, which writes `target` on the disk, with every free space that is too little. Where another
         run writes other bytes (times, memory), the last page may be one too many."""
         name = os.path.basename(target)

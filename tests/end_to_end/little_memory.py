@@ -8,7 +8,7 @@ import subprocess
 import tool
 
 DONE, BAD_INPUT, NOT_WRITTEN = 0, 3, 4
-FORMATS = ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp")
+FORMATS = ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp") if tool.thorough else ("off", "vtk", "vtu")
 KIB = 1024
 REASONS = "not enough memory|too large for the memory of this machine|Cannot allocate memory"
 
