@@ -29,6 +29,7 @@
 #include "trismooth/cuda/paper/paper_mesh.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "support/test_meshes.h"
