@@ -21,7 +21,6 @@ namespace {
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
-using OpenMesh::VertexHandle;
 
 /// A halfedge mesh, and what is known of it beside its halfedges.
 struct Halfedges {

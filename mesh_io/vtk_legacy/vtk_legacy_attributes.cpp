@@ -254,7 +254,7 @@ class ArrayReader {
     target_.arrays.push_back(std::move(array));
   }
 
-  void note_skipped(std::string name, std::string_view content) {
+  void note_skipped(const std::string& name, std::string_view content) {
     notes_.push_back(std::string(target_.kind) + " array " + trismooth::quoted(name) + " holds " +
                      std::string(content) + ": it is kept in this file only, not in other formats");
     add_name(name);

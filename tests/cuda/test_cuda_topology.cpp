@@ -67,13 +67,13 @@ void require_host_results(const Mesh& mesh, const Constraints& constraints = {})
   }
 }
 
-OneRings halfedge_rings(const Mesh& mesh) {
+OneRings halfedge_rings(const Mesh& mesh, const Constraints& constraints = {}) {
   Workers workers(0);
   std::vector<double> xyz;
   for (const Point2<double> p : mesh.points) {
     xyz.insert(xyz.end(), {p.x, p.y, 0});
   }
-  return trismooth::find_halfedge_rings(xyz, mesh.points, mesh.triangles, {}, workers).rings;
+  return trismooth::find_halfedge_rings(xyz, mesh.points, mesh.triangles, constraints, workers).rings;
 }
 
 void require_halfedge_rings(const Mesh& mesh) {
@@ -263,15 +263,14 @@ TEST_CASE("constraints of every kind, alone and together") {
   require_host_results(mesh, {.other_cells = other_cells});
   require_host_results(mesh, {.regions = regions});
   require_host_results(mesh, {.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions});
-  const MeshRings found = cuda::find_rings_on_device(
-      mesh.points, mesh.triangles, {.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions},
-      NeighbourSearch::parallel);
+  const Constraints all{.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions};
+  const MeshRings found = cuda::find_rings_on_device(mesh.points, mesh.triangles, all, NeighbourSearch::parallel);
   std::uint8_t reasons = 0;
   for (const std::uint8_t reason : found.fixed) {
     reasons |= reason;
   }
   CHECK(reasons == (hold::boundary | hold::interface | hold::other_cell | hold::named));
-  require_same(found.rings, halfedge_rings(mesh));
+  require_same(found.rings, halfedge_rings(mesh, all));
 }
 
 TEST_CASE("vertices of any number of triangles, on both sides of what one thread looks after") {
