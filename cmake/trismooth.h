@@ -10,6 +10,7 @@
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
+#include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"

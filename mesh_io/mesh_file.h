@@ -8,7 +8,7 @@
 
 namespace trismooth {
 
-/// Reads a mesh file; its extension chooses the format. Nothing is interpreted: see planar_mesh.h for the triangles.
+/// Reads a mesh file; its extension chooses the format. Nothing is interpreted.
 /// Throws ReadError for an extension that is unknown or not available in this build, a compressed or unreadable file,
 /// or one that breaks its format's rules, with the place in the file. Counts and indices are checked against the file's
 /// size before anything is allocated. Complexity: linear in the file's size.

@@ -38,10 +38,10 @@ struct PipelineOptions {
   std::filesystem::path input;
   std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed
   SmoothingOptions smoothing;
-  std::vector<std::string> region_arrays;          ///< see find_regions
+  std::vector<std::string> region_arrays;          ///< cell arrays; empty: those that give regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
-  bool annotate = false;                           ///< add arrays to the output, see annotations.h
+  bool annotate = false;                           ///< add arrays to the output, named `trismooth:...`
   /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
   std::optional<std::filesystem::path> annotated;
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
@@ -93,7 +93,7 @@ struct PipelineResult {
   std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
   std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed
-  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates (see coordinates_hash.h)
+  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates x, y, z as float64
   std::uint64_t unguarded_hash = 0;           ///< the same before the guard took vertices back
   std::vector<std::string> notes;             ///< what the user should know, one sentence each
   std::vector<std::string> losses;            ///< what the output does not hold of the input, likewise: always shown
@@ -106,7 +106,7 @@ struct PipelineResult {
 /// that is unknown too), else WriteError for that of the output.
 void require_known_formats(const PipelineOptions& options);
 
-/// Runs the stages read, check, smooth, check, export on one file. Throws ReadError or MeshError for an input that
+/// Runs the stages on one file, in the order of Stage. Throws ReadError or MeshError for an input that
 /// cannot be read or is no planar triangle mesh, WriteError for an output that cannot be written,
 /// std::invalid_argument for options that do not fit the input, Cancelled.
 PipelineResult run_pipeline(const PipelineOptions& options);

@@ -13,7 +13,7 @@ namespace trismooth {
 /// Why a cell array counts as one that gives regions.
 enum class RegionReason : std::uint8_t {
   named,              ///< the user named it
-  known_name,         ///< programs write regions under this name, see region_names.h
+  known_name,         ///< programs write regions under this name
   looks_like_regions  ///< whole numbers, few of them, that change across few edges
 };
 

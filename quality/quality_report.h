@@ -25,7 +25,7 @@ struct MetricSummary {
 struct WorstElement {
   std::int64_t triangle = 0;  ///< index in the view
   double shape = 0;           ///< negative where inverted
-  Point2<double> centroid{};  ///< in the local frame
+  Point2<double> centroid{};  ///< in the view's frame; quality() and run_pipeline() give yours
   bool all_fixed = false;     ///< no smoothing can change it; for who knows the fixed vertices, quality_report does not
 };
 

@@ -61,7 +61,7 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
   add_parsed_option(command, "--time-limit", "SECONDS", "Stop sweeping after this time [none]",
                     [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text); })
       ->group(group);
-  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles is X [none]",
+  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles reaches X [none]",
                     [&options](const std::string& text) { options.target_quality = parse_finite(text); })
       ->group(group);
 }
