@@ -4,7 +4,7 @@
 #   scripts/tidy.sh                    over all sources
 #   scripts/tidy.sh FILE...            over those named
 #   scripts/tidy.sh --changed [REF]    over those that differ from commit REF. Without REF: from where the branch left
-#                                      origin's, or from the last commit that is older than a day
+#                                      origin's, or on origin's itself those of the last commit
 #
 # Debian's clang-tidy 14 cannot read the headers of CUDA 13: PyPI has a newer one, which build/tidy/tool keeps.
 set -euo pipefail
@@ -19,10 +19,9 @@ start_of_changes() {
   if [[ -n ${1:-} ]]; then
     base=$1
   elif [[ -z $base || $base == "$(git rev-parse HEAD)" ]]; then
-    base=$(git rev-list -1 --before='1 day ago' HEAD)
+    base=HEAD~1
   fi
-  # Where the history is no older than that: the tree without files.
-  echo "${base:-$(git hash-object -t tree /dev/null)}"
+  echo "$base"
 }
 
 files=()
