@@ -67,14 +67,16 @@ for file in "${files[@]}"; do
 done
 echo "clang-tidy: ${#sources[@]} C++ and ${#kernels[@]} CUDA sources; $unbuilt that are not built here"
 status=0
-printf '%s\0' "${sources[@]}" |
-  xargs -0 -r -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option || status=1
+if ((${#sources[@]} > 0)); then
+  printf '%s\0' "${sources[@]}" |
+    xargs -0 -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option || status=1
+fi
 # Kernels as Clang compiles them for the host; nvcc's options are not its own.
 cuda=$(dirname "$(dirname "$(realpath "$(command -v nvcc || echo /usr/local/cuda/bin/nvcc)")")")
-if [[ -d $cuda/include ]]; then
+if ((${#kernels[@]} > 0)) && [[ -d $cuda/include ]]; then
   printf '%s\0' "${kernels[@]}" |
-    xargs -0 -r -I{} -P "$(nproc)" "$tidy" --quiet {} -- -x cuda --cuda-host-only "--cuda-path=$cuda" -std=c++20 \
-      -ffp-contract=off -Wno-unknown-cuda-version --cuda-gpu-arch=sm_90 -fgpu-rdc -Wno-undefined-internal -I"$build/include" -I"$project/tests" \
-      -isystem "$cuda/include/cccl" || status=1
+    xargs -0 -I{} -P "$(nproc)" "$tidy" --quiet {} -- -x cuda --cuda-host-only "--cuda-path=$cuda" -std=c++20 \
+      -ffp-contract=off -Wno-unknown-cuda-version --cuda-gpu-arch=sm_90 -fgpu-rdc -Wno-undefined-internal \
+      -I"$build/include" -I"$project/tests" -isystem "$cuda/include/cccl" || status=1
 fi
 exit "$status"
