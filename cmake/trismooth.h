@@ -7,6 +7,7 @@
 #include "trismooth/version.h"
 
 // The component base comes with the others: points, arrays as views, errors.
+#include "trismooth/base/hold.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
