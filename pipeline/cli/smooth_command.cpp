@@ -74,8 +74,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
                   "or more are free; else cpu",
                   free_vertices_for_cuda))
       ->group(option_group::running);
-  const char* const group =
-      "Running on CUDA (the CPU accepts and ignores them; soa and unordered are of single-block and cdp)";
+  const char* const group = "Running on CUDA (the CPU accepts and ignores them, except soa, unordered)";
   add_enum_option(command, "--layout", options.layout,
                   "Of single-block and cdp: an array of structures, or a structure of arrays")
       ->group(group);
