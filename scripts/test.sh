@@ -19,8 +19,9 @@ build_target all
 built=$SECONDS
 echo "Set-up took $configured s, the build $((built - configured)) s. Tests:"
 keep_temporary_files_in_memory
-# Per cent of the random meshes.
-export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-${TRISMOOTH_THOROUGH:+100}}
-export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-30}
+if [[ -z ${TRISMOOTH_THOROUGH:-} ]]; then
+  # Per cent of the random meshes.
+  export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-30}
+fi
 ctest --test-dir "$build" --output-on-failure -j2 "$@"
 echo "Set-up took $configured s, the build $((built - configured)) s, the tests $((SECONDS - built)) s."
