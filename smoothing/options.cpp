@@ -24,6 +24,9 @@ void SmoothingOptions::validate() const {
   require(!target_quality || (*target_quality >= -1 && *target_quality <= 1),
           "the quality target must be from -1 to 1");
   checked_threads(threads);
+  require(mean_ratio.size_weight >= 0 && mean_ratio.size_weight < std::numeric_limits<double>::infinity(),
+          "the size weight must be a number from 0");
+  require(mean_ratio.power >= 1 && mean_ratio.power <= 8, "the power must be from 1 to 8");
   require(order == Order::colour || (form == Form::in_place && execution != Execution::resident),
           "order 'unordered' goes with form b and execution single-block or cdp only");
   require(layout == Layout::aos || execution != Execution::resident,

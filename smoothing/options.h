@@ -15,9 +15,10 @@ class Backend;
 
 /// Where a vertex is moved to, and whether.
 enum class Method : std::uint8_t {
-  smart,      ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
-  laplacian,  ///< to the mean of its neighbours
-  weighted,   ///< to the mean of its neighbours weighted by inverse edge length
+  smart,       ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
+  laplacian,   ///< to the mean of its neighbours
+  weighted,    ///< to the mean of its neighbours weighted by inverse edge length
+  mean_ratio,  ///< where an energy of its triangles' shapes and sizes gets smaller, by Newton's method
 };
 
 /// The paper's iteration forms.
@@ -66,6 +67,12 @@ enum class Evaluation : std::uint8_t {
   all,      ///< every free vertex in every sweep, as in the paper: for comparison
 };
 
+/// The shapes that the mean-ratio method aims at.
+enum class TargetShape : std::uint8_t {
+  uniform,  ///< equilateral
+  input,    ///< each triangle keeps the shape that it has: for layers that are flat on purpose
+};
+
 /// What a progress callback answers.
 enum class Progress : std::uint8_t {
   proceed,  ///< go on
@@ -75,8 +82,10 @@ enum class Progress : std::uint8_t {
 template <>
 struct EnumText<Method> {
   static constexpr std::string_view what = "method";
-  static constexpr std::array<std::pair<Method, std::string_view>, 3> texts{
-      {{Method::smart, "smart"}, {Method::laplacian, "laplacian"}, {Method::weighted, "weighted"}}};
+  static constexpr std::array<std::pair<Method, std::string_view>, 4> texts{{{Method::smart, "smart"},
+                                                                             {Method::laplacian, "laplacian"},
+                                                                             {Method::weighted, "weighted"},
+                                                                             {Method::mean_ratio, "mean-ratio"}}};
 };
 template <>
 struct EnumText<Form> {
@@ -113,6 +122,22 @@ struct EnumText<Precision> {
   static constexpr std::array<std::pair<Precision, std::string_view>, 2> texts{
       {{Precision::double_precision, "double"}, {Precision::single_precision, "single"}}};
 };
+template <>
+struct EnumText<TargetShape> {
+  static constexpr std::string_view what = "target";
+  static constexpr std::array<std::pair<TargetShape, std::string_view>, 2> texts{
+      {{TargetShape::uniform, "uniform"}, {TargetShape::input, "input-shape"}}};
+};
+
+/// What steers Method::mean_ratio alone.
+struct MeanRatioOptions {
+  /// How much the sizes of triangles count beside their shapes, from 0. It is multiplied by the cube of the mesh's mean
+  /// shape: the sizes of a distorted mesh say little.
+  double size_weight = 1;
+  /// The power of 1 / shape in the energy, from 1 to 8: the higher, the more the worst triangles count.
+  int power = 2;
+  TargetShape target = TargetShape::uniform;
+};
 
 /// Everything that steers a smoothing. The defaults are those of the command line.
 struct SmoothingOptions {
@@ -123,6 +148,7 @@ struct SmoothingOptions {
   Order order = Order::colour;
   Topology topology = Topology::halfedge;
   Precision precision = Precision::double_precision;
+  MeanRatioOptions mean_ratio{};
   Evaluation evaluation = Evaluation::changed;
   /// The never-worse guard: when the sweeps are over, the vertices go back whose moves made an element invalid, or
   /// worse than it was and worse than the worst of all elements around moved vertices was.

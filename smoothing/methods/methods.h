@@ -3,20 +3,34 @@
 #include <utility>
 
 #include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/methods/weighted_laplacian.h"
 #include "trismooth/smoothing/options.h"
 
 namespace trismooth {
 
-/// Calls `function` with a value of the type that holds the method's one-ring update.
-template <class Function>
-decltype(auto) visit_method(Method method, Function&& function) {
-  switch (method) {
+/// A method with what it needs beside a vertex and its ring, in one stage of a smoothing.
+template <class T>
+struct MethodInUse {
+  Method method = Method::smart;
+  MeanRatioTargets<T> targets{};  ///< where the method is mean_ratio, as is the step
+  MeanRatioStep<T> step{};
+};
+
+/// Calls `function` with the method's one-ring update.
+template <class T, class Function>
+decltype(auto) visit_method(const MethodInUse<T>& in_use, Function&& function) {
+  switch (in_use.method) {
     case Method::laplacian:
       return std::forward<Function>(function)(Laplacian{});
     case Method::weighted:
       return std::forward<Function>(function)(WeightedLaplacian{});
+    case Method::mean_ratio:
+      if (in_use.targets.reference != nullptr) {
+        return std::forward<Function>(function)(MeanRatio<T, true>(in_use.targets, in_use.step));
+      }
+      return std::forward<Function>(function)(MeanRatio<T, false>(in_use.targets, in_use.step));
     case Method::smart:
       break;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "trismooth/base/point2.h"
 
 namespace trismooth {
@@ -11,7 +13,11 @@ namespace trismooth {
 /// where ring.size() is the number of neighbours and ring[i] the position of neighbour i, counter-clockwise. Every
 /// backend calls exactly this function; a new method is one new header and an entry in methods.h. A method that uses
 /// the smallest shape quotient around the vertex has another one that takes it as a third argument: see
-/// update_with_minimum().
+/// update_with_minimum(). A method that knows more of a vertex than where its neighbours are is an object with
+///
+///     template <class Ring> Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const;
+///
+/// where v is the number of the vertex and ring.number(i) that of neighbour i.
 template <class T>
 struct Move {
   Point2<T> position;
@@ -43,13 +49,25 @@ constexpr TRISMOOTH_HOST_DEVICE Point2<T> laplacian_position(const Ring& ring) {
   return {sum.x * weight, sum.y * weight};
 }
 
+/// The update of vertex v by a method of either kind.
+template <class Update, class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> updated(const Update& method, std::int32_t v, Point2<T> position,
+                                                const Ring& ring) {
+  if constexpr (requires { method.update(v, position, ring); }) {
+    return method.update(v, position, ring);
+  } else {
+    return Update::template update<T>(position, ring);
+  }
+}
+
 /// The update of a vertex whose smallest shape quotient is stored, by the methods that have a use for it.
 template <class Update, class T, class Ring>
-constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(Point2<T> position, const Ring& ring, T minimum) {
+constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(const Update& method, std::int32_t v, Point2<T> position,
+                                                            const Ring& ring, T minimum) {
   if constexpr (requires { Update::template update<T>(position, ring, minimum); }) {
     return Update::template update<T>(position, ring, minimum);
   } else {
-    return Update::template update<T>(position, ring);
+    return updated(method, v, position, ring);
   }
 }
 

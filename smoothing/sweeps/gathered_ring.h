@@ -9,22 +9,26 @@
 
 namespace trismooth {
 
-/// The positions of a ring of `Size` neighbours: the compiler unrolls every loop over it.
+/// The positions and numbers of a ring of `Size` neighbours: the compiler unrolls every loop over it.
 template <class T, int Size>
 struct FixedRing {
   std::array<Point2<T>, Size> positions;
+  const std::int32_t* numbers;
 
   static constexpr int size() { return Size; }
   constexpr Point2<T> operator[](int i) const { return positions[i]; }
+  constexpr std::int32_t number(int i) const { return numbers[i]; }
 };
 
-/// The positions of a ring of any size, in memory that somebody else owns.
+/// Those of a ring of any size, in memory that somebody else owns.
 template <class T>
 struct LongRing {
   std::span<const Point2<T>> positions;
+  const std::int32_t* numbers;
 
   int size() const { return static_cast<int>(positions.size()); }
   Point2<T> operator[](int i) const { return positions[i]; }
+  std::int32_t number(int i) const { return numbers[i]; }
 };
 
 /// Fetches the positions of a ring once, for all the passes of an update over it.
@@ -56,13 +60,14 @@ class RingGatherer {
     for (const std::int32_t neighbour : ring) {
       buffer_.push_back(points[neighbour]);
     }
-    return function(LongRing<T>{buffer_});
+    return function(LongRing<T>{buffer_, ring.data()});
   }
 
  private:
   template <int Size>
   static FixedRing<T, Size> fixed(std::span<const Point2<T>> points, std::span<const std::int32_t> ring) {
     FixedRing<T, Size> gathered;
+    gathered.numbers = ring.data();
     for (int i = 0; i < Size; ++i) {
       gathered.positions[i] = points[ring[i]];
     }

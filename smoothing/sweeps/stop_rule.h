@@ -13,16 +13,24 @@ namespace trismooth {
 /// A quality target that is never reached: no target.
 inline constexpr double no_target = std::numeric_limits<double>::quiet_NaN();
 
-/// Why the smoothing ends with a sweep, as far as the sweep itself says it; the reasons in their order. Sweep limit,
-/// time limit and cancellation come after these. `min_shape` is the smallest shape after the sweep, NaN where it was
-/// not measured.
-constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> reason_in_sweep(std::int64_t moved, bool within_tolerance,
-                                                                          double min_shape, double target) {
+/// Whether a sweep says that the stage of the smoothing is over, and with the last stage the smoothing.
+constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> settled_in_sweep(std::int64_t moved, bool within_tolerance) {
   if (moved == 0) {
     return StopReason::fixed_point;
   }
   if (within_tolerance) {
     return StopReason::tolerance;
+  }
+  return std::nullopt;
+}
+
+/// Why the smoothing ends with a sweep of its last stage, as far as the sweep itself says it; the reasons in their
+/// order. Sweep limit, time limit and cancellation come after these. `min_shape` is the smallest shape after the sweep,
+/// NaN where it was not measured.
+constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> reason_in_sweep(std::int64_t moved, bool within_tolerance,
+                                                                          double min_shape, double target) {
+  if (const auto settled = settled_in_sweep(moved, within_tolerance)) {
+    return settled;
   }
   if (min_shape >= target) {
     return StopReason::quality_target;

@@ -18,6 +18,8 @@
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
+#include "trismooth/smoothing/sweeps/host_targets.h"
+#include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 
@@ -38,31 +40,49 @@ class SweepDriver {
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
   void run(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
-    visit_method(options_.method, [&]<class Update>(Update) {
-      workers_.run([&] { run_with<Update>(points, fixed_quotient, result); });
-    });
+    workers_.run([&] { run_stages(points, fixed_quotient, result); });
   }
 
  private:
   static constexpr std::int64_t grain = 1024;
 
-  template <class Update>
-  void run_with(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+  void run_stages(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
     const Stopwatch watch;
-    const bool swaps = options_.form == Form::swap;
-    const auto free_count = static_cast<std::size_t>(rings_.free_count());
-    marked_.assign(free_count, 1);
-    if (swaps) {
+    if (options_.form == Form::swap) {
       other_points_ = points;
-      other_marked_.assign(free_count, 0);
     }
     if (reached_target(points, fixed_quotient)) {
       result.stop_reason = StopReason::quality_target;
       return;
     }
+    const HostTargets<T> targets = options_.method == Method::mean_ratio
+                                       ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_)
+                                       : HostTargets<T>();
+    Stages stages(options_, rings_.free_count());
+    std::optional<StopReason> reason;
     for (;;) {
-      const SweepTally<T> tally = swaps ? sweep<Update>(points, other_points_, marked_, other_marked_)
-                                        : sweep<Update>(points, points, marked_, marked_);
+      visit_method(MethodInUse<T>{options_.method, targets.view(), stages.step<T>()}, [&](const auto& method) {
+        reason = run_stage(method, points, stages, fixed_quotient, watch, result);
+      });
+      if (reason) {
+        break;
+      }
+      stages.next(result.history.back().moved);
+    }
+    result.stop_reason = *reason;
+  }
+
+  /// Sweeps to the end of the stage. Nothing where another one follows.
+  template <class Update>
+  std::optional<StopReason> run_stage(const Update& method, std::vector<Point2<T>>& points, const Stages& stages,
+                                      double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
+    const bool swaps = options_.form == Form::swap;
+    const auto free_count = static_cast<std::size_t>(rings_.free_count());
+    marked_.assign(free_count, 1);
+    other_marked_.assign(swaps ? free_count : 0, 0);
+    for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
+      const SweepTally<T> tally = swaps ? sweep(method, points, other_points_, marked_, other_marked_)
+                                        : sweep(method, points, points, marked_, marked_);
       if (swaps) {
         points.swap(other_points_);
         marked_.swap(other_marked_);
@@ -74,19 +94,22 @@ class SweepDriver {
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
-      if (const auto reason = reason_to_stop(tally, record, watch)) {
-        result.stop_reason = *reason;
-        return;
+      const auto settled = settled_in_sweep(tally.moved, tally.within_tolerance);
+      const auto reason = reason_to_stop(stages.is_last() ? settled : std::nullopt, record, watch);
+      if (reason || settled || sweep_of_stage == stages.sweeps()) {
+        return reason;
       }
     }
   }
 
-  std::optional<StopReason> reason_to_stop(const SweepTally<T>& tally, const SweepRecord& record,
+  std::optional<StopReason> reason_to_stop(std::optional<StopReason> settled, const SweepRecord& record,
                                            const Stopwatch& watch) const {
     const bool stopped = options_.progress && options_.progress(record) == Progress::stop;
-    if (const auto reason = reason_in_sweep(tally.moved, tally.within_tolerance, record.min_shape,
-                                            options_.target_quality.value_or(no_target))) {
-      return reason;
+    if (settled) {
+      return settled;
+    }
+    if (record.min_shape >= options_.target_quality.value_or(no_target)) {
+      return StopReason::quality_target;
     }
     if (stopped) {
       return StopReason::cancelled;
@@ -101,16 +124,16 @@ class SweepDriver {
   }
 
   template <class Update>
-  SweepTally<T> sweep(const std::vector<Point2<T>>& from, std::vector<Point2<T>>& to, std::vector<std::uint8_t>& marked,
-                      std::vector<std::uint8_t>& marked_next) {
+  SweepTally<T> sweep(const Update& method, const std::vector<Point2<T>>& from, std::vector<Point2<T>>& to,
+                      std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& marked_next) {
     SweepTally<T> total;
     std::mutex joining;
     for (std::size_t batch = 0; batch + 1 < rings_.batches.size(); ++batch) {
       const std::int32_t first = rings_.batches[batch];
       workers_.for_blocks(rings_.batches[batch + 1] - first, grain, [&](std::int64_t begin, std::int64_t end) {
         SweepTally<T> tally;
-        update_block<Update>(first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from, to,
-                             marked, marked_next, tally);
+        update_block(method, first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from, to,
+                     marked, marked_next, tally);
         const std::lock_guard lock(joining);
         total.join(tally);
       });
@@ -119,8 +142,9 @@ class SweepDriver {
   }
 
   template <class Update>
-  void update_block(std::int32_t begin, std::int32_t end, std::span<const Point2<T>> from, std::span<Point2<T>> to,
-                    std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next, SweepTally<T>& tally) {
+  void update_block(const Update& method, std::int32_t begin, std::int32_t end, std::span<const Point2<T>> from,
+                    std::span<Point2<T>> to, std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next,
+                    SweepTally<T>& tally) {
     RingGatherer<T> gatherer;
     const bool all = options_.evaluation == Evaluation::all;
     const T tolerance = static_cast<T>(options_.tolerance);
@@ -136,7 +160,7 @@ class SweepDriver {
       marked[v] = 0;
       const Point2<T> position = from[v];
       const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
-        const Move<T> move = Update::template update<T>(position, ring);
+        const Move<T> move = updated(method, v, position, ring);
         to[v] = move.position;
         if (move.moved) {
           tally.join(tally_of_move(position, move.position, ring, tolerance));

@@ -1,0 +1,278 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+
+namespace trismooth {
+
+/// What the mean-ratio method knows of the mesh as it was before the first sweep (see mean_ratio_targets.h), by packed
+/// vertex. Somebody else owns it.
+template <class T>
+struct MeanRatioTargets {
+  /// 1 / (twice the area to be aimed at) around a vertex; 0 for a fixed vertex, which has no say.
+  const T* inverse_areas = nullptr;
+  /// The growth bound: the largest share_of_error() that a move may give a triangle around a free vertex.
+  const T* largest_shares = nullptr;
+  /// Half the weight of the sizes in the energy.
+  const T* half_size_weight = nullptr;
+  /// x and y of every vertex where triangles have the shapes to be aimed at; null: all are equilateral.
+  const T* reference = nullptr;
+};
+
+/// What the method does in a stage of the smoothing.
+template <class T>
+struct MeanRatioStep {
+  T relaxation = 1;  ///< the first step tried, in Newton steps
+  T least_gain = 0;  ///< of a step, relative to the energy, as Newton's model foretells it: less is not worth a move
+  int power = 1;     ///< of the inverse mean ratio
+};
+
+/// The share that a triangle has in the error of an interpolated gradient, but for the solution's curvature: its area
+/// times the square of its size (Ciarlet's estimate). `doubled_area` and the sum of the squared edge lengths.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T share_of_error(T doubled_area, T squares) {
+  return doubled_area * squares;
+}
+
+/// Smoothing by an energy of the elements: Munson's inverse mean ratio (T. Munson 2007, "Mesh shape-quality
+/// optimization using the inverse mean-ratio metric"), which is 1 / alpha, with a term that keeps sizes. The energy of
+/// a vertex is the sum over its triangles of
+///
+///     alpha^-p + lambda / 2 (tau + 1 / tau),     tau = area / (area aimed at)
+///
+/// Each term is convex where the triangle is positive, so a ring has one minimum. A visit makes one Newton step with
+/// the 2 x 2 Hessian in closed form: over-relaxed first, then Newton's own, then halves of it, until the energy is
+/// smaller, every triangle positive, and none has grown beyond the growth bound. Where a triangle of the ring is
+/// inverted or degenerate there is no energy; the smart Laplacian rule moves the vertex then.
+///
+/// Only + - * / in a fixed order: the same bits everywhere. `shaped`: with reference shapes, else alpha is the shape.
+template <class T, bool shaped>
+class MeanRatio {
+ public:
+  constexpr TRISMOOTH_HOST_DEVICE MeanRatio(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step)
+      : targets_(targets), step_(step) {}
+
+  /// ring.number(i): the packed number of neighbour i.
+  template <class Ring>
+  constexpr TRISMOOTH_HOST_DEVICE Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const {
+    const T half_weight = *targets_.half_size_weight;
+    Expansion at{};
+    bool positive = true;
+    for_triangles(v, position, ring, [&](const Triangle& t) {
+      positive &= t.doubled_area > T(0);
+      at.add(t, step_.power, half_weight);
+    });
+    if (!positive) {
+      return SmartLaplacian::update(position, ring);
+    }
+    const T determinant = at.xx * at.yy - at.xy * at.xy;
+    const Point2<T> newton{(at.xy * at.y - at.yy * at.x) / determinant, (at.xy * at.x - at.xx * at.y) / determinant};
+    // Half of this is what a Newton step gains where the energy is quadratic.
+    const T gain = -(newton.x * at.x + newton.y * at.y);
+    if (!(determinant > T(0)) || !(gain > step_.least_gain * at.energy)) {
+      return stay(position);
+    }
+    T length = step_.relaxation;
+    for (int tries = 0; tries < most_tries; ++tries) {
+      const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
+      if (is_accepted(v, position, target, ring, at.energy, half_weight)) {
+        return move_to(position, target);
+      }
+      length = length > T(1) ? T(1) : length * T(0.5);
+    }
+    return stay(position);
+  }
+
+ private:
+  static constexpr int most_tries = 8;
+
+  /// A triangle (v, a, b) seen from v.
+  struct Triangle {
+    Point2<T> c;  ///< from a to b
+    T doubled_area;
+    T squares;  ///< of the edges, weighted by the shape that is aimed at
+    T pull_x;   ///< of v on that sum: minus half its derivative
+    T pull_y;
+    T stiffness;     ///< half its second derivative
+    T share;         ///< share_of_error()
+    T inverse_area;  ///< 1 / (twice the area that is aimed at)
+
+    /// The terms of the energy and of its derivatives: 1 / (twice the area), 1 / alpha, tau and 1 / tau.
+    struct Terms {
+      T inverse;
+      T ratio;
+      T tau;
+      T inverse_tau;
+    };
+    constexpr TRISMOOTH_HOST_DEVICE Terms terms() const {
+      const T tau = doubled_area * inverse_area;
+      const T inverse_tau = T(1) / tau;  // the only division
+      const T inverse = inverse_tau * inverse_area;
+      return {inverse, T(1 / shape_constant) * squares * inverse, tau, inverse_tau};
+    }
+  };
+
+  /// ratio^(power - 1) and its derivative by the ratio.
+  struct Power {
+    T value;
+    T slope;
+  };
+  static constexpr TRISMOOTH_HOST_DEVICE Power power_below(T ratio, int power) {
+    Power result{1, 0};
+    for (int i = 1; i < power; ++i) {
+      result.slope = result.slope * ratio + result.value;
+      result.value = result.value * ratio;
+    }
+    return result;
+  }
+
+  /// The energy around a vertex with its first and second derivatives.
+  struct Expansion {
+    T energy;
+    T x;
+    T y;
+    T xx;
+    T xy;
+    T yy;
+
+    constexpr TRISMOOTH_HOST_DEVICE void add(const Triangle& t, int power, T half_weight) {
+      const typename Triangle::Terms terms = t.terms();
+      // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
+      const T area_x = -t.c.y * terms.inverse;
+      const T area_y = t.c.x * terms.inverse;
+      const T scale = T(2 / shape_constant) * terms.inverse;
+      const T ratio_x = -scale * t.pull_x - terms.ratio * area_x;
+      const T ratio_y = -scale * t.pull_y - terms.ratio * area_y;
+      const T curvature = scale * t.stiffness;
+      const T ratio_xx = curvature - T(2) * ratio_x * area_x;
+      const T ratio_yy = curvature - T(2) * ratio_y * area_y;
+      const T ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
+      const Power below = power_below(terms.ratio, power);
+      const T first = static_cast<T>(power) * below.value;
+      const T second = static_cast<T>(power) * below.slope;
+      const T size_first = half_weight * (terms.tau - terms.inverse_tau);
+      const T size_second = T(2) * half_weight * terms.inverse_tau;
+      energy += below.value * terms.ratio + half_weight * (terms.tau + terms.inverse_tau);
+      x += first * ratio_x + size_first * area_x;
+      y += first * ratio_y + size_first * area_y;
+      xx += first * ratio_xx + second * ratio_x * ratio_x + size_second * area_x * area_x;
+      xy += first * ratio_xy + second * ratio_x * ratio_y + size_second * area_x * area_y;
+      yy += first * ratio_yy + second * ratio_y * ratio_y + size_second * area_y * area_y;
+    }
+  };
+
+  /// The weights of the squared edges in the mean ratio to a reference triangle, whose cotangents they are (times
+  /// sqrt(3), so that they are 1 where it is equilateral); 1 where it is inverted or degenerate.
+  struct EdgeWeights {
+    T a = 1;
+    T b = 1;
+    T c = 1;
+  };
+  constexpr TRISMOOTH_HOST_DEVICE Point2<T> reference(std::int32_t v) const {
+    const T* const xy = targets_.reference + 2 * static_cast<std::int64_t>(v);
+    return {xy[0], xy[1]};
+  }
+  constexpr TRISMOOTH_HOST_DEVICE EdgeWeights reference_weights(std::int32_t v, std::int32_t na,
+                                                                std::int32_t nb) const {
+    const Point2<T> a = reference(na) - reference(v);
+    const Point2<T> b = reference(nb) - reference(v);
+    const Point2<T> c = b - a;
+    const T area = cross(a, b);
+    if (!(area > T(0))) {
+      return {};
+    }
+    const T scale = T(shape_constant / 2) / area;
+    return {scale * (b.x * c.x + b.y * c.y), scale * -(a.x * c.x + a.y * c.y), scale * (a.x * b.x + a.y * b.y)};
+  }
+
+  /// 1 / (twice the area aimed at) of a triangle: the mean over its free corners, of which v is one.
+  static constexpr TRISMOOTH_HOST_DEVICE T inverse_target(T own, T of_a, T of_b) {
+    const bool with_a = of_a > T(0);
+    const bool with_b = of_b > T(0);
+    return (own + of_a + of_b) * (with_a && with_b ? T(1) / T(3) : (with_a || with_b ? T(0.5) : T(1)));
+  }
+
+  /// Calls visit(triangle) for the triangles of v as they are where v is at `position`.
+  template <class Ring, class Visit>
+  constexpr TRISMOOTH_HOST_DEVICE void for_triangles(std::int32_t v, Point2<T> position, const Ring& ring,
+                                                     const Visit& visit) const {
+    const int size = ring.size();
+    const T own = targets_.inverse_areas[v];
+    const Point2<T> first = ring[0];
+    const T first_target = targets_.inverse_areas[ring.number(0)];
+    Point2<T> neighbour = first;
+    T target = first_target;
+    for (int i = 0; i < size; ++i) {
+      const bool closes = i + 1 == size;
+      const Point2<T> next = closes ? first : ring[i + 1];
+      const T next_target = closes ? first_target : targets_.inverse_areas[ring.number(i + 1)];
+      const Point2<T> a = neighbour - position;
+      const Point2<T> b = next - position;
+      const Point2<T> c = next - neighbour;
+      const T area = cross(a, b);
+      const T squares = squared_length(a) + squared_length(b) + squared_length(c);
+      Triangle triangle{c,
+                        area,
+                        squares,
+                        a.x + b.x,
+                        a.y + b.y,
+                        T(2),
+                        share_of_error(area, squares),
+                        inverse_target(own, target, next_target)};
+      if constexpr (shaped) {
+        const EdgeWeights weights = reference_weights(v, ring.number(i), ring.number(closes ? 0 : i + 1));
+        triangle.squares =
+            weights.a * squared_length(a) + weights.b * squared_length(b) + weights.c * squared_length(c);
+        triangle.pull_x = weights.a * a.x + weights.b * b.x;
+        triangle.pull_y = weights.a * a.y + weights.b * b.y;
+        triangle.stiffness = weights.a + weights.b;
+      }
+      visit(triangle);
+      neighbour = next;
+      target = next_target;
+    }
+  }
+
+  template <class Ring>
+  constexpr TRISMOOTH_HOST_DEVICE bool is_accepted(std::int32_t v, Point2<T> position, Point2<T> target,
+                                                   const Ring& ring, T energy_before, T half_weight) const {
+    const T largest = targets_.largest_shares[v];
+    T energy = 0;
+    bool positive = true;
+    bool grows = false;
+    for_triangles(v, target, ring, [&](const Triangle& t) {
+      const typename Triangle::Terms terms = t.terms();
+      positive &= t.doubled_area > T(0);
+      grows |= t.share > largest;
+      energy +=
+          power_below(terms.ratio, step_.power).value * terms.ratio + half_weight * (terms.tau + terms.inverse_tau);
+    });
+    return positive & (energy < energy_before) && !(grows && grows_beyond(largest, position, target, ring));
+  }
+
+  /// Whether a triangle whose share is above the bound would get a larger one than it has.
+  template <class Ring>
+  constexpr TRISMOOTH_HOST_DEVICE bool grows_beyond(T largest, Point2<T> position, Point2<T> target,
+                                                    const Ring& ring) const {
+    bool grows = false;
+    Point2<T> neighbour = ring[ring.size() - 1];
+    for (int i = 0; i < ring.size(); ++i) {
+      const Point2<T> next = ring[i];
+      const T now = share_at(target, neighbour, next);
+      grows |= now > largest && now > share_at(position, neighbour, next);
+      neighbour = next;
+    }
+    return grows;
+  }
+  static constexpr TRISMOOTH_HOST_DEVICE T share_at(Point2<T> v, Point2<T> a, Point2<T> b) {
+    return share_of_error(cross(a - v, b - v), squared_length(a - v) + squared_length(b - v) + squared_length(b - a));
+  }
+
+  MeanRatioTargets<T> targets_;
+  MeanRatioStep<T> step_;
+};
+
+}  // namespace trismooth

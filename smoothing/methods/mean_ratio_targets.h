@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+
+/// What the mean-ratio method aims at, found from the mesh as it is before the first sweep: in two passes over the free
+/// vertices, of which the second needs sums over all of the first.
+namespace trismooth {
+
+/// Sums over the triangles of all free vertices, each counted once for every free corner. Integers, so that no order of
+/// adding matters.
+struct MeanRatioSums {
+  /// Units of an area and of a quotient. The local frame is about 1 wide, so all areas of a mesh that is not tangled
+  /// sum up to less than 32; of one that is the sum may overflow, and mean nothing.
+  static constexpr double area_unit = 0x1p-56;
+  static constexpr double quotient_unit = 0x1p-28;
+
+  std::uint64_t areas = 0;      ///< doubled, of those that are positive
+  std::uint64_t quotients = 0;  ///< shape quotients, of those that are positive
+  std::uint64_t count = 0;
+
+  constexpr TRISMOOTH_HOST_DEVICE void add(const MeanRatioSums& other) {
+    areas += other.areas;
+    quotients += other.quotients;
+    count += other.count;
+  }
+};
+
+/// What one vertex adds to the sums, and what it keeps: twice the mean area of its triangles (0 where none is positive)
+/// and their largest share_of_error().
+template <class T>
+struct MeanRatioRing {
+  MeanRatioSums sums;
+  T mean_area;
+  T largest_share;
+};
+
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T> position, const Ring& ring) {
+  MeanRatioRing<T> result{};
+  T areas = 0;
+  Point2<T> neighbour = ring[ring.size() - 1];
+  for (int i = 0; i < ring.size(); ++i) {
+    const Point2<T> next = ring[i];
+    const Point2<T> a = neighbour - position;
+    const Point2<T> b = next - position;
+    const T area = cross(a, b);
+    ++result.sums.count;
+    if (area > T(0)) {
+      const T squares = squared_length(a) + squared_length(b) + squared_length(next - neighbour);
+      areas += area;
+      const T share = share_of_error(area, squares);
+      result.largest_share = share > result.largest_share ? share : result.largest_share;
+      result.sums.areas += static_cast<std::uint64_t>(static_cast<double>(area) * (1 / MeanRatioSums::area_unit));
+      result.sums.quotients +=
+          static_cast<std::uint64_t>(static_cast<double>(area / squares) * (1 / MeanRatioSums::quotient_unit));
+    }
+    neighbour = next;
+  }
+  result.mean_area = areas / static_cast<T>(ring.size());
+  return result;
+}
+
+/// What all vertices have in common.
+struct MeanRatioMesh {
+  double mean_area;         ///< doubled
+  double half_size_weight;  ///< MeanRatioTargets::half_size_weight
+  double allowance;         ///< a triangle may always become so many times as large as the mean of those around it
+
+  /// How large triangles of a mesh are tells what its maker wanted, the more the better they are shaped; where they are
+  /// distorted their areas are accidents. So the weight of the sizes goes with the cube of the mean shape, and what the
+  /// growth bound allows with its inverse (found by experiment: docs/mean_ratio.md).
+  static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight) {
+    const double count = sums.count > 0 ? static_cast<double>(sums.count) : 1;
+    const double mean_shape =
+        shape_constant * (static_cast<double>(sums.quotients) * MeanRatioSums::quotient_unit / count);
+    const double trust = mean_shape * mean_shape * mean_shape;
+    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 2, 2 / trust};
+  }
+};
+
+/// The growth bound of a vertex: the largest share of its triangles before, or that of an equilateral triangle that is
+/// MeanRatioMesh::allowance times as large as the mean around the vertex or in the mesh, where that is more.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T growth_bound(T largest_share, T mean_area, const MeanRatioMesh& mesh) {
+  const T of_mesh = static_cast<T>(mesh.mean_area);
+  const T area = static_cast<T>(mesh.allowance) * (mean_area > of_mesh ? mean_area : of_mesh);
+  // Doubled area A, edge length s: A = sqrt(3) / 2 s^2, so 3 s^2 = 2 sqrt(3) A.
+  const T allowed = share_of_error(area, T(shape_constant) * area);
+  return allowed > largest_share ? allowed : largest_share;
+}
+
+/// MeanRatioTargets::inverse_areas of a free vertex.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T inverse_target_area(T mean_area, const MeanRatioMesh& mesh) {
+  return T(1) / (mean_area > T(0) ? mean_area : static_cast<T>(mesh.mean_area));
+}
+
+}  // namespace trismooth

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth {
+
+/// The stages of a smoothing, one after the other: the mean-ratio method has two, the others have one that lasts to the
+/// stop. A stage begins with a sweep over all vertices. Where a sweep moves nothing, or nothing beyond the tolerance, a
+/// stage is over; the smoothing is if that was the last.
+///
+/// The first stage of the mean-ratio method minimises the inverse mean ratio itself, which brings vertices where they
+/// belong soonest, the last one its square (or --power), which sees to the worst triangles. The first lasts ten
+/// sweeps. If more than 7/8 of the vertices still move then, the mesh has far to go: it takes smaller gains for moves
+/// and goes on, ten sweeps at a time, while more than a quarter of the vertices move. (Found by experiment:
+/// docs/mean_ratio.md.)
+class Stages {
+ public:
+  Stages(const SmoothingOptions& options, std::int64_t free_count)
+      : is_mean_ratio_(options.method == Method::mean_ratio),
+        is_form_a_(options.form == Form::swap),
+        last_power_(options.mean_ratio.power),
+        free_count_(free_count),
+        is_last_(!is_mean_ratio_) {}
+
+  /// Whether the stage lasts to the stop.
+  bool is_last() const { return is_last_; }
+  /// Sweeps after which next() is to be asked; 0: it lasts to the stop.
+  std::int64_t sweeps() const { return is_last_ ? 0 : sweeps_of_first; }
+  /// What the mean-ratio method does now.
+  template <class T>
+  MeanRatioStep<T> step() const {
+    // A step of Form A does not see what the neighbours do at the same time: it falls short of Newton's, for together
+    // they would go too far.
+    const double relaxation = is_form_a_ ? 0.7 : (is_last_ ? 1.5 : 1.9);
+    const double least_gain = has_far_to_go_ ? 1e-4 : 3e-4;
+    return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_ ? last_power_ : 1};
+  }
+  /// The next stage, or the same once more. `moved`: vertices in the last sweep. Only where this one is not the last.
+  void next(std::int64_t moved) {
+    const bool goes_on = has_far_to_go_ ? 4 * moved > free_count_ : 8 * moved > 7 * free_count_;
+    has_far_to_go_ = has_far_to_go_ || goes_on;
+    is_last_ = !goes_on;
+  }
+
+ private:
+  static constexpr std::int64_t sweeps_of_first = 10;
+
+  bool is_mean_ratio_;
+  bool is_form_a_;
+  int last_power_;
+  std::int64_t free_count_;
+  bool is_last_;
+  bool has_far_to_go_ = false;
+};
+
+}  // namespace trismooth
