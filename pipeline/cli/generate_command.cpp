@@ -26,6 +26,7 @@ struct GenerateSettings {
   std::filesystem::path output;
   std::int64_t vertices = 0;
   std::uint64_t seed = 1;
+  RandomMeshOptions options;
 };
 
 /// The mesh as a document, in the plane z = 0.
@@ -59,7 +60,7 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
     line.emplace(environment.terminal);
   }
   show("making the mesh");
-  const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed);
+  const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed, settings.options);
   show("writing");
   write_mesh(settings.output, to_document(mesh));
   line.reset();
@@ -98,6 +99,10 @@ Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environ
                     [settings](const std::string& text) {
                       settings->seed = parse_integer(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
                     });
+  add_enum_option(
+      command, "--boundary", settings->options.boundary,
+      "random: the hull of the points, a few long edges, the paper's data; resolved: the square, with edges "
+      "as long as those inside");
   return {&command, [settings, &environment] { return run_generate(*settings, environment); }};
 }
 

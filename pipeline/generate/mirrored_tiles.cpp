@@ -30,6 +30,25 @@ std::set<std::int32_t> random_side(std::int64_t count, std::mt19937_64& generato
   return places;
 }
 
+/// Places that cut a tile's side into parts of one length, to half a unit of the grid.
+std::set<std::int32_t> even_side(std::int64_t count) {
+  const std::int64_t parts = count + 1;
+  std::set<std::int32_t> places;
+  for (std::int64_t part = 1; part < parts; ++part) {
+    places.insert(static_cast<std::int32_t>((2 * part * tile_side + parts) / (2 * parts)));
+  }
+  return places;
+}
+
+/// The least distance from the sides that the points inside have.
+std::int32_t least_distance(std::int64_t points_per_side, GeneratedBoundary boundary) {
+  if (boundary == GeneratedBoundary::random) {
+    return 1;
+  }
+  const std::int64_t fifths = 5 * (points_per_side + 1);
+  return static_cast<std::int32_t>((tile_side + fifths - 1) / fifths);
+}
+
 /// Numbers the vertices of the tiles one tile after the other, row by row; each vertex is new in the first tile that
 /// has it.
 class TileNumbering {
@@ -69,18 +88,22 @@ class TileNumbering {
 
 }  // namespace
 
-SquareTile random_tile(std::int64_t inner_points, std::int64_t points_per_side, std::mt19937_64& generator) {
+SquareTile random_tile(std::int64_t inner_points, std::int64_t points_per_side, GeneratedBoundary boundary,
+                       std::mt19937_64& generator) {
   SquareTile tile;
   tile.points = {{0, 0}, {tile_side, 0}, {tile_side, tile_side}, {0, tile_side}};
   for (const int axis : {0, 1}) {
     for (const std::int32_t across : {0, tile_side}) {
-      for (const std::int32_t along : random_side(points_per_side, generator)) {
+      for (const std::int32_t along : boundary == GeneratedBoundary::resolved
+                                          ? even_side(points_per_side)
+                                          : random_side(points_per_side, generator)) {
         tile.points.push_back(axis == 0 ? GridPoint{along, across} : GridPoint{across, along});
       }
     }
   }
   tile.side_points = static_cast<std::int32_t>(tile.points.size());
-  const std::vector<GridPoint> inner = random_points(inner_points, grid_bits - 1, 1, generator);
+  const std::int32_t distance = least_distance(points_per_side, boundary);
+  const std::vector<GridPoint> inner = random_points(inner_points, distance, tile_side - distance + 1, generator);
   tile.points.insert(tile.points.end(), inner.begin(), inner.end());
   tile.triangles = delaunay(tile.points);
   return tile;

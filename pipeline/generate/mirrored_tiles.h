@@ -21,12 +21,15 @@ struct SquareTile {
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
-/// The Delaunay mesh of the square's corners, `points_per_side` random points on each side and `inner_points` inside.
-SquareTile random_tile(std::int64_t inner_points, std::int64_t points_per_side, std::mt19937_64& generator);
+/// The Delaunay mesh of the square's corners, `points_per_side` points on each side and random `inner_points` inside.
+/// `boundary` says how the sides' points lie: at random places (then those inside may come near to them), or as
+/// GeneratedBoundary::resolved describes.
+SquareTile random_tile(std::int64_t inner_points, std::int64_t points_per_side, GeneratedBoundary boundary,
+                       std::mt19937_64& generator);
 
 /// The unit square of tiles_per_side x tiles_per_side copies of the tile, mirrored in x in every other column and in y
 /// in every other row. Tiles share the vertices on their common sides. Vertices are numbered at random.
-/// Precondition: tiles_per_side is a power of two, and the result's vertices can be numbered in 32 bits.
+/// Precondition: tiles_per_side is a power of two (1 is one), and the result's vertices can be numbered in 32 bits.
 RandomMesh mirrored_tiles(const SquareTile& tile, std::int32_t tiles_per_side, std::mt19937_64& generator);
 
 /// Vertices of mirrored_tiles() for a random_tile() of these numbers.

@@ -3,11 +3,29 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "trismooth/base/enum_text.h"
 #include "trismooth/base/point2.h"
 
 namespace trismooth {
+
+/// How the boundary of a generated mesh comes about.
+enum class GeneratedBoundary : std::uint8_t {
+  random,  ///< all points are random, and the boundary is their hull (the paper's data): some 24 vertices, whose edges
+           ///< are up to half as long as the square's side whatever the number of vertices
+  resolved,  ///< the square's corners and sides, cut into edges as long as those inside are: about sqrt(n) vertices a
+             ///< side. The points inside are not nearer to a side than a fifth of these edges' length
+};
+
+template <>
+struct EnumText<GeneratedBoundary> {
+  static constexpr std::string_view what = "boundary";
+  static constexpr std::array<std::pair<GeneratedBoundary, std::string_view>, 2> texts{
+      {{GeneratedBoundary::random, "random"}, {GeneratedBoundary::resolved, "resolved"}}};
+};
 
 /// A triangle mesh of the unit square. Triangles are counter-clockwise.
 struct RandomMesh {
@@ -21,20 +39,30 @@ inline constexpr std::int64_t least_random_mesh_vertices = 4;
 /// The most vertices that random_delaunay_mesh() makes. Each takes about six directed edges, which 32 bits must number.
 inline constexpr std::int64_t max_random_mesh_vertices = (std::int64_t{1} << 31) / 7;
 
+/// What random_delaunay_mesh() may be asked for.
+struct RandomMeshOptions {
+  GeneratedBoundary boundary = GeneratedBoundary::random;
+  std::int64_t largest_tile = 1 << 22;  ///< the most vertices of a tile, 256 to 2^26
+};
+
 /// The Delaunay mesh of about `vertices` points, uniformly random in the unit square and in random order. It depends on
-/// the arguments alone, not on platform, library or time. Coordinates are exact multiples of a power of two (2^-30
-/// where there is one tile), and no two vertices coincide.
+/// the arguments alone, not on platform, library or time. Coordinates are exact multiples of a power of two (where
+/// there is one tile 2^-30, or 2^-29 where its boundary is resolved), and no two vertices coincide.
 ///
-/// Up to `largest_tile` vertices there are exactly as many as asked for, and the mesh fills their convex hull.
+/// Up to `largest_tile` vertices there are exactly as many as asked for. The mesh fills their convex hull, which is the
+/// unit square where the boundary is resolved: of n vertices, 4 (floor(sqrt(n)) - 1) lie on it, at one distance to half
+/// a unit of 2^-29.
+///
 /// A larger mesh is a square of 2^k x 2^k tiles, all copies of one that is mirrored from column to column and from row
 /// to row, so that sides match; it fills the unit square exactly. The tile is the Delaunay mesh of n random points of
-/// which about sqrt(n) lie on each of its sides. The triangles on both sides of a line between tiles need not be
-/// Delaunay to each other. The number of vertices is the nearest to `vertices` that tiles give, at most 4^k / 2 off.
+/// which about sqrt(n) lie on each of its sides: at random places, or, where the boundary is resolved, as on the
+/// boundary. Then the lines between tiles, too, have vertices at one distance and none close by, which are free to move
+/// as all inside are. The triangles on both sides of such a line need not be Delaunay to each other. The number of
+/// vertices is the nearest to `vertices` that tiles give, at most 4^k / 2 off.
 ///
 /// Throws std::invalid_argument where `vertices` is below least_random_mesh_vertices or above max_random_mesh_vertices,
-/// or `largest_tile` is below 256 or above 2^26. Complexity: O(n log n) for the n vertices of the tile, and
-/// O(vertices).
-RandomMesh random_delaunay_mesh(std::int64_t vertices, std::uint64_t seed, std::int64_t largest_tile = 1 << 22);
+/// or options.largest_tile is out of its range. Complexity: O(n log n) for the n vertices of the tile, and O(vertices).
+RandomMesh random_delaunay_mesh(std::int64_t vertices, std::uint64_t seed, const RandomMeshOptions& options = {});
 
 /// The mesh as the library takes it: two coordinates a vertex, three indices a triangle. Views of `mesh`.
 inline std::span<const double> flat_points(const RandomMesh& mesh) {

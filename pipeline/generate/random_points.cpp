@@ -10,13 +10,15 @@ namespace trismooth {
 
 namespace {
 
-GridPoint random_point(int bits, std::int32_t lowest, std::mt19937_64& generator) {
+GridPoint random_point(std::int32_t lowest, std::int32_t end, std::mt19937_64& generator) {
+  const int bits = std::bit_width(static_cast<std::uint32_t>(end - 1));
+  const auto is_outside = [&](std::int32_t coordinate) { return coordinate < lowest || coordinate >= end; };
   GridPoint point{};
   do {
     const std::uint64_t draw = generator();
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     point = {static_cast<std::int32_t>(draw >> (64 - bits)), static_cast<std::int32_t>((draw >> 4) & mask)};
-  } while (point[0] < lowest || point[1] < lowest);
+  } while (is_outside(point[0]) || is_outside(point[1]));
   return point;
 }
 
@@ -60,14 +62,15 @@ std::vector<std::int32_t> random_permutation(std::int32_t count, std::mt19937_64
   return permutation;
 }
 
-std::vector<GridPoint> random_points(std::int64_t count, int bits, std::int32_t lowest, std::mt19937_64& generator) {
+std::vector<GridPoint> random_points(std::int64_t count, std::int32_t lowest, std::int32_t end,
+                                     std::mt19937_64& generator) {
   std::vector<GridPoint> points(static_cast<std::size_t>(count));
   for (GridPoint& point : points) {
-    point = random_point(bits, lowest, generator);
+    point = random_point(lowest, end, generator);
   }
   for (auto repeated = repeated_points(points); !repeated.empty(); repeated = repeated_points(points)) {
     for (const std::int32_t index : repeated) {
-      points[index] = random_point(bits, lowest, generator);
+      points[index] = random_point(lowest, end, generator);
     }
   }
   return points;

@@ -18,9 +18,11 @@ std::uint64_t random_below(std::uint64_t bound, std::mt19937_64& generator);
 std::vector<std::int32_t> random_permutation(std::int32_t count, std::mt19937_64& generator);
 
 /// `count` distinct grid points, in uniformly random order and uniformly random among those whose coordinates lie in
-/// [lowest, 2^bits). Points that turn up twice are drawn again.
-/// Precondition: 0 <= lowest < 2^bits, 1 <= bits <= 30, and there are at least twice as many such points.
-/// Complexity: O(count log(count)).
-std::vector<GridPoint> random_points(std::int64_t count, int bits, std::int32_t lowest, std::mt19937_64& generator);
+/// [lowest, end). Points that turn up twice are drawn again.
+/// Precondition: 0 <= lowest < end, 2 <= end <= 2^30, and there are at least twice as many such points.
+/// Complexity: O(count log(count)); each point takes less than four draws and, where end is a power of two and lowest
+/// is small, about one.
+std::vector<GridPoint> random_points(std::int64_t count, std::int32_t lowest, std::int32_t end,
+                                     std::mt19937_64& generator);
 
 }  // namespace trismooth

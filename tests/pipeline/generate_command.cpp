@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "trismooth/pipeline/cli/command_line.h"
 
@@ -35,6 +36,24 @@ TEST_CASE("the same seed makes the same file, another seed another") {
   REQUIRE(call({"generate", (folder / "again.off").string(), "--vertices", "300"}).code == 0);
   CHECK(bytes_of(folder / "again.off") == first);
   CHECK(made_with("18446744073709551615") != first);
+}
+
+TEST_CASE("the boundary is that of random points, or the square resolved like the inside") {
+  const ScratchFolder folder;
+  const auto made = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"generate", (folder / name).string(), "--vertices", "300"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    REQUIRE(call(arguments).code == 0);
+    return bytes_of(folder / name);
+  };
+  const std::string by_default = made("default.off", {});
+  CHECK(made("random.off", {"--boundary", "random"}) == by_default);
+  CHECK(made("resolved.off", {"--boundary", "resolved"}) != by_default);
+  const Outcome smoothed = call({"smooth", (folder / "resolved.off").string(), (folder / "smoothed.off").string()},
+                                &trismooth::run_pipeline);
+  CHECK(smoothed.shows("300 vertices"));
+  CHECK(smoothed.shows("64 boundary"));
+  CHECK(call({"generate", (folder / "none.off").string(), "--vertices", "300", "--boundary", "rough"}).code == 2);
 }
 
 TEST_CASE("the number of vertices may have a unit, as the sizes of bench") {

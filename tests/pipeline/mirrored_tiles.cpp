@@ -10,6 +10,7 @@
 
 #include "catch.h"
 
+using trismooth::GeneratedBoundary;
 using trismooth::GridPoint;
 using trismooth::mirrored_tiles;
 using trismooth::RandomMesh;
@@ -55,8 +56,9 @@ TEST_CASE("four copies of a square cut in two make the square whose diagonals al
 }
 
 TEST_CASE("a mesh of mirrored tiles is its own mirror image") {
+  const GeneratedBoundary boundary = GENERATE(GeneratedBoundary::random, GeneratedBoundary::resolved);
   std::mt19937_64 generator(2);
-  const RandomMesh mesh = mirrored_tiles(trismooth::random_tile(500, 20, generator), 4, generator);
+  const RandomMesh mesh = mirrored_tiles(trismooth::random_tile(500, 20, boundary, generator), 4, generator);
   CHECK(static_cast<std::int64_t>(mesh.points.size()) == trismooth::mirrored_vertex_count(500, 20, 4));
   RandomMesh mirrored = mesh;
   for (auto& point : mirrored.points) {
@@ -71,7 +73,8 @@ TEST_CASE("a mesh of mirrored tiles is its own mirror image") {
 TEST_CASE("a random tile fills its square, with the points on its sides first") {
   std::mt19937_64 generator(3);
   const std::int64_t inner_points = GENERATE(0, 1, 300);
-  const SquareTile tile = trismooth::random_tile(inner_points, 15, generator);
+  const GeneratedBoundary boundary = GENERATE(GeneratedBoundary::random, GeneratedBoundary::resolved);
+  const SquareTile tile = trismooth::random_tile(inner_points, 15, boundary, generator);
   REQUIRE(static_cast<std::int64_t>(tile.points.size()) == inner_points + 64);
   REQUIRE(tile.side_points == 64);
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(tile.points.size()); ++i) {

@@ -10,11 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/pipeline/generate/grid_predicates.h"
+
 #include "catch.h"
 
+using trismooth::GeneratedBoundary;
+using trismooth::GridPoint;
 using trismooth::Point2;
 using trismooth::random_delaunay_mesh;
 using trismooth::RandomMesh;
+using trismooth::RandomMeshOptions;
 
 namespace {
 
@@ -83,10 +88,11 @@ TEST_CASE("a random mesh has the vertices that were asked for, inside the unit s
 }
 
 TEST_CASE("a random mesh depends on its seed and on nothing else") {
-  const std::int64_t largest_tile = GENERATE(300, 1 << 22);
-  const RandomMesh mesh = random_delaunay_mesh(1000, 7, largest_tile);
-  CHECK(same(mesh, random_delaunay_mesh(1000, 7, largest_tile)));
-  CHECK_FALSE(same(mesh, random_delaunay_mesh(1000, 8, largest_tile)));
+  const RandomMeshOptions options{GENERATE(GeneratedBoundary::random, GeneratedBoundary::resolved),
+                                  GENERATE(300, 1 << 22)};
+  const RandomMesh mesh = random_delaunay_mesh(1000, 7, options);
+  CHECK(same(mesh, random_delaunay_mesh(1000, 7, options)));
+  CHECK_FALSE(same(mesh, random_delaunay_mesh(1000, 8, options)));
 }
 
 TEST_CASE("the first vertices of a seed are the documented bits of the 64-bit Mersenne twister") {
@@ -97,7 +103,8 @@ TEST_CASE("the first vertices of a seed are the documented bits of the 64-bit Me
 }
 
 TEST_CASE("vertices of a tiled mesh are numbered without regard to their place") {
-  const RandomMesh mesh = random_delaunay_mesh(4000, 9, 1000);
+  const RandomMesh mesh =
+      random_delaunay_mesh(4000, 9, {GENERATE(GeneratedBoundary::random, GeneratedBoundary::resolved), 1000});
   double distance = 0;
   for (std::size_t i = 1; i < mesh.points.size(); ++i) {
     distance += std::sqrt(squared_length(mesh.points[i] - mesh.points[i - 1]));
@@ -109,8 +116,9 @@ TEST_CASE("vertices of a tiled mesh are numbered without regard to their place")
 TEST_CASE("mirrored tiles fill the unit square, conform, and come close to the number of vertices asked for") {
   const auto [vertices, tiles_per_side] =
       GENERATE(std::pair{301, 2}, std::pair{1000, 2}, std::pair{1201, 4}, std::pair{5003, 8}, std::pair{50000, 16});
-  CAPTURE(vertices);
-  const RandomMesh mesh = random_delaunay_mesh(vertices, 3, 300);
+  const GeneratedBoundary boundary_kind = GENERATE(GeneratedBoundary::random, GeneratedBoundary::resolved);
+  CAPTURE(vertices, boundary_kind);
+  const RandomMesh mesh = random_delaunay_mesh(vertices, 3, {boundary_kind, 300});
   CHECK(std::abs(static_cast<double>(mesh.points.size()) - vertices) <= tiles_per_side * tiles_per_side / 2.0);
   check_conforming(mesh);
 
@@ -139,11 +147,115 @@ TEST_CASE("mirrored tiles fill the unit square, conform, and come close to the n
   CHECK(mesh.triangles.size() == 2 * mesh.points.size() - 2 - boundary.size());
 }
 
+TEST_CASE("a resolved boundary is the unit square, cut into edges of one length") {
+  const auto [vertices, largest_tile] = GENERATE(table<std::int64_t, std::int64_t>(
+      {{4, 300}, {8, 300}, {9, 300}, {25, 300}, {1000, 1000}, {20000, 1 << 22}, {1000, 300}, {5003, 300}}));
+  CAPTURE(vertices, largest_tile);
+  const RandomMesh mesh = random_delaunay_mesh(vertices, 5, {GeneratedBoundary::resolved, largest_tile});
+  const bool is_tiled = vertices > largest_tile;
+  if (!is_tiled) {
+    CHECK(static_cast<std::int64_t>(mesh.points.size()) == vertices);
+  }
+  check_conforming(mesh);
+
+  std::vector<double> lengths;
+  for (const auto& [from, to] : boundary_edges(mesh)) {
+    const Point2<double> a = mesh.points[from];
+    const Point2<double> b = mesh.points[to];
+    CHECK(((a.x == b.x && (a.x == 0 || a.x == 1)) || (a.y == b.y && (a.y == 0 || a.y == 1))));
+    lengths.push_back(std::abs(a.x - b.x) + std::abs(a.y - b.y));
+  }
+  const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+  CHECK(*longest - *shortest <= std::ldexp(1.0, -29));
+  // Edges of one length that are no further apart than points inside would be: a grid's of as many vertices, or, where
+  // each side holds a whole number of tiles, somewhat longer.
+  const double edges_a_side = static_cast<double>(lengths.size()) / 4;
+  CHECK(edges_a_side <= std::sqrt(static_cast<double>(vertices)) - 1);
+  CHECK(edges_a_side > (std::sqrt(static_cast<double>(vertices)) - 2) * (is_tiled ? 0.7 : 1));
+
+  const double spacing = 1 / edges_a_side;
+  for (const Point2<double> p : mesh.points) {
+    const double distance = std::min({p.x, p.y, 1 - p.x, 1 - p.y});
+    CHECK((distance == 0 || distance >= spacing / 5));
+  }
+}
+
+TEST_CASE("lines between tiles are like a resolved boundary") {
+  const RandomMesh mesh = random_delaunay_mesh(4000, 6, {GeneratedBoundary::resolved, 1000});
+  const double spacing = 4.0 / static_cast<double>(boundary_edges(mesh).size());
+  std::vector<double> on_line;
+  for (const Point2<double> p : mesh.points) {
+    CHECK((p.x == 0.5 || std::abs(p.x - 0.5) >= spacing / 5));
+    CHECK((p.y == 0.5 || std::abs(p.y - 0.5) >= spacing / 5));
+    if (p.x == 0.5) {
+      on_line.push_back(p.y);
+    }
+  }
+  std::sort(on_line.begin(), on_line.end());
+  CHECK(static_cast<double>(on_line.size()) == 1 / spacing + 1);
+  for (std::size_t i = 1; i < on_line.size(); ++i) {
+    CHECK(on_line[i] - on_line[i - 1] == Approx(spacing).margin(1e-8));
+  }
+}
+
+TEST_CASE("a mesh with a resolved boundary is Delaunay") {
+  const RandomMesh mesh = random_delaunay_mesh(GENERATE(9, 100, 5000), 8, {GeneratedBoundary::resolved});
+  const auto on_grid = [&](std::int32_t v) {
+    return GridPoint{static_cast<std::int32_t>(std::ldexp(mesh.points[v].x, 29)),
+                     static_cast<std::int32_t>(std::ldexp(mesh.points[v].y, 29))};
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> opposite;  // of the directed edge
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      opposite[{t[i], t[(i + 1) % 3]}] = t[(i + 2) % 3];
+    }
+  }
+  for (const auto& [edge, apex] : opposite) {
+    const auto other = opposite.find({edge.second, edge.first});
+    if (other != opposite.end()) {
+      // Of every edge, the circle of one side is empty of the other: by Delaunay's lemma no circle holds any vertex.
+      CHECK_FALSE(
+          trismooth::in_circle(on_grid(edge.first), on_grid(edge.second), on_grid(apex), on_grid(other->second)));
+    }
+  }
+}
+
+TEST_CASE("the points inside a resolved boundary are spread evenly") {
+  const RandomMesh mesh = random_delaunay_mesh(60000, 9, {GeneratedBoundary::resolved});
+  std::array<int, 16> in_cell{};
+  for (const Point2<double> p : mesh.points) {
+    ++in_cell[static_cast<std::size_t>(std::min(p.x, 0.999) * 4) * 4 +
+              static_cast<std::size_t>(std::min(p.y, 0.999) * 4)];
+  }
+  for (const int count : in_cell) {
+    CHECK(count == Approx(3750).margin(350));
+  }
+}
+
+TEST_CASE("a random boundary's meshes have the bits that they always had") {
+  // Hashes (FNV-1a of coordinates and triangles) of the first version's.
+  const auto hash_of = [](const RandomMesh& mesh) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    const auto add = [&](std::int64_t number) { hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x100000001b3U; };
+    for (const Point2<double> p : mesh.points) {
+      add(std::llround(std::ldexp(p.x, 33)));
+      add(std::llround(std::ldexp(p.y, 33)));
+    }
+    for (const auto& t : mesh.triangles) {
+      std::for_each(t.begin(), t.end(), add);
+    }
+    return hash;
+  };
+  CHECK(hash_of(random_delaunay_mesh(4, 1)) == 0x4001647caf880a30U);
+  CHECK(hash_of(random_delaunay_mesh(5000, 2)) == 0x84b6a639891a69edU);
+  CHECK(hash_of(random_delaunay_mesh(5000, 3, {.largest_tile = 300})) == 0x2a38c6422a5e0f05U);
+}
+
 TEST_CASE("numbers of vertices that no mesh can have are refused") {
   for (const std::int64_t vertices : {std::int64_t{-1}, std::int64_t{0}, std::int64_t{3},
                                       trismooth::max_random_mesh_vertices + 1, std::int64_t{1} << 62}) {
     CHECK_THROWS_AS(random_delaunay_mesh(vertices, 1), std::invalid_argument);
   }
-  CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, 255), std::invalid_argument);
-  CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, std::int64_t{1} << 27), std::invalid_argument);
+  CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, {.largest_tile = 255}), std::invalid_argument);
+  CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, {.largest_tile = std::int64_t{1} << 27}), std::invalid_argument);
 }
