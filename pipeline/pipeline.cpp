@@ -217,8 +217,14 @@ class Run {
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
     }
+    const LocalFrame input_frame = local_.frame;
     enter_frame();
     hash_coordinates(input_points, smoothing);
+    {
+      const Stopwatch watch;
+      result_.size_change = size_change(view(entered(input_frame, input_points)), view(), options_.smoothing.threads);
+      result_.timings_ms.check_after += watch.milliseconds();
+    }
     result_.timings_ms.topology += smoothing.timings.prepare;
     result_.timings_ms.transfer_in = smoothing.timings.transfer_in;
     result_.timings_ms.smooth = smoothing.timings.smooth;
@@ -273,7 +279,10 @@ class Run {
     }
   }
 
-  TriangleView view() const { return {local_.points, mesh_.triangles, found_.reversed, local_.frame.exponent}; }
+  TriangleView view(const LocalPoints& local) const {
+    return {local.points, mesh_.triangles, found_.reversed, local.frame.exponent};
+  }
+  TriangleView view() const { return view(local_); }
 
   std::vector<DataArray> metrics_of_cells(std::string_view suffix = {}) const {
     return metric_annotations(options_.annotated_metrics, view(), mesh_.cells, document_.cells.size(), suffix);

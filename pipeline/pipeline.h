@@ -14,6 +14,7 @@
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_quality.h"
+#include "trismooth/quality/size_change.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -90,6 +91,7 @@ struct PipelineResult {
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;   ///< likewise
+  std::optional<SizeChange> size_change;      ///< likewise
   std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
   std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed

@@ -107,6 +107,14 @@ std::string metric_card(const PipelineResult& result, std::string_view label, Me
   return card(label, change(result, texts.before, texts.after), detail);
 }
 
+std::string size_card(const SizeChange& change) {
+  const std::string left_out =
+      change.left_out > 0 ? fmt::format("; {} not valid before or after left out", count_text(change.left_out)) : "";
+  return card("Areas, after by before", fmt::format("{:.3g} to {:.3g}", change.ratio_p1, change.ratio_p99),
+              fmt::format("98 % of the triangles; root mean square of ln(A/A<sub>0</sub>) {:.3g}{}",
+                          change.rms_log_ratio, left_out));
+}
+
 std::string cards(const PipelineResult& result) {
   const QualityReport& last = final_report(result);
   std::string html =
@@ -133,6 +141,9 @@ std::string cards(const PipelineResult& result) {
                                : fmt::format("; {} by array {}",
                                              input.regions == 1 ? "1 region" : count_text(input.regions) + " regions",
                                              escape_html(input.region_array))));
+  if (result.size_change && result.size_change->triangles > 0) {
+    html += size_card(*result.size_change);
+  }
   html += card("Time", duration_text(result.timings_ms.total),
                result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
   return "<div class=\"cards\">\n" + html + "</div>\n";

@@ -179,6 +179,14 @@ Json smoothing_json(const SmoothingResult& smoothing) {
           {"history", std::move(history)}};
 }
 
+Json size_change_json(const SizeChange& change) {
+  return {{"triangles", change.triangles},
+          {"left_out", change.left_out},
+          {"rms_log_ratio", number_json(change.rms_log_ratio)},
+          {"ratio_p1", number_json(change.ratio_p1)},
+          {"ratio_p99", number_json(change.ratio_p99)}};
+}
+
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
@@ -199,6 +207,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"options", options_json(options, result.smoothing)},
       {"before", quality_json(result.before, result.region_names, result.regions_before)},
       {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
+      {"size_change", result.size_change ? size_change_json(*result.size_change) : Json(nullptr)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

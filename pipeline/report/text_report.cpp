@@ -9,6 +9,7 @@
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
 #include "trismooth/quality/quality_table.h"
+#include "trismooth/quality/report_text.h"
 #include "trismooth/smoothing/cpu_backend.h"
 
 namespace trismooth {
@@ -109,6 +110,24 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
   return lines;
 }
 
+/// How sizes changed; nothing where no vertex moved.
+std::string sizes_line(const PipelineResult& result) {
+  if (!result.size_change || result.smoothing->moved_vertices == 0) {
+    return {};
+  }
+  const SizeChange& change = *result.size_change;
+  if (change.triangles == 0) {
+    return labelled_line("sizes:", "no element was valid before and is now");
+  }
+  std::string text = fmt::format("{:.3g} to {:.3g} times the area (98 % of elements), rms ln(A/A0) {:.3g}",
+                                 change.ratio_p1, change.ratio_p99, change.rms_log_ratio);
+  if (change.left_out > 0) {
+    text += fmt::format("; without {} not valid before or after",
+                        counted(change.left_out, "element that was", "elements that were"));
+  }
+  return labelled_line("sizes:", text);
+}
+
 std::string inverted_line(const PipelineResult& result) {
   const std::int64_t before = result.before.inverted;
   const std::int64_t now = result.after ? result.after->inverted : before;
@@ -171,6 +190,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
   if (result.smoothing) {
     text += method_lines(options.smoothing, result, detail);
     text += result_lines(result, detail);
+    text += sizes_line(result);
   }
   const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
   text += '\n' +

@@ -2,6 +2,7 @@
 
 import datetime
 import json
+import math
 import os
 import re
 import subprocess
@@ -16,7 +17,7 @@ import tool
 METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ratio", "edge_ratio", "condition",
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
-    "": {"trismooth", "date", "command", "input", "options", "before", "after", "gates", "smoothing",
+    "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "gates", "smoothing",
          "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
@@ -83,6 +84,23 @@ class Reports(tool.ToolTest):
         self.assertEqual(planar_geometry.coordinates_hash(mesh_reader.read(self.path("out.off")).points),
                          report["coordinates_hash"])
 
+    def test_the_change_of_sizes_is_that_of_the_two_files(self):
+        self.run_tool("generate", "random.off", "--vertices", "2000")
+        change = self.report("smooth", "random.off", "out.off")["size_change"]
+
+        def areas(name):
+            mesh = mesh_reader.read(self.path(name))
+            corners = [[mesh.points[v] for v in triangle] for _, triangle in mesh.triangles()]
+            return [((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2 for a, b, c in corners]
+
+        ratios = sorted(after / before for before, after in zip(areas("random.off"), areas("out.off")))
+        squares = [math.log(ratio) ** 2 for ratio in ratios]
+        self.assertEqual(change["triangles"], len(ratios))
+        self.assertEqual(change["left_out"], 0)
+        self.assertAlmostEqual(change["rms_log_ratio"], math.sqrt(math.fsum(squares) / len(squares)), delta=1e-9)
+        self.assertAlmostEqual(change["ratio_p1"], ratios[math.ceil(0.01 * len(ratios)) - 1], delta=1e-9)
+        self.assertAlmostEqual(change["ratio_p99"], ratios[math.ceil(0.99 * len(ratios)) - 1], delta=1e-6)
+
     def test_the_uncommitted_hash_is_that_without_the_guard(self):
         self.run_tool("generate", "random.off", "--vertices", "2000")
         options = ("--method", "laplacian", "--form", "a", "--max-sweeps", "3")
@@ -101,6 +119,7 @@ class Reports(tool.ToolTest):
         self.assert_keys(checked, "")
         self.assertIsNone(checked["after"])
         self.assertIsNone(checked["smoothing"])
+        self.assertIsNone(checked["size_change"])
 
     def test_reports_hold_the_gates_and_how_they_went(self):
         outcome = self.run_tool("smooth", "plate.off", "out.off", "--require", "min_shape>=0.999", "--require",

@@ -57,9 +57,9 @@ TEST_CASE("the report of a smoothing is well-formed and has all its parts") {
   REQUIRE(page.error.empty());
   CHECK(page.count("figure") == 2);
   CHECK(page.count("title") >= 1);
-  for (const char* words :
-       {"plate.vtk", "out.vtk", "Smallest shape", "Worst elements", "Convergence", "Options", "Time", "equiangle_skew",
-        "0123456789abcdef", "fixed_point", "61 of 80 free vertices moved"}) {
+  for (const char* words : {"plate.vtk", "out.vtk", "Smallest shape", "Worst elements", "Convergence", "Options",
+                            "Time", "equiangle_skew", "0123456789abcdef", "fixed_point", "61 of 80 free vertices moved",
+                            "0.5 to 2.25", "6 not valid before or after"}) {
     CAPTURE(words);
     CHECK(page.says(words));
   }
@@ -90,6 +90,7 @@ TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
   CHECK(page.count("figure") == 1);
   CHECK_FALSE(page.says("Convergence"));
   CHECK_FALSE(page.says(", before"));
+  CHECK_FALSE(page.says("Areas, after by before"));
 }
 
 TEST_CASE("the page fetches nothing and runs nothing") {

@@ -31,9 +31,10 @@ using Keys = std::vector<std::string>;
 
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
-  CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "gates",
-                                "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
+  CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "size_change",
+                                "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
                                 "peak_memory_bytes"});
+  CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
                                          "region_array", "components", "fixed_vertices", "free_vertices",
@@ -98,6 +99,11 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["after"]["worst"][0]["centroid"] == Json::array({1.5, -2.5}));
   CHECK(report["after"]["worst"][0]["all_fixed"] == false);
   CHECK(report["after"]["worst"][1]["all_fixed"] == true);
+  CHECK(report["size_change"]["triangles"] == 204);
+  CHECK(report["size_change"]["left_out"] == 6);
+  CHECK(report["size_change"]["rms_log_ratio"] == 0.125);
+  CHECK(report["size_change"]["ratio_p1"] == 0.5);
+  CHECK(report["size_change"]["ratio_p99"] == 2.25);
   CHECK(report["smoothing"]["stop_reason"] == "fixed_point");
   CHECK(report["smoothing"]["backend_note"].is_null());
   CHECK(report["smoothing"]["reproducible"] == true);
@@ -164,6 +170,7 @@ TEST_CASE("a run that only checked has no after, no smoothing and no output to h
   const Json report = Json::parse(json_report(sample::options(), sample::quality_result()));
   CHECK(report["after"].is_null());
   CHECK(report["smoothing"].is_null());
+  CHECK(report["size_change"].is_null());
   CHECK(report["coordinates_hash"].is_null());
   CHECK(report["uncommitted_hash"].is_null());
   CHECK(report["before"]["triangles"] == 210);
@@ -174,7 +181,9 @@ TEST_CASE("what was not recorded, not set or is not finite is null") {
   result.before[trismooth::Metric::aspect_ratio].max = std::numeric_limits<double>::infinity();
   result.before[trismooth::Metric::aspect_ratio].stddev = std::numeric_limits<double>::quiet_NaN();
   result.input.region_array.clear();
+  result.size_change->rms_log_ratio = std::numeric_limits<double>::infinity();
   const Json report = Json::parse(json_report(sample::options(), result));
+  CHECK(report["size_change"]["rms_log_ratio"].is_null());
   CHECK(report["before"]["metrics"]["aspect_ratio"]["max"].is_null());
   CHECK(report["before"]["metrics"]["aspect_ratio"]["stddev"].is_null());
   CHECK(report["smoothing"]["history"][2]["min_shape"].is_null());

@@ -61,6 +61,7 @@ inline trismooth::PipelineResult result() {
   smoothing.device = "A <fast> processor";
   smoothing.threads = 2;
   result.smoothing = smoothing;
+  result.size_change = trismooth::SizeChange{204, 6, 0.125, 0.5, 2.25};
   result.coordinates_hash = 0x0123456789abcdefU;
   result.unguarded_hash = 0xfedcba9876543210U;
   result.notes = {"a note with <b>markup</b> & an ampersand"};
@@ -106,6 +107,7 @@ inline trismooth::PipelineResult quality_result() {
   trismooth::PipelineResult checked = result();
   checked.after.reset();
   checked.smoothing.reset();
+  checked.size_change.reset();
   return checked;
 }
 

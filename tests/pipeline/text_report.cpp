@@ -32,6 +32,9 @@ TEST_CASE("the result of a smoothing says what was read, done and written") {
   CHECK(says(text, "fixed:      40 of 120: 27 boundary, 11 interface ('mat_id'), 9 of other cells"));
   CHECK(says(text, "smoothing:  smart, form b, double precision, cpu with 2 threads: 24 ms\n"));
   CHECK(says(text, "result:     61 vertices moved in 3 sweeps, 2 put back; stopped by fixed point\n"));
+  CHECK(says(text,
+             "sizes:      0.5 to 2.25 times the area (98 % of elements), rms ln(A/A0) 0.125;\n"
+             "            without 6 elements that were not valid before or after\n"));
   CHECK(says(text, "written:    out.vtk"));
   CHECK(text.back() == '\n');
 }
@@ -40,7 +43,7 @@ TEST_CASE("the summary is a line for each step and a table of what decides, all 
   const std::string text = text_report(sample::options(), sample::result());
   const std::string full = full_report(sample::options(), sample::result());
   CAPTURE(text, full);
-  CHECK(std::ranges::count(text, '\n') <= 15);
+  CHECK(std::ranges::count(text, '\n') <= 18);
   for (const char* words : {"shape ", "min_angle ", "max_angle ", "inverted "}) {
     CHECK(says(text, words));
     CHECK(says(full, words));
@@ -64,6 +67,7 @@ TEST_CASE("no line of a report is wider than 80 columns, however large its numbe
   result.smoothing->device = "A GPU with a name that is as long as the names of GPUs with much memory are";
   result.smoothing->backend_note = "cudaErrorInsufficientDriver (CUDA driver version is insufficient for CUDA runtime)";
   result.before.inverted = result.after->inverted = 700'000'000;
+  result.size_change = trismooth::SizeChange{15'827'882, 700'000'000, 1.2345678e+300, 1.2345678e-300, 1.2345678e+300};
   for (auto* const report : {&result.before, &*result.after}) {
     report->triangles = 715'827'882;
     report->shape_histogram.fill(715'827'882);
@@ -80,6 +84,18 @@ TEST_CASE("no line of a report is wider than 80 columns, however large its numbe
       CHECK(line.size() <= 80);
     }
   }
+}
+
+TEST_CASE("how sizes changed is told where vertices moved") {
+  auto result = sample::result();
+  result.size_change = trismooth::SizeChange{210, 0, 0.01, 0.9, 1.1};
+  CHECK(says(text_report(sample::options(), result),
+             "sizes:      0.9 to 1.1 times the area (98 % of elements), rms ln(A/A0) 0.01\n"));
+  result.size_change->triangles = 0;
+  CHECK(says(text_report(sample::options(), result), "sizes:      no element was valid before and is now\n"));
+  result.smoothing->moved_vertices = 0;
+  CHECK_FALSE(says(text_report(sample::options(), result), "sizes:"));
+  CHECK_FALSE(says(text_report(sample::options(), sample::quality_result()), "sizes:"));
 }
 
 TEST_CASE("the result of a run on a device says how it ran, and whether another run gives the same") {
