@@ -18,6 +18,7 @@
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
+#include "trismooth/quality/coarse_boundary.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -56,6 +57,7 @@ class Run {
     });
     if (options_.output) {
       warn_of_precision();
+      warn_of_boundary();
       begin(Stage::smooth);
       smooth();
       timed(Stage::check_after, result_.timings_ms.check_after, [&] {
@@ -196,6 +198,12 @@ class Run {
     }
     warn(describe(loss) + (options_.smoothing.guard ? "; the guard checks the result in double" : "") +
          "; --precision double smooths it as it is");
+  }
+
+  void warn_of_boundary() {
+    if (const CoarseBoundary coarse = find_coarse_boundary(view(), found_.fixed); coarse.any()) {
+      warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
+    }
   }
 
   void warn(std::string warning) {

@@ -110,9 +110,9 @@ std::string metric_card(const PipelineResult& result, std::string_view label, Me
 std::string size_card(const SizeChange& change) {
   const std::string left_out =
       change.left_out > 0 ? fmt::format("; {} not valid before or after left out", count_text(change.left_out)) : "";
-  return card("Areas, after by before", fmt::format("{:.3g} to {:.3g}", change.ratio_p1, change.ratio_p99),
-              fmt::format("98 % of the triangles; root mean square of ln(A/A<sub>0</sub>) {:.3g}{}",
-                          change.rms_log_ratio, left_out));
+  return card(
+      "Areas, after by before", fmt::format("{:.3g} to {:.3g}", change.ratio_p1, change.ratio_p99),
+      fmt::format("98 % of the triangles; root mean square of the logarithm {:.3g}{}", change.rms_log_ratio, left_out));
 }
 
 std::string cards(const PipelineResult& result) {

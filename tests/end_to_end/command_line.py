@@ -382,7 +382,7 @@ class Interrupted(CommandLineTest):
         return tool.Outcome(process.returncode, out, err)
 
     def test_an_interrupted_run_writes_nothing_and_leaves_the_old_output(self):
-        self.run_tool("generate", "large.vtk", "--vertices", "300000")
+        self.run_tool("generate", "large.vtk", "--vertices", "300000", "--boundary", "resolved")
         for number in (signal.SIGINT, signal.SIGTERM):
             for pause in (0.3, 1.5):
                 with self.subTest(number.name, after=pause):

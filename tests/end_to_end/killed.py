@@ -119,7 +119,7 @@ class Smooth(KilledTest):
 
     def setUp(self):
         super().setUp()
-        self.run_tool("generate", "plate.vtu", "--vertices", "4000")
+        self.run_tool("generate", "plate.vtu", "--vertices", "4000", "--boundary", "resolved")
         folder = self.prepare()
         self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
         self.whole = self.read("whole.vtu")
@@ -283,7 +283,7 @@ class OtherCommands(KilledTest):
             time.sleep(0.01)
 
     def test_an_interrupt_ends_what_waits_for_a_pipe(self):
-        self.run_tool("generate", "plate.off", "--vertices", "4000")
+        self.run_tool("generate", "plate.off", "--vertices", "4000", "--boundary", "resolved")
         for name in ("pipe.off", "pipe.vtu", "pipe.json"):
             os.mkfifo(self.path(name))
         before = sorted(os.listdir(self.folder))
@@ -299,7 +299,7 @@ class OtherCommands(KilledTest):
                 self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def test_an_interrupt_ends_what_waits_for_more_of_a_pipe(self):
-        self.run_tool("generate", "plate.off", "--vertices", "4000")
+        self.run_tool("generate", "plate.off", "--vertices", "4000", "--boundary", "resolved")
         for name in ("in.off", "out.off"):
             os.mkfifo(self.path(name))
         before = sorted(os.listdir(self.folder))
@@ -323,7 +323,7 @@ class OtherCommands(KilledTest):
             held.pop().close()
 
     def test_a_second_interrupt_ends_what_waits_for_a_reader_of_the_report(self):
-        self.run_tool("generate", "plate.off", "--vertices", "400")
+        self.run_tool("generate", "plate.off", "--vertices", "400", "--boundary", "resolved")
         os.mkfifo(self.path("pipe.json"))
         outcome = self.interrupt_when(lambda process: self.sleeps_in(process, "wait_for_partner", "fifo_open", "pipe"),
                                       "smooth", "plate.off", "out.off", "--report", "pipe.json", signals=2)
@@ -334,7 +334,7 @@ class OtherCommands(KilledTest):
         self.assert_no_temporary_files()
 
     def test_what_is_ignored_stays_ignored(self):
-        self.run_tool("generate", "plate.off", "--vertices", "400")
+        self.run_tool("generate", "plate.off", "--vertices", "400", "--boundary", "resolved")
         os.mkfifo(self.path("pipe.off"))
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             with self.subTest(number.name):

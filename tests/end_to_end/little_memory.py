@@ -84,7 +84,7 @@ class Sweeps(LittleMemoryTest):
 
     def test_every_format(self):
         for extension in FORMATS:
-            self.run_tool("generate", f"plate.{extension}", "--vertices", "3000")
+            self.run_tool("generate", f"plate.{extension}", "--vertices", "3000", "--boundary", "resolved")
             for threads in (1, 2):
                 with self.subTest(extension, threads=threads):
                     more = ("--precision", "single") if threads == 2 else ()
@@ -95,15 +95,15 @@ class Sweeps(LittleMemoryTest):
                     self.assertEqual(codes[-1], DONE)
 
     def test_other_formats_than_the_one_read(self):
-        self.run_tool("generate", "plate.off", "--vertices", "3000")
-        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        self.run_tool("generate", "plate.off", "--vertices", "3000", "--boundary", "resolved")
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000", "--boundary", "resolved")
         for source, target in (("plate.off", "out.vtu"), ("plate.off", "out.vtk"), ("plate.vtu", "out.ply"),
                                ("plate.vtu", "out.stl"), ("plate.off", "out.vtp")):
             with self.subTest(source, target=target):
                 self.sweep("smooth", source, target, "--threads", 1, outputs=(target,))
 
     def test_other_commands(self):
-        self.run_tool("generate", "plate.vtk", "--vertices", "3000")
+        self.run_tool("generate", "plate.vtk", "--vertices", "3000", "--boundary", "resolved")
         self.sweep("quality", "plate.vtk", "--report", "r.html", outputs=("r.html",))
         self.sweep("bench", "--sizes", "1K", "--runs", "1", "--versions", "serial,cpu", "--threads", "2", "--report",
                    "r.json", outputs=("r.json",))
@@ -113,7 +113,7 @@ class Sweeps(LittleMemoryTest):
 
     def test_many_threads(self):
         """More memory means more threads, not always more left for the mesh: there is no one amount that is enough."""
-        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000", "--boundary", "resolved")
         self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
         codes = set()
         for mebibytes in range(4, 100, 3):
@@ -127,7 +127,7 @@ class Sweeps(LittleMemoryTest):
         self.assertEqual(codes, {DONE, BAD_INPUT})
 
     def test_the_message_names_the_mesh_and_what_to_do(self):
-        self.run_tool("generate", "plate.ply", "--vertices", "3000")
+        self.run_tool("generate", "plate.ply", "--vertices", "3000", "--boundary", "resolved")
         enough = self.least(self.lowest, self.lowest + (1 << 20), lambda kibibytes: self.limited(
             kibibytes, "smooth", "plate.ply", "out.ply", "--threads", "1").code == DONE)
         outcome = self.limited(enough - 512, "smooth", "plate.ply", "out.ply", "--threads", "1")
@@ -143,7 +143,7 @@ class Processes(tool.ToolTest):
         self.skip_if_instrumented()
         user = 54321
         os.chmod(self.folder, 0o777)
-        self.run_tool("generate", "plate.vtu", "--vertices", "3000")
+        self.run_tool("generate", "plate.vtu", "--vertices", "3000", "--boundary", "resolved")
         self.run_tool("smooth", "plate.vtu", "whole.vtu", "--threads", "1")
 
         def prepare(processes):

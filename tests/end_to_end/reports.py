@@ -101,6 +101,15 @@ class Reports(tool.ToolTest):
         self.assertAlmostEqual(change["ratio_p1"], ratios[math.ceil(0.01 * len(ratios)) - 1], delta=1e-9)
         self.assertAlmostEqual(change["ratio_p99"], ratios[math.ceil(0.99 * len(ratios)) - 1], delta=1e-6)
 
+    def test_a_boundary_that_is_much_coarser_than_the_inside_is_warned_of(self):
+        for boundary, words in (("random", "boundary edges more than 4 times as long"), ("resolved", None)):
+            self.run_tool("generate", "random.off", "--vertices", "2000", "--boundary", boundary)
+            outcome = self.run_tool("smooth", "random.off", "out.off", "--report", "r.json")
+            warnings = json.loads(self.read("r.json"))["warnings"]
+            self.assertEqual(["trismooth: warning: " + text for text in warnings], outcome.err.splitlines())
+            self.assertEqual([words in text for text in warnings], [True] if words else [])
+        self.assertEqual(self.report("smooth", "plate.off", "out.off")["warnings"], [])
+
     def test_the_uncommitted_hash_is_that_without_the_guard(self):
         self.run_tool("generate", "random.off", "--vertices", "2000")
         options = ("--method", "laplacian", "--form", "a", "--max-sweeps", "3")

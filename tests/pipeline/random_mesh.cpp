@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/pipeline/generate/grid_predicates.h"
+#include "trismooth/quality/coarse_boundary.h"
 
 #include "catch.h"
 
@@ -229,6 +231,23 @@ TEST_CASE("the points inside a resolved boundary are spread evenly") {
   }
   for (const int count : in_cell) {
     CHECK(count == Approx(3750).margin(350));
+  }
+}
+
+TEST_CASE("the boundary of random points is coarser than the inside, a resolved one is not") {
+  for (const std::int64_t vertices : {500, 2000, 20000}) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      CAPTURE(vertices, seed);
+      for (const auto boundary : {GeneratedBoundary::random, GeneratedBoundary::resolved}) {
+        const RandomMesh mesh = random_delaunay_mesh(vertices, seed, {boundary});
+        std::vector<std::uint8_t> held(mesh.points.size(), 0);
+        for (const auto& [from, to] : boundary_edges(mesh)) {
+          held[from] = held[to] = trismooth::hold::boundary;
+        }
+        CHECK(trismooth::find_coarse_boundary({mesh.points, mesh.triangles, {}, 0}, held).any() ==
+              (boundary == GeneratedBoundary::random));
+      }
+    }
   }
 }
 

@@ -1,0 +1,186 @@
+#include "trismooth/quality/coarse_boundary.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "trismooth/base/digits.h"
+#include "trismooth/base/hold.h"
+
+namespace trismooth {
+
+namespace {
+
+/// An edge between two vertices of the boundary, and the third corner of a triangle at it.
+struct BoundaryEdge {
+  std::int32_t low;
+  std::int32_t high;
+  std::int32_t apex;
+
+  bool joins(const BoundaryEdge& other) const { return low == other.low && high == other.high; }
+};
+
+/// An edge from an apex.
+struct Spoke {
+  std::int32_t apex;
+  std::int32_t end;
+};
+
+class BoundarySearch {
+ public:
+  BoundarySearch(const TriangleView& view, std::span<const std::uint8_t> held) : view_(view), held_(held) {}
+
+  CoarseBoundary find() {
+    collect_edges();
+    collect_spokes();
+    join_curves();
+    return judge();
+  }
+
+ private:
+  bool on_boundary(std::int32_t v) const { return (held_[static_cast<std::size_t>(v)] & hold::boundary) != 0; }
+
+  double length(std::int32_t a, std::int32_t b) const {
+    return std::sqrt(
+        squared_length(view_.points[static_cast<std::size_t>(b)] - view_.points[static_cast<std::size_t>(a)]));
+  }
+
+  /// The edges of one triangle alone. Their ends are all on the boundary, so few others have to be looked at.
+  void collect_edges() {
+    std::vector<BoundaryEdge> candidates;
+    for (const Triangle& corners : view_.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = corners[i];
+        const std::int32_t b = corners[(i + 1) % 3];
+        if (on_boundary(a) && on_boundary(b)) {
+          candidates.push_back({std::min(a, b), std::max(a, b), corners[(i + 2) % 3]});
+        }
+      }
+    }
+    std::ranges::sort(candidates, [](const BoundaryEdge& a, const BoundaryEdge& b) {
+      return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+    });
+    for (std::size_t first = 0, next = 0; first < candidates.size(); first = next) {
+      while (next < candidates.size() && candidates[next].joins(candidates[first])) {
+        ++next;
+      }
+      if (next == first + 1) {
+        edges_.push_back(candidates[first]);
+      }
+    }
+  }
+
+  /// The edges of every free vertex opposite of a boundary edge, each once: its triangles go around it.
+  void collect_spokes() {
+    std::vector<std::uint8_t> is_apex(view_.points.size(), 0);
+    for (const BoundaryEdge& edge : edges_) {
+      const auto apex = static_cast<std::size_t>(edge.apex);
+      is_apex[apex] = held_[apex] == 0 ? 1 : 0;
+    }
+    for (std::size_t t = 0; t < view_.triangles.size(); ++t) {
+      const Triangle corners = canonical_corners(view_, t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (is_apex[static_cast<std::size_t>(corners[i])] != 0) {
+          spokes_.push_back({corners[i], corners[(i + 1) % 3]});
+        }
+      }
+    }
+    std::ranges::sort(spokes_, {}, &Spoke::apex);
+  }
+
+  /// How many times longer the edge is than what lies behind it; 0 where that is nothing.
+  double ratio(const BoundaryEdge& edge) const {
+    const auto begin = std::ranges::lower_bound(spokes_, edge.apex, {}, &Spoke::apex);
+    const auto end = std::ranges::upper_bound(spokes_, edge.apex, {}, &Spoke::apex);
+    std::vector<double> behind;
+    for (auto spoke = begin; spoke != end; ++spoke) {
+      if (spoke->end != edge.low && spoke->end != edge.high) {
+        behind.push_back(length(spoke->apex, spoke->end));
+      }
+    }
+    if (behind.empty()) {
+      return 0;
+    }
+    const auto median = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
+    std::nth_element(behind.begin(), median, behind.end());
+    return *median > 0 ? length(edge.low, edge.high) / *median : 0;
+  }
+
+  /// Gives each boundary vertex the curve that it is on.
+  void join_curves() {
+    for (const BoundaryEdge& edge : edges_) {
+      vertices_.insert(vertices_.end(), {edge.low, edge.high});
+    }
+    std::ranges::sort(vertices_);
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    curve_.resize(vertices_.size());
+    std::iota(curve_.begin(), curve_.end(), std::size_t{0});
+    for (const BoundaryEdge& edge : edges_) {
+      curve_[curve_of(edge.low)] = curve_of(edge.high);
+    }
+  }
+
+  std::size_t curve_of(std::int32_t vertex) {
+    auto at = static_cast<std::size_t>(std::ranges::lower_bound(vertices_, vertex) - vertices_.begin());
+    while (curve_[at] != at) {
+      curve_[at] = curve_[curve_[at]];
+      at = curve_[at];
+    }
+    return at;
+  }
+
+  CoarseBoundary judge() {
+    struct Curve {
+      double length = 0;
+      double coarse_length = 0;
+      double largest_ratio = 0;
+      std::int64_t coarse_edges = 0;
+    };
+    std::vector<Curve> curves(vertices_.size());
+    for (const BoundaryEdge& edge : edges_) {
+      Curve& curve = curves[curve_of(edge.low)];
+      const double edge_length = length(edge.low, edge.high);
+      curve.length += edge_length;
+      if (const double times = ratio(edge); times > coarse_ratio) {
+        curve.coarse_length += edge_length;
+        curve.largest_ratio = std::max(curve.largest_ratio, times);
+        ++curve.coarse_edges;
+      }
+    }
+    CoarseBoundary result;
+    result.boundary_edges = static_cast<std::int64_t>(edges_.size());
+    for (const Curve& curve : curves) {
+      if (curve.coarse_edges > 0 && curve.coarse_length >= coarse_part * curve.length) {
+        result.coarse_edges += curve.coarse_edges;
+        result.largest_ratio = std::max(result.largest_ratio, curve.largest_ratio);
+      }
+    }
+    return result;
+  }
+
+  const TriangleView& view_;
+  std::span<const std::uint8_t> held_;
+  std::vector<BoundaryEdge> edges_;     ///< of the boundary
+  std::vector<Spoke> spokes_;           ///< by apex
+  std::vector<std::int32_t> vertices_;  ///< of the boundary, ascending
+  std::vector<std::size_t> curve_;      ///< of each of them: a forest of indices; a root stands for its curve
+};
+
+}  // namespace
+
+CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held) {
+  return BoundarySearch(view, held).find();
+}
+
+std::string describe(const CoarseBoundary& boundary) {
+  return "boundary edges more than " + shortest_digits(coarse_ratio) +
+         " times as long as those behind them: " + std::to_string(boundary.coarse_edges) + " of " +
+         std::to_string(boundary.boundary_edges) + " (up to " + general_digits(boundary.largest_ratio, 3) +
+         " times); elements there grow when vertices move, which can harm a solution though shapes get better";
+}
+
+}  // namespace trismooth
