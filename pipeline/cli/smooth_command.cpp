@@ -35,7 +35,8 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
   const char* const group = "Smoothing";
   add_enum_option(command, "--method", options.method,
                   "smart: to the mean of the neighbours, where the worst triangle around gets better; laplacian: "
-                  "always; weighted: to the mean by inverse edge length")
+                  "always; weighted: to the mean by inverse edge length; mean-ratio: where an energy of all triangles "
+                  "around is smaller, for the best elements")
       ->group(group);
   add_enum_option(command, "--form", options.form,
                   "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
@@ -45,6 +46,23 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
       ->group(group);
   add_enum_option(command, "--guard", settings.guard,
                   "Put back moves that would leave an element invalid or below the worst of those touched")
+      ->group(group);
+}
+
+void add_mean_ratio_options(CLI::App& command, MeanRatioOptions& options) {
+  const char* const group = "Method mean-ratio";
+  add_parsed_option(command, "--size-weight", "X",
+                    "How much the sizes of triangles count beside their shapes; 0: not at all [1]",
+                    [&options](const std::string& text) { options.size_weight = parse_finite(text); })
+      ->group(group);
+  add_parsed_option(
+      command, "--power", "P",
+      "Of 1/shape in the energy, 1 to 8; the higher, the more the worst triangles count [3 where the mean shape is "
+      "0.8 or more, else 2]",
+      [&options](const std::string& text) { options.power = static_cast<int>(parse_integer(text, 1, 8)); })
+      ->group(group);
+  add_enum_option(command, "--target", options.target,
+                  "Shapes to aim at; input-shape: each triangle keeps its own, for layers that are flat on purpose")
       ->group(group);
 }
 
@@ -113,6 +131,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
                     [&options](const std::string& text) { options.output = text; })
       ->required();
   add_algorithm_options(command, *settings);
+  add_mean_ratio_options(command, options.smoothing.mean_ratio);
   add_stop_options(command, options.smoothing);
   add_mesh_options(command, settings->run);
   add_device_options(command, *settings);

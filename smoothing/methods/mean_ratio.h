@@ -8,16 +8,22 @@
 
 namespace trismooth {
 
-/// What the mean-ratio method knows of the mesh as it was before the first sweep (see mean_ratio_targets.h), by packed
-/// vertex. Somebody else owns it.
+/// What the mean-ratio method makes of the mesh as a whole.
+template <class T>
+struct MeanRatioScales {
+  T size_weight = 0;  ///< lambda / 4
+  int power = 2;      ///< of the inverse mean ratio, in the last stage
+};
+
+/// What it knows of the mesh as it was before the first sweep (see mean_ratio_targets.h), by packed vertex. Somebody
+/// else owns it.
 template <class T>
 struct MeanRatioTargets {
-  /// 1 / (twice the area to be aimed at) around a vertex; 0 for a fixed vertex, which has no say.
+  /// 1 / (twice the area to be aimed at) around a vertex.
   const T* inverse_areas = nullptr;
   /// The growth bound: the largest share_of_error() that a move may give a triangle around a free vertex.
   const T* largest_shares = nullptr;
-  /// Half the weight of the sizes in the energy.
-  const T* half_size_weight = nullptr;
+  const MeanRatioScales<T>* scales = nullptr;
   /// x and y of every vertex where triangles have the shapes to be aimed at; null: all are equilateral.
   const T* reference = nullptr;
 };
@@ -25,9 +31,9 @@ struct MeanRatioTargets {
 /// What the method does in a stage of the smoothing.
 template <class T>
 struct MeanRatioStep {
-  T relaxation = 1;  ///< the first step tried, in Newton steps
-  T least_gain = 0;  ///< of a step, relative to the energy, as Newton's model foretells it: less is not worth a move
-  int power = 1;     ///< of the inverse mean ratio
+  T relaxation = 1;     ///< the first step tried, in Newton steps
+  T least_gain = 0;     ///< of a step, relative to the energy, as Newton's model foretells it: less is not worth a move
+  bool is_last = true;  ///< the power is that of MeanRatioScales, else 1
 };
 
 /// The share that a triangle has in the error of an interpolated gradient, but for the solution's curvature: its area
@@ -41,7 +47,7 @@ constexpr TRISMOOTH_HOST_DEVICE T share_of_error(T doubled_area, T squares) {
 /// optimization using the inverse mean-ratio metric"), which is 1 / alpha, with a term that keeps sizes. The energy of
 /// a vertex is the sum over its triangles of
 ///
-///     alpha^-p + lambda / 2 (tau + 1 / tau),     tau = area / (area aimed at)
+///     alpha^-p / p + lambda / 4 (tau + 1 / tau),     tau = area / (area aimed at)
 ///
 /// Each term is convex where the triangle is positive, so a ring has one minimum. A visit makes one Newton step with
 /// the 2 x 2 Hessian in closed form: over-relaxed first, then Newton's own, then halves of it, until the energy is
@@ -58,12 +64,13 @@ class MeanRatio {
   /// ring.number(i): the packed number of neighbour i.
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const {
-    const T half_weight = *targets_.half_size_weight;
+    const MeanRatioScales<T> scales = *targets_.scales;
+    const int power = step_.is_last ? scales.power : 1;
     Expansion at{};
     bool positive = true;
     for_triangles(v, position, ring, [&](const Triangle& t) {
       positive &= t.doubled_area > T(0);
-      at.add(t, step_.power, half_weight);
+      at.add(t, power, scales.size_weight);
     });
     if (!positive) {
       return SmartLaplacian::update(position, ring);
@@ -78,7 +85,7 @@ class MeanRatio {
     T length = step_.relaxation;
     for (int tries = 0; tries < most_tries; ++tries) {
       const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
-      if (is_accepted(v, position, target, ring, at.energy, half_weight)) {
+      if (is_accepted(v, position, target, ring, at.energy, power, scales.size_weight)) {
         return move_to(position, target);
       }
       length = length > T(1) ? T(1) : length * T(0.5);
@@ -129,6 +136,11 @@ class MeanRatio {
     return result;
   }
 
+  static constexpr TRISMOOTH_HOST_DEVICE T energy_of(const typename Triangle::Terms& terms, const Power& below,
+                                                     int power, T size_weight) {
+    return below.value * terms.ratio / static_cast<T>(power) + size_weight * (terms.tau + terms.inverse_tau);
+  }
+
   /// The energy around a vertex with its first and second derivatives.
   struct Expansion {
     T energy;
@@ -138,7 +150,7 @@ class MeanRatio {
     T xy;
     T yy;
 
-    constexpr TRISMOOTH_HOST_DEVICE void add(const Triangle& t, int power, T half_weight) {
+    constexpr TRISMOOTH_HOST_DEVICE void add(const Triangle& t, int power, T size_weight) {
       const typename Triangle::Terms terms = t.terms();
       // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
       const T area_x = -t.c.y * terms.inverse;
@@ -151,11 +163,11 @@ class MeanRatio {
       const T ratio_yy = curvature - T(2) * ratio_y * area_y;
       const T ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
       const Power below = power_below(terms.ratio, power);
-      const T first = static_cast<T>(power) * below.value;
-      const T second = static_cast<T>(power) * below.slope;
-      const T size_first = half_weight * (terms.tau - terms.inverse_tau);
-      const T size_second = T(2) * half_weight * terms.inverse_tau;
-      energy += below.value * terms.ratio + half_weight * (terms.tau + terms.inverse_tau);
+      const T first = below.value;
+      const T second = below.slope;
+      const T size_first = size_weight * (terms.tau - terms.inverse_tau);
+      const T size_second = T(2) * size_weight * terms.inverse_tau;
+      energy += energy_of(terms, below, power, size_weight);
       x += first * ratio_x + size_first * area_x;
       y += first * ratio_y + size_first * area_y;
       xx += first * ratio_xx + second * ratio_x * ratio_x + size_second * area_x * area_x;
@@ -188,13 +200,6 @@ class MeanRatio {
     return {scale * (b.x * c.x + b.y * c.y), scale * -(a.x * c.x + a.y * c.y), scale * (a.x * b.x + a.y * b.y)};
   }
 
-  /// 1 / (twice the area aimed at) of a triangle: the mean over its free corners, of which v is one.
-  static constexpr TRISMOOTH_HOST_DEVICE T inverse_target(T own, T of_a, T of_b) {
-    const bool with_a = of_a > T(0);
-    const bool with_b = of_b > T(0);
-    return (own + of_a + of_b) * (with_a && with_b ? T(1) / T(3) : (with_a || with_b ? T(0.5) : T(1)));
-  }
-
   /// Calls visit(triangle) for the triangles of v as they are where v is at `position`.
   template <class Ring, class Visit>
   constexpr TRISMOOTH_HOST_DEVICE void for_triangles(std::int32_t v, Point2<T> position, const Ring& ring,
@@ -221,7 +226,7 @@ class MeanRatio {
                         a.y + b.y,
                         T(2),
                         share_of_error(area, squares),
-                        inverse_target(own, target, next_target)};
+                        T(1) / T(3) * (own + target + next_target)};
       if constexpr (shaped) {
         const EdgeWeights weights = reference_weights(v, ring.number(i), ring.number(closes ? 0 : i + 1));
         triangle.squares =
@@ -238,7 +243,7 @@ class MeanRatio {
 
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE bool is_accepted(std::int32_t v, Point2<T> position, Point2<T> target,
-                                                   const Ring& ring, T energy_before, T half_weight) const {
+                                                   const Ring& ring, T energy_before, int power, T size_weight) const {
     const T largest = targets_.largest_shares[v];
     T energy = 0;
     bool positive = true;
@@ -247,8 +252,7 @@ class MeanRatio {
       const typename Triangle::Terms terms = t.terms();
       positive &= t.doubled_area > T(0);
       grows |= t.share > largest;
-      energy +=
-          power_below(terms.ratio, step_.power).value * terms.ratio + half_weight * (terms.tau + terms.inverse_tau);
+      energy += energy_of(terms, power_below(terms.ratio, power), power, size_weight);
     });
     return positive & (energy < energy_before) && !(grows && grows_beyond(largest, position, target, ring));
   }

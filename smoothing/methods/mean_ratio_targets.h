@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "trismooth/quality/triangle_quality.h"
@@ -66,19 +67,23 @@ constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T
 
 /// What all vertices have in common.
 struct MeanRatioMesh {
-  double mean_area;         ///< doubled
-  double half_size_weight;  ///< MeanRatioTargets::half_size_weight
-  double allowance;         ///< a triangle may always become so many times as large as the mean of those around it
+  double mean_area;    ///< doubled
+  double size_weight;  ///< MeanRatioScales::size_weight
+  int power;           ///< MeanRatioScales::power
+  double allowance;    ///< a triangle may always become so many times as large as the mean of those around it
 
   /// How large triangles of a mesh are tells what its maker wanted, the more the better they are shaped; where they are
-  /// distorted their areas are accidents. So the weight of the sizes goes with the cube of the mean shape, and what the
-  /// growth bound allows with its inverse (found by experiment: docs/mean_ratio.md).
-  static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight) {
+  /// distorted their areas are accidents. So the weight of the sizes goes with the fourth power of the mean shape, and
+  /// what the growth bound allows with its inverse. A mesh of good triangles affords a higher power, which sees to the
+  /// worst of them; where most are bad, it would make the others worse. (Found by experiment: docs/mean_ratio.md.)
+  static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight, int power) {
     const double count = sums.count > 0 ? static_cast<double>(sums.count) : 1;
     const double mean_shape =
         shape_constant * (static_cast<double>(sums.quotients) * MeanRatioSums::quotient_unit / count);
-    const double trust = mean_shape * mean_shape * mean_shape;
-    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 2, 2 / trust};
+    const double trust = (mean_shape * mean_shape) * (mean_shape * mean_shape);
+    const int usual_power = mean_shape >= 0.8 ? 3 : 2;
+    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 4,
+            power > 0 ? power : usual_power, 2 / trust};
   }
 };
 
@@ -93,10 +98,55 @@ constexpr TRISMOOTH_HOST_DEVICE T growth_bound(T largest_share, T mean_area, con
   return allowed > largest_share ? allowed : largest_share;
 }
 
-/// MeanRatioTargets::inverse_areas of a free vertex.
+/// MeanRatioTargets::inverse_areas of a vertex.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T inverse_target_area(T mean_area, const MeanRatioMesh& mesh) {
   return T(1) / (mean_area > T(0) ? mean_area : static_cast<T>(mesh.mean_area));
+}
+
+/// Twice the mean area of the triangles around a fixed vertex, which has no ring: the sum comes from its free
+/// neighbours, in integers, so that no order of adding matters. Their unit follows from the largest of the areas.
+struct FixedVertexArea {
+  std::uint64_t largest = 0;  ///< the bits of the largest doubled area, a double that is not negative
+  std::uint64_t sum = 0;      ///< of doubled areas, in units, each triangle counted twice
+  std::uint64_t count = 0;    ///< of triangles, each counted twice
+
+  /// Units in 1. The largest area has 40 bits then.
+  constexpr TRISMOOTH_HOST_DEVICE double units() const {
+    constexpr int bias = 1023;
+    constexpr int mantissa_bits = 52;
+    const int exponent = static_cast<int>(largest >> mantissa_bits) - bias;
+    const int of_unit = exponent > 39 - bias ? 40 - exponent : bias;
+    return std::bit_cast<double>(static_cast<std::uint64_t>(of_unit + bias) << mantissa_bits);
+  }
+  constexpr TRISMOOTH_HOST_DEVICE double mean() const {
+    return count > 0 ? static_cast<double>(sum) / (static_cast<double>(count) * units()) : 0;
+  }
+};
+
+/// Calls visit(u, area, times) for the fixed corners u of the triangles of a free vertex at `position`: twice the area,
+/// 0 where it is not positive, and how often it counts, so that each triangle counts twice from all its free corners
+/// together. Vertices from `free_count` on are fixed.
+template <class T, class Ring, class Visit>
+constexpr TRISMOOTH_HOST_DEVICE void for_fixed_corners(Point2<T> position, const Ring& ring, std::int32_t free_count,
+                                                       const Visit& visit) {
+  int last = ring.size() - 1;
+  for (int i = 0; i < ring.size(); ++i) {
+    const std::int32_t a = ring.number(last);
+    const std::int32_t b = ring.number(i);
+    if (a >= free_count || b >= free_count) {
+      const T area = cross(ring[last] - position, ring[i] - position);
+      const double positive = area > T(0) ? static_cast<double>(area) : 0;
+      const std::uint64_t times = a >= free_count && b >= free_count ? 2 : 1;
+      if (a >= free_count) {
+        visit(a, positive, times);
+      }
+      if (b >= free_count) {
+        visit(b, positive, times);
+      }
+    }
+    last = i;
+  }
 }
 
 }  // namespace trismooth

@@ -12,7 +12,7 @@ namespace trismooth {
 /// stage is over; the smoothing is if that was the last.
 ///
 /// The first stage of the mean-ratio method minimises the inverse mean ratio itself, which brings vertices where they
-/// belong soonest, the last one its square (or --power), which sees to the worst triangles. The first lasts ten
+/// belong soonest, the last one a power of it, which sees to the worst triangles. The first lasts ten
 /// sweeps. If more than 7/8 of the vertices still move then, the mesh has far to go: it takes smaller gains for moves
 /// and goes on, ten sweeps at a time, while more than a quarter of the vertices move. (Found by experiment:
 /// docs/mean_ratio.md.)
@@ -21,7 +21,6 @@ class Stages {
   Stages(const SmoothingOptions& options, std::int64_t free_count)
       : is_mean_ratio_(options.method == Method::mean_ratio),
         is_form_a_(options.form == Form::swap),
-        last_power_(options.mean_ratio.power),
         free_count_(free_count),
         is_last_(!is_mean_ratio_) {}
 
@@ -36,7 +35,7 @@ class Stages {
     // they would go too far.
     const double relaxation = is_form_a_ ? 0.7 : (is_last_ ? 1.5 : 1.9);
     const double least_gain = has_far_to_go_ ? 1e-4 : 3e-4;
-    return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_ ? last_power_ : 1};
+    return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_};
   }
   /// The next stage, or the same once more. `moved`: vertices in the last sweep. Only where this one is not the last.
   void next(std::int64_t moved) {
@@ -50,7 +49,6 @@ class Stages {
 
   bool is_mean_ratio_;
   bool is_form_a_;
-  int last_power_;
   std::int64_t free_count_;
   bool is_last_;
   bool has_far_to_go_ = false;
