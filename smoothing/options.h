@@ -131,7 +131,7 @@ struct EnumText<TargetShape> {
 
 /// What steers Method::mean_ratio alone.
 struct MeanRatioOptions {
-  /// How much the sizes of triangles count beside their shapes, from 0. It is multiplied by the fourth power of
+  /// How much the sizes of triangles count beside their shapes, from 0. It is multiplied by the fifth power of
   /// the mesh's mean shape: the sizes of a distorted mesh say little.
   double size_weight = 1;
   /// The power of 1 / shape in the energy, up to 8: the higher, the more the worst triangles count. 0: 3 where the

@@ -11,7 +11,7 @@ namespace trismooth {
 /// What the mean-ratio method makes of the mesh as a whole.
 template <class T>
 struct MeanRatioScales {
-  T size_weight = 0;  ///< lambda / 4
+  T size_weight = 0;  ///< lambda / 3
   int power = 2;      ///< of the inverse mean ratio, in the last stage
 };
 
@@ -47,7 +47,7 @@ constexpr TRISMOOTH_HOST_DEVICE T share_of_error(T doubled_area, T squares) {
 /// optimization using the inverse mean-ratio metric"), which is 1 / alpha, with a term that keeps sizes. The energy of
 /// a vertex is the sum over its triangles of
 ///
-///     alpha^-p / p + lambda / 4 (tau + 1 / tau),     tau = area / (area aimed at)
+///     alpha^-p / p + lambda / 3 (tau + 1 / tau),     tau = area / (area aimed at)
 ///
 /// Each term is convex where the triangle is positive, so a ring has one minimum. A visit makes one Newton step with
 /// the 2 x 2 Hessian in closed form: over-relaxed first, then Newton's own, then halves of it, until the energy is

@@ -73,17 +73,17 @@ struct MeanRatioMesh {
   double allowance;    ///< a triangle may always become so many times as large as the mean of those around it
 
   /// How large triangles of a mesh are tells what its maker wanted, the more the better they are shaped; where they are
-  /// distorted their areas are accidents. So the weight of the sizes goes with the fourth power of the mean shape, and
+  /// distorted their areas are accidents. So the weight of the sizes goes with the fifth power of the mean shape, and
   /// what the growth bound allows with its inverse. A mesh of good triangles affords a higher power, which sees to the
   /// worst of them; where most are bad, it would make the others worse. (Found by experiment: docs/mean_ratio.md.)
   static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight, int power) {
     const double count = sums.count > 0 ? static_cast<double>(sums.count) : 1;
     const double mean_shape =
         shape_constant * (static_cast<double>(sums.quotients) * MeanRatioSums::quotient_unit / count);
-    const double trust = (mean_shape * mean_shape) * (mean_shape * mean_shape);
+    const double trust = (mean_shape * mean_shape) * (mean_shape * mean_shape) * mean_shape;
     const int usual_power = mean_shape >= 0.8 ? 3 : 2;
-    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 4,
-            power > 0 ? power : usual_power, 2 / trust};
+    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 3,
+            power > 0 ? power : usual_power, 1.5 / trust};
   }
 };
 
