@@ -1,4 +1,5 @@
 // Meshes of about N vertices for the comparison of finite element solutions (finite_elements.py):
+//   resolved   the unit square: Delaunay mesh of random points
 //   hexagonal  the unit square: Delaunay mesh of hexagonal points, each displaced at random
 //   displaced  the unit square: a grid whose inner points are displaced by up to 45 % of its spacing, in x and in y;
 //   some
@@ -175,6 +176,9 @@ Mesh displaced_plate(const Domain& domain, int vertices, Random& random) {
 Mesh make_mesh(const std::string& kind, int vertices, Random& random) {
   const Domain square;
   const Domain plate{-1, 0.25};
+  if (kind == "resolved") {
+    return random_mesh(square, vertices, random);
+  }
   if (kind == "hexagonal") {
     return hexagonal_mesh(square, vertices, random);
   }
