@@ -114,10 +114,10 @@ Mesh random_mesh(const Domain& domain, int vertices, Random& random) {
 
 /// Hexagonal points inside, displaced by up to 0.4 of their spacing in x and in y.
 Mesh hexagonal_mesh(const Domain& domain, int vertices, Random& random) {
-  const double spacing = std::sqrt(domain.area() / vertices * 2 / std::sqrt(3.0));
+  const double spacing = std::sqrt(domain.area() / vertices * 2 / std::numbers::sqrt3);
   std::vector<Point2<double>> points = boundary_points(domain, spacing);
   const std::size_t boundary = points.size();
-  const double height = spacing * std::sqrt(3.0) / 2;
+  const double height = spacing * std::numbers::sqrt3 / 2;
   for (int row = 1; row * height < domain.side(); ++row) {
     for (int column = 0; column * spacing < domain.side(); ++column) {
       const Point2<double> place{domain.lowest + (column + row % 2 * 0.5) * spacing, domain.lowest + row * height};

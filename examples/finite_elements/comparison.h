@@ -126,7 +126,7 @@ inline void print(const std::vector<Row>& rows) {
                   made.outcome->gradient_error);
     } else {
       std::printf("  no solution: %lld triangles are inverted or degenerate\n",
-                  static_cast<long long>(made.quality.inverted + made.quality.degenerate));
+                  static_cast<long long>(made.quality.inverted) + made.quality.degenerate);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "comparison.h"
 #include "linear_triangles.h"
@@ -59,15 +60,43 @@ inline KnownDisplacement kirsch(const Eigen::Vector2d& centre, double radius, co
           }};
 }
 
-/// Solves it with linear triangles. Edges of the boundary that are `pulled` get the known stress as a load, the others
-/// have the known displacement. The errors are parts of the known solution's: the L2 norm of the displacement, and the
-/// energy norm.
+/// The strain (xx, yy, twice xy) of a triangle from the displacements of its corners (x and y of each).
+inline Eigen::Matrix<double, 3, 6> strain_matrix(const LinearTriangle& triangle) {
+  Eigen::Matrix<double, 3, 6> matrix;
+  for (int i = 0; i < 3; ++i) {
+    const double x = triangle.gradients()(0, i);
+    const double y = triangle.gradients()(1, i);
+    matrix.block<3, 2>(0, 2 * i) << x, 0, 0, y, y, x;
+  }
+  return matrix;
+}
+
+/// Loads an edge with the known stress.
+inline void add_edge_load(Equations& equations, const Mesh& mesh, const BoundaryEdge& edge,
+                          const KnownDisplacement& known) {
+  const Eigen::Vector2d from = mesh.points.col(edge.a);
+  const Eigen::Vector2d along = mesh.points.col(edge.b) - from;
+  Eigen::Vector2d normal(along.y(), -along.x());  // as long as the edge, away from the triangle
+  normal *= normal.dot(mesh.points.col(edge.opposite) - from) > 0 ? -1 : 1;
+  for (const auto& [t, weight] : gauss_points) {
+    const Eigen::Vector3d stress = known.stress(from + t * along);
+    const Eigen::Vector2d load(stress[0] * normal.x() + stress[2] * normal.y(),
+                               stress[2] * normal.x() + stress[1] * normal.y());
+    for (int axis = 0; axis < 2; ++axis) {
+      equations.add_load(2 * edge.a + axis, weight * (1 - t) * load[axis]);
+      equations.add_load(2 * edge.b + axis, weight * t * load[axis]);
+    }
+  }
+}
+
+/// Solves it with linear triangles. Edges of the boundary that are `loaded` have the known stress, the others the known
+/// displacement. The errors are parts of the known solution's: the L2 norm of the displacement, and the energy norm.
 inline Outcome solve_plane_stress(const Mesh& mesh, const Material& material, const KnownDisplacement& known,
-                                  const std::function<bool(const BoundaryEdge&)>& pulled, double tolerance = 1e-8) {
+                                  const std::function<bool(const BoundaryEdge&)>& loaded, double tolerance = 1e-8) {
   const std::vector<BoundaryEdge> boundary = boundary_edges(mesh);
   Eigen::VectorXd values = Eigen::VectorXd::Constant(2 * mesh.points.cols(), unknown);  // x and y of every vertex
   for (const BoundaryEdge& edge : boundary) {
-    if (!pulled(edge)) {
+    if (!loaded(edge)) {
       values.segment<2>(2 * edge.a) = known.value(mesh.points.col(edge.a));
       values.segment<2>(2 * edge.b) = known.value(mesh.points.col(edge.b));
     }
@@ -75,40 +104,19 @@ inline Outcome solve_plane_stress(const Mesh& mesh, const Material& material, co
 
   Equations equations(std::move(values));
   const Eigen::Matrix3d stiffness = material.stiffness();
-  const auto strains = [](const LinearTriangle& triangle) {  // of the displacements of the three corners
-    Eigen::Matrix<double, 3, 6> matrix;
-    for (int i = 0; i < 3; ++i) {
-      const double x = triangle.gradients()(0, i);
-      const double y = triangle.gradients()(1, i);
-      matrix.block<3, 2>(0, 2 * i) << x, 0, 0, y, y, x;
-    }
-    return matrix;
-  };
-  const auto places = [&](Eigen::Index t) {
-    const auto corners = mesh.triangles.col(t);
+  const auto places = [&](Eigen::Index triangle) {
+    const auto corners = mesh.triangles.col(triangle);
     return std::array<int, 6>{2 * corners[0],     2 * corners[0] + 1, 2 * corners[1],
                               2 * corners[1] + 1, 2 * corners[2],     2 * corners[2] + 1};
   };
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const LinearTriangle triangle(mesh, t);
-    const Eigen::Matrix<double, 3, 6> strain = strains(triangle);
+    const Eigen::Matrix<double, 3, 6> strain = strain_matrix(triangle);
     equations.add<6>(places(t), triangle.area() * strain.transpose() * stiffness * strain);
   }
   for (const BoundaryEdge& edge : boundary) {
-    if (pulled(edge)) {
-      const Eigen::Vector2d from = mesh.points.col(edge.a);
-      const Eigen::Vector2d along = mesh.points.col(edge.b) - from;
-      Eigen::Vector2d normal(along.y(), -along.x());  // as long as the edge, away from the triangle
-      normal *= normal.dot(mesh.points.col(edge.opposite) - from) > 0 ? -1 : 1;
-      for (const auto& [t, weight] : gauss_points) {
-        const Eigen::Vector3d stress = known.stress(from + t * along);
-        const Eigen::Vector2d load(stress[0] * normal.x() + stress[2] * normal.y(),
-                                   stress[2] * normal.x() + stress[1] * normal.y());
-        for (int axis = 0; axis < 2; ++axis) {
-          equations.add_load(2 * edge.a + axis, weight * (1 - t) * load[axis]);
-          equations.add_load(2 * edge.b + axis, weight * t * load[axis]);
-        }
-      }
+    if (loaded(edge)) {
+      add_edge_load(equations, mesh, edge, known);
     }
   }
 
@@ -119,13 +127,13 @@ inline Outcome solve_plane_stress(const Mesh& mesh, const Material& material, co
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const LinearTriangle triangle(mesh, t);
     const Eigen::Matrix<double, 6, 1> found = outcome.solution.values(places(t));
-    const Eigen::Vector3d stress = stiffness * strains(triangle) * found;
+    const Eigen::Vector3d stress = stiffness * strain_matrix(triangle) * found;
     triangle.integrate([&](double weight, const Eigen::Vector2d& place, const Eigen::Vector3d& functions) {
       const Eigen::Vector2d exact = known.value(place);
       const Eigen::Vector3d exact_stress = known.stress(place);
-      const Eigen::Vector3d off = stress - exact_stress;
+      const Eigen::Vector3d stress_error = stress - exact_stress;
       outcome.value_error += weight * (found.reshaped(2, 3) * functions - exact).squaredNorm();
-      outcome.gradient_error += weight * off.dot(compliance * off);
+      outcome.gradient_error += weight * stress_error.dot(compliance * stress_error);
       size += weight * exact.squaredNorm();
       energy += weight * exact_stress.dot(compliance * exact_stress);
     });
