@@ -1,14 +1,12 @@
-// Meshes of about N vertices for the comparison of finite element solutions (finite_elements.py):
-//   resolved   the unit square: Delaunay mesh of random points
-//   hexagonal  the unit square: Delaunay mesh of hexagonal points, each displaced at random
-//   displaced  the unit square: a grid whose inner points are displaced by up to 45 % of its spacing, in x and in y;
-//   some
-//              triangles are inverted
-//   plate-random, plate-hexagonal, plate-displaced
-//              the square [-1, 1]^2 with a round hole of radius 0.25 in the middle: Delaunay meshes of random points
-//              and of hexagonal ones as above; a grid around the hole, graded towards it and displaced as above
-// The points on the boundary are as far apart as those inside, and are not displaced.
-// Usage: finite_element_meshes KIND N SEED OUTPUT
+// Meshes of about N vertices for the comparison of finite element solutions (finite_elements.py). In the unit square:
+//   hexagonal        Delaunay mesh of hexagonal points, each displaced at random
+//   displaced        a grid displaced by up to 45 % of its spacing in x and in y: some triangles are inverted
+// In the square [-1, 1]^2 with a round hole of radius 0.25 in the middle:
+//   plate-random     Delaunay mesh of random points
+//   plate-hexagonal  Delaunay mesh of hexagonal points as above
+//   plate-displaced  a grid around the hole, graded towards it, displaced as above
+// The points on the boundary are as far apart as those inside, and stay where they are. Random meshes of the unit
+// square come from `trismooth generate`. Usage: finite_element_meshes KIND N SEED OUTPUT
 
 #include <algorithm>
 #include <array>
@@ -176,9 +174,6 @@ Mesh displaced_plate(const Domain& domain, int vertices, Random& random) {
 Mesh make_mesh(const std::string& kind, int vertices, Random& random) {
   const Domain square;
   const Domain plate{-1, 0.25};
-  if (kind == "resolved") {
-    return random_mesh(square, vertices, random);
-  }
   if (kind == "hexagonal") {
     return hexagonal_mesh(square, vertices, random);
   }

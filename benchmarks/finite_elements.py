@@ -4,8 +4,8 @@
     finite_elements.py BUILD [--vertices N] [--meshes M] [METHOD]...
 
 BUILD is a folder that trismooth was built in, with examples and benchmarks. Without METHOD: all methods. Figures are
-means over M random meshes of a kind (those of the smallest shape and the largest area: the worst of them); a file is one
-mesh. The last column has iterations with Jacobi's preconditioner and both errors as multiples of those after `smart`.
+means over M random meshes of a kind (5), smallest shape and largest area the worst of all; a file is one mesh. The last
+column has iterations with Jacobi's preconditioner and both errors as multiples of those after `smart`.
 Python 3 and its standard library suffice.
 """
 
@@ -40,9 +40,9 @@ def mesh_files(kind, arguments, folder):
     files = []
     for seed in range(1, arguments.meshes + 1):
         files.append(pathlib.Path(folder) / f"{kind}-{seed}.off")
-        if kind == "random":
+        if kind in ("random", "resolved"):
             output_of(arguments.build / "pipeline/trismooth", "generate", files[-1], "--vertices", arguments.vertices,
-                      "--seed", seed)
+                      "--seed", seed, "--boundary", kind)
         else:
             output_of(arguments.build / "benchmarks/finite_element_meshes", kind, arguments.vertices, seed, files[-1])
     return files
