@@ -1,9 +1,11 @@
 // What both problems need: a mesh in Eigen's matrices, linear triangles, and equations solved by conjugate gradients.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -48,6 +50,19 @@ inline std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh) {
     }
   }
   return boundary;
+}
+
+/// Whether an edge of the mesh's boundary lies on the rim of a round hole. Throws std::runtime_error where none does.
+inline std::function<bool(const BoundaryEdge&)> on_rim(const Mesh& mesh, const Eigen::Vector2d& centre, double radius) {
+  auto on_circle = [points = mesh.points, centre, radius](const BoundaryEdge& edge) {
+    const auto distance = [&](int v) { return (points.col(v) - centre).norm(); };
+    return std::max(std::abs(distance(edge.a) - radius), std::abs(distance(edge.b) - radius)) < 1e-3 * radius;
+  };
+  const std::vector<BoundaryEdge> boundary = boundary_edges(mesh);
+  if (std::none_of(boundary.begin(), boundary.end(), on_circle)) {
+    throw std::runtime_error("the mesh has no hole of that centre and radius");
+  }
+  return on_circle;
 }
 
 /// Gauss-Legendre's five points of [0, 1] and their weights: exact for polynomials of degree 9.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "catch.h"
@@ -70,6 +71,19 @@ TEST_CASE("the boundary of a ring is its two circles, each edge with the vertex 
     CHECK(mesh.points.col(edge.b).norm() == Approx(radius));
     CHECK(std::abs(mesh.points.col(edge.opposite).norm() - radius) > 0.1);
   }
+}
+
+TEST_CASE("the rim of a hole is the edges of the boundary on its circle") {
+  const fem::Mesh mesh = structured::ring(6);
+  const auto inner = fem::on_rim(mesh, {0, 0}, 1);
+  int on_inner = 0;
+  for (const fem::BoundaryEdge& edge : boundary_edges(mesh)) {
+    on_inner += inner(edge) ? 1 : 0;
+    CHECK(inner(edge) == (mesh.points.col(edge.a).norm() < 2));
+  }
+  CHECK(on_inner == 24);
+  CHECK_THROWS_AS(fem::on_rim(mesh, {0, 0}, 2), std::runtime_error);
+  CHECK_THROWS_AS(fem::on_rim(mesh, {0.5, 0}, 1), std::runtime_error);
 }
 
 TEST_CASE("what is prescribed stays, and the rest is what elimination gives") {
