@@ -17,7 +17,7 @@ class Backend;
 enum class Method : std::uint8_t {
   smart,       ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
   laplacian,   ///< to the mean of its neighbours
-  weighted,    ///< to the mean of its neighbours weighted by inverse edge length
+  weighted,    ///< towards the mean of its neighbours weighted by edge length, as smart does
   mean_ratio,  ///< where an energy of its triangles' shapes and sizes gets smaller, by Newton's method
 };
 

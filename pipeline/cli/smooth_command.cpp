@@ -35,7 +35,7 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
   const char* const group = "Smoothing";
   add_enum_option(command, "--method", options.method,
                   "smart: to the mean of the neighbours, where the worst triangle around gets better; laplacian: "
-                  "always; weighted: to the mean by inverse edge length; mean-ratio: where an energy of all triangles "
+                  "always; weighted: towards the mean by edge length, as smart; mean-ratio: where an energy of all triangles "
                   "around is smaller, for the best elements")
       ->group(group);
   add_enum_option(command, "--form", options.form,

@@ -55,6 +55,20 @@ constexpr TRISMOOTH_HOST_DEVICE int inverted_triangles(Point2<T> position, const
   return inverted;
 }
 
+/// To `target` if and only if the smallest quality of the vertex's triangles gets strictly larger there than `before`,
+/// and no more of them are inverted than at `position`.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE Move<T> smart_move(Point2<T> position, Point2<T> target, const Ring& ring, T before) {
+  if (!is_better_than(before, target, ring)) {
+    return stay(position);
+  }
+  // Where nothing was inverted, a larger minimum says that nothing is.
+  if (before < T(0) && inverted_triangles(target, ring) > inverted_triangles(position, ring)) {
+    return stay(position);
+  }
+  return move_to(position, target);
+}
+
 /// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
 /// quality of the vertex's triangles gets strictly larger, and no more of them are inverted than before.
 struct SmartLaplacian {
@@ -66,15 +80,7 @@ struct SmartLaplacian {
   /// The same where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
-    const Point2<T> target = laplacian_position<T>(ring);
-    if (!is_better_than(before, target, ring)) {
-      return stay(position);
-    }
-    // Where nothing was inverted, a larger minimum says that nothing is.
-    if (before < T(0) && inverted_triangles(target, ring) > inverted_triangles(position, ring)) {
-      return stay(position);
-    }
-    return move_to(position, target);
+    return smart_move(position, laplacian_position<T>(ring), ring, before);
   }
 };
 

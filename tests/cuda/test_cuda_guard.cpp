@@ -254,19 +254,23 @@ TEST_CASE("without the guard all moves are written") {
 }
 
 TEST_CASE("sweeps that go to and fro for ever have the history of real ones, up to any limit") {
-  const Mesh mesh = test_meshes::jittered_grid(5, 5, 0.45, 4);
+  // Plain means in single precision, all from the sweep before, end in two states that differ by rounding.
+  const Mesh mesh = test_meshes::jittered_grid(9, 9, 0.2, 66);
   for (const Form form : forms) {
     for (const Precision precision : precisions) {
       for (const std::int64_t limit : {255, 256, 257, 1000, 1001}) {
         CAPTURE(to_string(form), to_string(precision), limit);
         SmoothingOptions options;
-        options.method = Method::weighted;
+        options.method = Method::laplacian;
         options.form = form;
         options.precision = precision;
         options.tolerance = 0;
         options.max_sweeps = limit;
         options.record_min_shape = limit == 1001;
         const Run expected = run(mesh, options);
+        if (form == Form::swap && precision == Precision::single_precision) {
+          REQUIRE(expected.result.sweeps == limit);
+        }
         options.backend = &cuda::backend();
         const Run found = run(mesh, options);
         require_same(found, expected);

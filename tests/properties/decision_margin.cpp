@@ -47,12 +47,7 @@ Real margin_of_move(Method method, Point2<Real> position, Point2<Real> target, c
     return infinity;
   }
   Real margin = infinity;
-  if (method == Method::weighted) {
-    for (const Point2<Real> neighbour : ring) {
-      margin = std::min(margin, distance(position, neighbour));
-    }
-  }
-  if (method == Method::smart) {
+  if (method != Method::laplacian) {
     const Real before = naive::smallest_quotient(position, ring);
     Real quality = std::abs(naive::smallest_quotient(target, ring) - before);
     if (before < 0) {

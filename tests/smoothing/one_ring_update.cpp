@@ -63,7 +63,6 @@ TEMPLATE_TEST_CASE("no method moves a vertex where a position is no number or in
       const auto which = static_cast<std::size_t>(random.below(ring.size()));
       (random.below(2) == 0 ? ring.positions[which].x : ring.positions[which].y) = bad;
       const auto move = TestType::template update<double>(here, ring);
-      // Weighted: a neighbour at infinity has no weight at all, times infinity: no number either.
       REQUIRE_FALSE(move.moved);
       REQUIRE(move.position == here);
     }

@@ -146,16 +146,17 @@ Point2<T> laplacian(const Ring<T>& ring) {
 
 template <class T>
 Point2<T> weighted(Point2<T> position, const Ring<T>& ring) {
-  T weights = 0;
+  T lengths = 0;
   Point2<T> sum{0, 0};
   for (const Point2<T> neighbour : ring) {
     const T x = neighbour.x - position.x;
     const T y = neighbour.y - position.y;
-    const T weight = 1 / std::sqrt(x * x + y * y);
-    weights += weight;
-    sum = {sum.x + weight * neighbour.x, sum.y + weight * neighbour.y};
+    const T length = std::sqrt(x * x + y * y);
+    lengths += length;
+    sum = {sum.x + length * x, sum.y + length * y};
   }
-  return {sum.x / weights, sum.y / weights};
+  const T step = 2 / (3 * lengths);
+  return {position.x + step * sum.x, position.y + step * sum.y};
 }
 
 /// Where the method puts the vertex; `position` itself where it stays.
@@ -165,8 +166,8 @@ Point2<T> updated(Method method, Point2<T> position, const Ring<T>& ring) {
   if (!std::isfinite(target.x) || !std::isfinite(target.y)) {
     return position;
   }
-  if (method == Method::smart && (!(smallest_quotient(target, ring) > smallest_quotient(position, ring)) ||
-                                  inverted(target, ring) > inverted(position, ring))) {
+  if (method != Method::laplacian && (!(smallest_quotient(target, ring) > smallest_quotient(position, ring)) ||
+                                      inverted(target, ring) > inverted(position, ring))) {
     return position;
   }
   return target;
