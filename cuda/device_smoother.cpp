@@ -18,6 +18,7 @@
 #include "trismooth/cuda/sweep_engine.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/sweeps/stages.h"
 
 namespace trismooth::cuda {
 
@@ -30,6 +31,36 @@ struct RunRecord {
   LoopState state;
   GuardState guard;
   std::array<SweepSums, most_sweeps> sums;
+};
+
+/// The stages of a run whose sweeps are launched many at a time.
+class DeviceStages {
+ public:
+  DeviceStages(const SmoothingOptions& options, std::int64_t free_count)
+      : stages_(options, free_count), left_(stages_.sweeps()) {}
+
+  bool is_last() const { return stages_.is_last(); }
+  template <class T>
+  MeanRatioStep<T> step() const {
+    return stages_.step<T>();
+  }
+  /// How many of `sweeps` may be launched at a time.
+  std::int32_t at_most(std::int32_t sweeps) const {
+    return is_last() ? sweeps : static_cast<std::int32_t>(std::min<std::int64_t>(sweeps, left_));
+  }
+  /// Whether next() is due after a launch that made so many sweeps. `settled`: nothing moves any more.
+  bool is_over(std::int64_t sweeps, bool settled) {
+    left_ -= sweeps;
+    return !is_last() && (settled || left_ == 0);
+  }
+  void next(std::int64_t moved) {
+    stages_.next(moved);
+    left_ = stages_.sweeps();
+  }
+
+ private:
+  Stages stages_;
+  std::int64_t left_;  ///< until next(), where the stage is not the last
 };
 
 /// Drives an engine in working precision T from stored coordinates to stored coordinates.
@@ -45,7 +76,7 @@ class SweepDriver final : public DeviceSmoother {
         record_(context, 1),
         timeline_(context) {
     if (order_.free_count() > 0) {
-      engine_.emplace(make_sweep_engine<T>(context, order_, std::move(mesh.rings), options.method));
+      engine_.emplace(make_sweep_engine<T>(context, order_, std::move(mesh.rings), options));
       if (options.guard) {
         guard_buffers_ = GuardBuffers(context, order_.free_count());
       }
@@ -145,18 +176,23 @@ class SweepDriver final : public DeviceSmoother {
       end_now(ending, result);
       return;
     }
-    const bool follows = !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
+    const bool may_follow =
+        !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
     const bool watched = static_cast<bool>(options_.progress);
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
+    DeviceStages stages(options_, order_.free_count());
+    begin_stage();
     for (;;) {
       const auto launched = Clock::now();
-      loop.sweeps = batches.size();
+      // What comes behind the last sweep is not queued behind a stage that is not the last.
+      const bool follows = may_follow && stages.is_last();
+      loop.sweeps = stages.at_most(batches.size());
       if (options_.max_sweeps > 0) {
         loop.remaining = options_.max_sweeps - result.sweeps;
         loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
         ending.input.is_over = loop.sweeps == loop.remaining;
       }
-      launch(loop, result);
+      launch(stages, loop, result);
       if (follows) {
         queue_ending(ending, result);
       }
@@ -173,8 +209,8 @@ class SweepDriver final : public DeviceSmoother {
         result.stop_reason = StopReason::cancelled;
       } else if (is_repeating) {
         result.stop_reason = StopReason::sweep_limit;
-      } else if (state.stop != LoopState::running) {
-        result.stop_reason = static_cast<StopReason>(state.stop);
+      } else if (const auto reason = reason_of(state, stages, result)) {
+        result.stop_reason = *reason;
       } else if (stopped) {
         result.stop_reason = StopReason::cancelled;
       } else if (result.sweeps == options_.max_sweeps) {
@@ -183,6 +219,10 @@ class SweepDriver final : public DeviceSmoother {
         result.stop_reason = StopReason::time_limit;
       } else {
         batches.adapt(seconds_since(launched), seconds_since(start));
+        if (stages.is_over(state.sweeps, state.stop != LoopState::running)) {
+          stages.next(result.history.back().moved);
+          begin_stage();
+        }
         continue;
       }
       if (!follows || result.stop_reason == StopReason::time_limit) {
@@ -198,15 +238,45 @@ class SweepDriver final : public DeviceSmoother {
     enter(ending, result);
     host_record_.state = LoopState{};
     loop.remaining = 0;
-    for (std::int64_t left = result.sweeps; left > 0; left -= host_record_.state.sweeps) {
-      loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(left, RunRecord::most_sweeps));
-      launch(loop, result);
+    DeviceStages stages(options_, order_.free_count());
+    begin_stage();
+    for (std::int64_t done = 0; done < result.sweeps;) {
+      const auto left = std::min<std::int64_t>(result.sweeps - done, RunRecord::most_sweeps);
+      loop.sweeps = stages.at_most(static_cast<std::int32_t>(left));
+      launch(stages, loop, result);
       read_record(result);
+      done += host_record_.state.sweeps;
+      if (stages.is_over(host_record_.state.sweeps, host_record_.state.stop != LoopState::running)) {
+        stages.next(result.history[static_cast<std::size_t>(done) - 1].moved);
+        begin_stage();
+      }
     }
   }
 
+  /// Makes ready for a stage from where host_record_ says.
+  void begin_stage() {
+    host_record_.state.evaluates_all = 1;
+    host_record_.state.marks = 0;
+    with_engine([](auto& engine) { engine.begin_stage(); });
+  }
+
+  /// Why the smoothing ends with the last sweep of a launch, as far as its kernels know.
+  std::optional<StopReason> reason_of(const LoopState& state, const DeviceStages& stages,
+                                      const SmoothingResult& result) const {
+    if (state.stop == LoopState::running) {
+      return std::nullopt;
+    }
+    const auto reason = static_cast<StopReason>(state.stop);
+    if (stages.is_last() || reason == StopReason::quality_target) {
+      return reason;
+    }
+    // It ends the stage; what else the sweep may have brought about counts still.
+    const bool reached = result.history.back().min_shape >= options_.target_quality.value_or(no_target);
+    return reached ? std::optional(StopReason::quality_target) : std::nullopt;
+  }
+
   /// Queues more sweeps from where host_record_ says.
-  void launch(const LoopRules& loop, SmoothingResult& result) {
+  void launch(const DeviceStages& stages, const LoopRules& loop, SmoothingResult& result) {
     LoopState next = host_record_.state;
     next.sweeps = 0;
     next.stop = LoopState::running;
@@ -214,8 +284,9 @@ class SweepDriver final : public DeviceSmoother {
     host_record_ = RunRecord{};
     host_record_.state = next;
     record_.upload({&host_record_, 1});
-    result.kernel_launches += with_engine(
-        [&](auto& engine) { return engine.sweep(loop, &record_.data()->state, record_.data()->sums.data()); });
+    result.kernel_launches += with_engine([&](auto& engine) {
+      return engine.sweep(stages.step<T>(), loop, &record_.data()->state, record_.data()->sums.data());
+    });
   }
 
   /// Waits for the record of what has been queued.

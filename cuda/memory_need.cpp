@@ -31,7 +31,10 @@ std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options) {
   const std::size_t sorting = vertices * (2 * sizeof(std::uint64_t) + 4 * index_bytes);
   const std::size_t packing = rings + std::max(sorting, 3 * vertices * index_bytes + packed);
   const std::size_t guard = free_vertices;
-  const std::size_t smoothing = vertices * (point_bytes + index_bytes) + packed + engine + guard;
+  const std::size_t targets = options.precision == Precision::double_precision
+                                  ? DeviceTargets<double>::bytes(size.vertices, size.free_vertices, options)
+                                  : DeviceTargets<float>::bytes(size.vertices, size.free_vertices, options);
+  const std::size_t smoothing = vertices * (point_bytes + index_bytes) + packed + engine + targets + guard;
   return std::max(packing, smoothing);
 }
 

@@ -35,10 +35,11 @@ using SweepEngine = std::variant<GridEngine<T, Form::swap>, GridEngine<T, Form::
 
 /// The engine for these rings, of a mesh with a free vertex. `context` outlives it.
 template <class T>
-SweepEngine<T> make_sweep_engine(Context& context, const VertexOrder& order, PackedRings rings, Method method) {
+SweepEngine<T> make_sweep_engine(Context& context, const VertexOrder& order, PackedRings rings,
+                                 const SmoothingOptions& options) {
   return std::visit(
       [&]<class Rings>(Rings& kind) -> SweepEngine<T> {
-        return EngineOver<T, Rings>(context, order, std::move(kind), method);
+        return EngineOver<T, Rings>(context, order, std::move(kind), options);
       },
       rings);
 }

@@ -274,8 +274,9 @@ template std::size_t patch_bytes<float>(const Patches&, bool);
 template std::size_t patch_bytes<double>(const Patches&, bool);
 
 bool Patches::may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options) {
-  return options.execution == Execution::resident && vertices <= largest_mesh && colours <= most_colours &&
-         !options.measures_shape() && set_bytes(vertices) <= most_patch_bytes();
+  // The mean-ratio method reads more of a neighbour than its position.
+  return options.execution == Execution::resident && options.method != Method::mean_ratio && vertices <= largest_mesh &&
+         colours <= most_colours && !options.measures_shape() && set_bytes(vertices) <= most_patch_bytes();
 }
 
 std::optional<Patches> Patches::cut(Context& context, const RingsView& rings, std::int32_t vertex_count,

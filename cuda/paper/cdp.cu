@@ -20,9 +20,9 @@ __device__ bool launched(LoopState* state, std::uint64_t children) {
 
 template <class Update, class Mesh>
 __global__ void __launch_bounds__(parent_block_size)
-    sweep_with_children(Mesh mesh, LoopRules rules, LoopState* state, SweepSums* sums) {
+    sweep_with_children(Update method, Mesh mesh, LoopRules rules, LoopState* state, SweepSums* sums) {
   __shared__ SweepSums shared;
-  const bool goes_on = parent_pass<Update>(mesh, rules, state, sums, shared);
+  const bool goes_on = parent_pass(method, mesh, rules, state, sums, shared);
   // The children are to see what the whole block has written, not the launching thread alone.
   __threadfence();
   __syncthreads();
@@ -38,7 +38,7 @@ __global__ void __launch_bounds__(parent_block_size)
   if (!launched(state, 1) || !goes_on) {
     return;
   }
-  sweep_with_children<Update><<<1, parent_block_size, 0, cudaStreamTailLaunch>>>(mesh, rules, state, sums);
+  sweep_with_children<Update><<<1, parent_block_size, 0, cudaStreamTailLaunch>>>(method, mesh, rules, state, sums);
   launched(state, 0);
 }
 
@@ -49,17 +49,21 @@ bool built_with_cdp() {
 }
 
 template <class Mesh>
-void launch_cdp(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
-                cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(Update) {
-    sweep_with_children<Update><<<1, parent_block_size, 0, stream>>>(mesh, rules, state, sums);
+void launch_cdp(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
+                LoopState* state, SweepSums* sums, cudaStream_t stream) {
+  visit_method(method, [&]<class Update>(const Update& update) {
+    sweep_with_children<Update><<<1, parent_block_size, 0, stream>>>(update, mesh, rules, state, sums);
   });
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-template void launch_cdp(Method, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
-template void launch_cdp(Method, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
-template void launch_cdp(Method, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
-template void launch_cdp(Method, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);
+template void launch_cdp(const MethodInUse<float>&, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*,
+                         cudaStream_t);
+template void launch_cdp(const MethodInUse<float>&, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*,
+                         cudaStream_t);
+template void launch_cdp(const MethodInUse<double>&, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*,
+                         cudaStream_t);
+template void launch_cdp(const MethodInUse<double>&, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*,
+                         cudaStream_t);
 
 }  // namespace trismooth::cuda

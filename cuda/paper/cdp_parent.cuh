@@ -13,8 +13,8 @@ inline constexpr unsigned parent_block_size = 1024;
 /// block, and after the last batch of a sweep the decision to stop. All threads of the block call it; `state` is
 /// written by the first. True where the pass just made was not the last.
 template <class Update, class Mesh>
-__device__ bool parent_pass(const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
-                            SweepSums& shared) {
+__device__ bool parent_pass(const Update& method, const Mesh& mesh, const LoopRules& rules, LoopState* state,
+                            SweepSums* sums, SweepSums& shared) {
   using T = typename Mesh::Scalar;
   const std::int32_t batch = state->batch;
   const std::int32_t sweep = state->sweeps;
@@ -23,7 +23,7 @@ __device__ bool parent_pass(const Mesh& mesh, const LoopRules& rules, LoopState*
   SweepTally<T> tally;
   for (std::int32_t v = rules.batches[batch] + static_cast<std::int32_t>(threadIdx.x); v < rules.batches[batch + 1];
        v += static_cast<std::int32_t>(blockDim.x)) {
-    relocate<Update>(mesh, v, from, to, rules.tolerance, tally);
+    relocate(method, mesh, v, from, to, rules.tolerance, tally);
   }
   __syncthreads();
   add_to_sums(tally, shared, &sums[sweep]);

@@ -10,6 +10,7 @@
 #include "trismooth/cuda/paper/paper_mesh.h"
 #include "trismooth/cuda/paper/single_block.h"
 #include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
 
@@ -23,14 +24,15 @@ class PaperEngine {
   /// Positions are copied out of the structure, from a buffer that the host has to know.
   static constexpr bool may_be_followed = false;
 
-  PaperEngine(Context& context, const VertexOrder& order, PaperRings<layout> rings, Method method)
+  PaperEngine(Context& context, const VertexOrder& order, PaperRings<layout> rings, const SmoothingOptions& options)
       : context_(&context),
-        method_(method),
+        method_(options.method),
         rings_(std::move(rings)),
         elements_(find_elements(context, rings_.view(), rings_.rings.neighbours.size())),
         mesh_(context, rings_.view(), order.vertex_count(), elements_),
         memory_(context, static_cast<std::size_t>(order.vertex_count())),
-        points_{memory_.data()} {
+        points_{memory_.data()},
+        targets_(context, order.vertex_count(), order.free_count(), options) {
     elements_.triangles.reset();
   }
 
@@ -45,12 +47,17 @@ class PaperEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {points_, points_}; }
-  void begin() { mesh_.initiate(*context_, points_); }
-  std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) {
+  void begin() {
+    mesh_.initiate(*context_, points_);
+    targets_.find(rings(), points_);
+  }
+  void begin_stage() {}
+  std::int64_t sweep(const MeanRatioStep<T>& step, const LoopRules& rules, LoopState* state, SweepSums* sums) {
+    const MethodInUse<T> method{method_, targets_.view(), step};
     if (rings_.with_children) {
-      launch_cdp(method_, mesh_.view(), rules, state, sums, context_->stream());
+      launch_cdp(method, mesh_.view(), rules, state, sums, context_->stream());
     } else {
-      launch_single_block(method_, mesh_.view(), rules, state, sums, context_->stream());
+      launch_single_block(method, mesh_.view(), rules, state, sums, context_->stream());
     }
     return 1;
   }
@@ -68,6 +75,7 @@ class PaperEngine {
   PaperMesh<T, layout> mesh_;
   DeviceBuffer<PointRecord<T>> memory_;
   Points points_;
+  DeviceTargets<T> targets_;
 };
 
 }  // namespace trismooth::cuda

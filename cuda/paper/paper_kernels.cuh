@@ -25,16 +25,17 @@ struct NeighbourPositions {
       : mesh(of), neighbours(of.neighbours(vertex)), count(of.neighbour_count(vertex)), buffer(from) {}
   __device__ int size() const { return count; }
   __device__ Point2<typename Mesh::Scalar> operator[](int i) const { return mesh.load(neighbours[i], buffer); }
+  __device__ std::int32_t number(int i) const { return neighbours[i]; }
 };
 
 /// Updates one free vertex by its stored minimum quality: the smoothed position, the temporary re-evaluation of its
 /// elements there, and the decision between the two.
 template <class Update, class Mesh, class T = typename Mesh::Scalar>
-__device__ void relocate(const Mesh& mesh, std::int32_t v, std::int32_t from, std::int32_t to, double tolerance,
-                         SweepTally<T>& tally) {
+__device__ void relocate(const Update& method, const Mesh& mesh, std::int32_t v, std::int32_t from, std::int32_t to,
+                         double tolerance, SweepTally<T>& tally) {
   const NeighbourPositions<Mesh> ring(mesh, v, from);
   const Point2<T> position = mesh.load(v, from);
-  const Move<T> move = update_with_minimum<Update>(position, ring, mesh.min_quality(v));
+  const Move<T> move = update_with_minimum(method, v, position, ring, mesh.min_quality(v));
   ++tally.evaluated;
   mesh.store(v, to, move.position);
   if (move.moved) {

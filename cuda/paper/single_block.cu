@@ -11,7 +11,7 @@ constexpr unsigned single_block_size = 1024;
 
 template <class Update, class Mesh>
 __global__ void __launch_bounds__(single_block_size)
-    sweep_in_one_block(Mesh mesh, LoopRules rules, LoopState* state, SweepSums* sums) {
+    sweep_in_one_block(Update method, Mesh mesh, LoopRules rules, LoopState* state, SweepSums* sums) {
   using T = typename Mesh::Scalar;
   __shared__ SweepSums shared;
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
@@ -25,7 +25,7 @@ __global__ void __launch_bounds__(single_block_size)
     SweepTally<T> tally;
     for (std::int32_t batch = 0; batch < rules.batch_count; ++batch) {
       for (std::int32_t v = rules.batches[batch] + thread; v < rules.batches[batch + 1]; v += stride) {
-        relocate<Update>(mesh, v, from, to, rules.tolerance, tally);
+        relocate(method, mesh, v, from, to, rules.tolerance, tally);
       }
       __syncthreads();
       const std::int32_t next = batch + 1 < rules.batch_count ? batch + 1 : 0;
@@ -53,21 +53,21 @@ __global__ void __launch_bounds__(single_block_size)
 }  // namespace
 
 template <class Mesh>
-void launch_single_block(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
-                         cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(Update) {
-    sweep_in_one_block<Update><<<1, single_block_size, 0, stream>>>(mesh, rules, state, sums);
+void launch_single_block(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
+                         LoopState* state, SweepSums* sums, cudaStream_t stream) {
+  visit_method(method, [&]<class Update>(const Update& update) {
+    sweep_in_one_block<Update><<<1, single_block_size, 0, stream>>>(update, mesh, rules, state, sums);
   });
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-template void launch_single_block(Method, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*,
-                                  cudaStream_t);
-template void launch_single_block(Method, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*,
-                                  cudaStream_t);
-template void launch_single_block(Method, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*,
-                                  cudaStream_t);
-template void launch_single_block(Method, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*,
-                                  cudaStream_t);
+template void launch_single_block(const MethodInUse<float>&, const MeshAoS<float>&, const LoopRules&, LoopState*,
+                                  SweepSums*, cudaStream_t);
+template void launch_single_block(const MethodInUse<float>&, const MeshSoA<float>&, const LoopRules&, LoopState*,
+                                  SweepSums*, cudaStream_t);
+template void launch_single_block(const MethodInUse<double>&, const MeshAoS<double>&, const LoopRules&, LoopState*,
+                                  SweepSums*, cudaStream_t);
+template void launch_single_block(const MethodInUse<double>&, const MeshSoA<double>&, const LoopRules&, LoopState*,
+                                  SweepSums*, cudaStream_t);
 
 }  // namespace trismooth::cuda

@@ -4,7 +4,7 @@
 
 #include "trismooth/cuda/paper/mesh_layouts.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
-#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 namespace trismooth::cuda {
 
@@ -14,7 +14,7 @@ namespace trismooth::cuda {
 /// anybody reads before they are refreshed again. Sweeps until the rules say stop or rules.sweeps are done; sweep i of
 /// the launch adds to sums[i], which are zero before. Stored minima are current before and after.
 template <class Mesh>
-void launch_single_block(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
-                         cudaStream_t stream);
+void launch_single_block(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
+                         LoopState* state, SweepSums* sums, cudaStream_t stream);
 
 }  // namespace trismooth::cuda

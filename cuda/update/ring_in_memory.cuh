@@ -15,6 +15,7 @@ struct RingInMemory {
 
   __device__ int size() const { return count; }
   __device__ Point2<T> operator[](int i) const { return points.load(ring[i]); }
+  __device__ std::int32_t number(int i) const { return ring[i]; }
 };
 
 /// That of a vertex among rings of any kind.

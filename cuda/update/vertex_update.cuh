@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "trismooth/cuda/update/quotient_filter.cuh"
 #include "trismooth/cuda/update/reciprocals.cuh"
 #include "trismooth/cuda/update/register_ring.cuh"
@@ -17,8 +19,9 @@ struct VertexMove {
 
 /// The update of a vertex with a ring of any kind and size, as the method is defined.
 template <class Update, class T, class Ring>
-__device__ __forceinline__ VertexMove<T> update_over(Point2<T> position, const Ring& ring) {
-  VertexMove<T> result{Update::template update<T>(position, ring), T(0)};
+__device__ __forceinline__ VertexMove<T> update_over(const Update& method, std::int32_t v, Point2<T> position,
+                                                     const Ring& ring) {
+  VertexMove<T> result{updated(method, v, position, ring), T(0)};
   for (int i = 0; i < ring.size() && result.move.moved; ++i) {
     result.squares += squared_length(ring[i] - position);
   }

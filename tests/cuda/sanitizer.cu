@@ -145,7 +145,7 @@ template <class Update, class Mesh>
 __global__ void __launch_bounds__(cuda::parent_block_size)
     parent_alone(Mesh mesh, cuda::LoopRules rules, cuda::LoopState* state, cuda::SweepSums* sums) {
   __shared__ cuda::SweepSums shared;
-  cuda::parent_pass<Update>(mesh, rules, state, sums, shared);
+  cuda::parent_pass(Update{}, mesh, rules, state, sums, shared);
 }
 
 struct RunRecord {

@@ -8,6 +8,7 @@
 
 #include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
@@ -22,8 +23,12 @@ class GridEngine {
   /// Both buffers stay where they are, so what comes after the sweeps can be queued before they are done.
   static constexpr bool may_be_followed = true;
 
-  GridEngine(Context& context, const VertexOrder& order, GridRings<form> rings, Method method)
-      : context_(&context), method_(method), batches_(order.batches), rings_(std::move(rings)) {
+  GridEngine(Context& context, const VertexOrder& order, GridRings<form> rings, const SmoothingOptions& options)
+      : context_(&context),
+        method_(options.method),
+        batches_(order.batches),
+        rings_(std::move(rings)),
+        targets_(context, order.vertex_count(), order.free_count(), options) {
     for (std::size_t batch = 0; batch + 1 < batches_.size(); ++batch) {
       largest_batch_ = std::max(largest_batch_, batches_[batch + 1] - batches_[batch]);
     }
@@ -47,20 +52,23 @@ class GridEngine {
   /// Where the working positions are to be written before begin(): both of these (which may be the same).
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
   /// Makes ready for a run from those positions.
-  void begin() {
+  void begin() { targets_.find(rings(), mesh_.first.points); }
+  /// Makes ready for a stage of the run, which begins with a sweep over all vertices.
+  void begin_stage() {
     for (DeviceBuffer<std::uint32_t>& marks : marks_) {
       marks.fill_bytes(0);
     }
   }
   /// Queues sweeps until the rules say stop or rules.sweeps are done. Returns how many kernels the host launches.
-  std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) {
+  std::int64_t sweep(const MeanRatioStep<T>& step, const LoopRules& rules, LoopState* state, SweepSums* sums) {
+    const MethodInUse<T> method{method_, targets_.view(), step};
     std::int64_t launches = 0;
     // The smallest shape is measured by the other kernel alone, and batches that do not fill the GPU are not worth a
     // launch each.
     if (!rules.measures_shape && (rules.evaluates_all || largest_batch_ >= smallest_launch)) {
       const std::int32_t usual = form == Form::swap ? sweeps_of_all_a : sweeps_of_all_b;
       const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, usual);
-      launches = launch_sweeps_of_all(method_, mesh_, rules, batches_, sweeps, state, sums, context_->stream());
+      launches = launch_sweeps_of_all(method, mesh_, rules, batches_, sweeps, state, sums, context_->stream());
       if (rules.evaluates_all) {
         return launches;
       }
@@ -70,7 +78,7 @@ class GridEngine {
       barriers_ = DeviceBuffer<unsigned long long>(*context_, words);
     }
     barriers_.fill_bytes(0);
-    launch_sweeps_of_marked(method_, mesh_, rules, largest_batch_, state, sums, barriers_.data(), context_->stream());
+    launch_sweeps_of_marked(method, mesh_, rules, largest_batch_, state, sums, barriers_.data(), context_->stream());
     return launches + 1;
   }
   /// Queues the measuring of the smallest quotient of the triangles with a free vertex, before the first sweep.
@@ -93,6 +101,7 @@ class GridEngine {
   Method method_;
   std::vector<std::int32_t> batches_;
   GridRings<form> rings_;
+  DeviceTargets<T> targets_;
   DeviceBuffer<PointRecord<T>> points_[buffers];
   DeviceBuffer<std::uint32_t> marks_[buffers];
   GridMesh<T, typename GridRings<form>::Slot> mesh_{};

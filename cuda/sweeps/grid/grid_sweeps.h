@@ -9,7 +9,7 @@
 #include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
-#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 namespace trismooth::cuda {
 
@@ -37,7 +37,7 @@ std::size_t barrier_words(const LoopRules& rules);
 /// many vertices move that is cheaper than to mark and to list them. Sweep i of the run's launch adds to sums[i], which
 /// are zero before. `batches`: as rules.batches, on the host. Returns how many kernels were launched.
 template <class T, class Slot>
-std::int32_t launch_sweeps_of_all(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
+std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
                                   SweepSums* sums, cudaStream_t stream);
 
@@ -46,7 +46,7 @@ std::int32_t launch_sweeps_of_all(Method method, const GridMesh<T, Slot>& mesh, 
 /// them evaluates every vertex where the state says so still. The barrier_words() words of `barriers` are zero
 /// before. `largest_batch`: vertices of the largest batch.
 template <class T, class Slot>
-void launch_sweeps_of_marked(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
+void launch_sweeps_of_marked(const MethodInUse<T>& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                              std::int32_t largest_batch, LoopState* state, SweepSums* sums,
                              unsigned long long* barriers, cudaStream_t stream);
 

@@ -59,9 +59,9 @@ struct Pieces {
 constexpr int enough_left_over = 32;
 
 /// Evaluates the block's vertices. `list` is the warp's own.
-template <class Update, bool marks, class T, class Slot>
-__device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepData<T, Slot>& data, std::int32_t* list,
-                                             ThreadTally<T>& tally) {
+template <bool marks, class Update, class T, class Slot>
+__device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces, const SweepData<T, Slot>& data,
+                                             std::int32_t* list, ThreadTally<T>& tally) {
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   const auto fetch = [&](std::int64_t first) {
     return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
@@ -78,21 +78,21 @@ __device__ __forceinline__ void sweep_pieces(const Pieces& pieces, const SweepDa
       const RingRecord<Slot> next = fetch(next_first);
       const bool active = first + thread < pieces.end;
       const std::int32_t v = static_cast<std::int32_t>(first) + thread;
-      listed = added_to_list(list, listed, visit<Update, marks>(v, record, active, data, tally), v);
+      listed = added_to_list(list, listed, visit<marks>(method, v, record, active, data, tally), v);
       record = next;
       first = next_first;
     } while (listed < enough_left_over && first < pieces.end);
     __syncwarp();
-    visit_by_teams<Update, marks>(listed, data, tally, [&](int i) { return list[i]; });
+    visit_by_teams<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
     __syncwarp();
   }
 }
 
 /// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
 /// to be marked is what this kernel does.
-template <class Update, bool marks, class T, class Slot>
+template <bool marks, class Update, class T, class Slot>
 __global__ void __launch_bounds__(threads, blocks_at_once<T>)
-    sweep_batch(GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
+    sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
   if (state->stop != LoopState::running || state->evaluates_all == 0 || (state->marks != 0) != marks ||
       state->sweeps >= rules.sweeps) {
@@ -110,7 +110,7 @@ __global__ void __launch_bounds__(threads, blocks_at_once<T>)
                                 to_second ? mesh.second.points : mesh.first.points,
                                 to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
   ThreadTally<T> tally;
-  sweep_pieces<Update, marks>(pieces, data, left_over[threadIdx.x / 32], tally);
+  sweep_pieces<marks>(method, pieces, data, left_over[threadIdx.x / 32], tally);
   if (threadIdx.x == 0 && blockIdx.x == 0) {
     tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
   }
@@ -133,12 +133,12 @@ __global__ void __launch_bounds__(threads, blocks_at_once<T>)
 }  // namespace
 
 template <class T, class Slot>
-std::int32_t launch_sweeps_of_all(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
+std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
                                   SweepSums* sums, cudaStream_t stream) {
   const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
   std::int32_t launches = 0;
-  const auto launch_sweep = [&](auto kernel) {
+  const auto launch_sweep = [&](auto kernel, const auto& update) {
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
       const std::int32_t begin = batches[batch];
       const std::int32_t end = batches[batch + 1];
@@ -146,24 +146,24 @@ std::int32_t launch_sweeps_of_all(Method method, const GridMesh<T, Slot>& mesh, 
       const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
       const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
       kernel<<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
-          mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
+          update, mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
       TRISMOOTH_CUDA_CHECK(cudaGetLastError());
       ++launches;
     }
   };
-  visit_method(method, [&]<class Update>(Update) {
+  visit_method(method, [&]<class Update>(const Update& update) {
     for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-      launch_sweep(&sweep_batch<Update, false, T, Slot>);
+      launch_sweep(&sweep_batch<false, Update, T, Slot>, update);
     }
     if (!rules.evaluates_all) {
-      launch_sweep(&sweep_batch<Update, true, T, Slot>);
+      launch_sweep(&sweep_batch<true, Update, T, Slot>, update);
     }
   });
   return launches;
 }
 
 #define INSTANTIATE(T, Slot)                                                                                      \
-  template std::int32_t launch_sweeps_of_all(Method, const GridMesh<T, Slot>&, const LoopRules&,                  \
+  template std::int32_t launch_sweeps_of_all(const MethodInUse<T>&, const GridMesh<T, Slot>&, const LoopRules&,   \
                                              std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*, \
                                              cudaStream_t)
 INSTANTIATE(float, std::int16_t);

@@ -32,7 +32,7 @@ struct BlockWork {
 
 /// Updates the marked vertices of one batch that this warp looks after. `list` is its own.
 template <class Update, class T, class Slot>
-__device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
+__device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
                              const SweepData<T, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
   // The words of a warp are far apart: what changes is often near to each other.
   const std::int64_t warps = static_cast<std::int64_t>(gridDim.x) * (threads / 32);
@@ -49,14 +49,14 @@ __device__ void sweep_marked(std::uint32_t* marks, bool all, std::int32_t begin,
       for (; listed - decided > (has_register_update<Update, T> ? few_for_teams : 0); decided += 32) {
         const int i = decided + lane;
         const std::int32_t v = i < listed ? list[i] : 0;
-        const bool left = visit<Update, true>(v, fetch_record(data.rings, v), i < listed, data, tally);
+        const bool left = visit<true>(method, v, fetch_record(data.rings, v), i < listed, data, tally);
         __syncwarp();
         left_over = added_to_list(list, left_over, left, v);
       }
       __syncwarp();
-      visit_by_teams<Update, true>(left_over, data, tally, [&](int i) { return list[i]; });
+      visit_by_teams<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
     }
-    visit_by_teams<Update, true>(listed - decided, data, tally, [&](int i) { return list[decided + i]; });
+    visit_by_teams<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
   }
 }
 
@@ -73,8 +73,8 @@ __device__ void swap_values(T& a, T& b) {
 constexpr unsigned field_bits = 16;
 
 template <class Update, class T, class Slot>
-__global__ void __launch_bounds__(threads, 1)
-    sweep_grid(GridMesh<T, Slot> mesh, LoopRules rules, LoopState* state, SweepSums* sums, BarrierWord* barriers) {
+__global__ void __launch_bounds__(threads, 1) sweep_grid(Update method, GridMesh<T, Slot> mesh, LoopRules rules,
+                                                         LoopState* state, SweepSums* sums, BarrierWord* barriers) {
   __shared__ BlockWork work;
   __shared__ std::int32_t lists[threads / 32][words_at_a_time * 32];
   std::int32_t stop = state->stop;
@@ -101,8 +101,8 @@ __global__ void __launch_bounds__(threads, 1)
     data.differs = looks ? &work.differs : nullptr;
     ThreadTally<T> tally;
     for (std::int32_t batch = 0; batch < rules.batch_count; ++batch) {
-      sweep_marked<Update>(marks, all, rules.batches[batch], rules.batches[batch + 1], data, lists[threadIdx.x / 32],
-                           tally);
+      sweep_marked(method, marks, all, rules.batches[batch], rules.batches[batch + 1], data, lists[threadIdx.x / 32],
+                   tally);
       if (batch + 1 < rules.batch_count) {
         grid_barrier(barriers++, 0, work.barrier_total, nothing);
       }
@@ -151,12 +151,14 @@ __global__ void __launch_bounds__(threads, 1)
 }
 
 template <class Update, class T, class Slot>
-void launch_with(const GridMesh<T, Slot>& mesh, const LoopRules& rules, std::int32_t largest_batch, LoopState* state,
-                 SweepSums* sums, BarrierWord* barriers, cudaStream_t stream) {
+void launch_with(const Update& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
+                 std::int32_t largest_batch, LoopState* state, SweepSums* sums, BarrierWord* barriers,
+                 cudaStream_t stream) {
   const int blocks = std::clamp(largest_batch / smallest_share, 1, multiprocessor_count());
+  Update method_argument = method;
   GridMesh<T, Slot> mesh_argument = mesh;
   LoopRules rules_argument = rules;
-  void* arguments[] = {&mesh_argument, &rules_argument, &state, &sums, &barriers};
+  void* arguments[] = {&method_argument, &mesh_argument, &rules_argument, &state, &sums, &barriers};
   const auto kernel = &sweep_grid<Update, T, Slot>;
   TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(
       reinterpret_cast<const void*>(kernel), dim3(static_cast<unsigned>(blocks)), dim3(threads), arguments, 0, stream));
@@ -169,17 +171,17 @@ std::size_t barrier_words(const LoopRules& rules) {
 }
 
 template <class T, class Slot>
-void launch_sweeps_of_marked(Method method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
+void launch_sweeps_of_marked(const MethodInUse<T>& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                              std::int32_t largest_batch, LoopState* state, SweepSums* sums,
                              unsigned long long* barriers, cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(Update) {
-    launch_with<Update>(mesh, rules, largest_batch, state, sums, barriers, stream);
+  visit_method(method, [&](const auto& update) {
+    launch_with(update, mesh, rules, largest_batch, state, sums, barriers, stream);
   });
 }
 
-#define INSTANTIATE(T, Slot)                                                                                          \
-  template void launch_sweeps_of_marked(Method, const GridMesh<T, Slot>&, const LoopRules&, std::int32_t, LoopState*, \
-                                        SweepSums*, unsigned long long*, cudaStream_t)
+#define INSTANTIATE(T, Slot)                                                                               \
+  template void launch_sweeps_of_marked(const MethodInUse<T>&, const GridMesh<T, Slot>&, const LoopRules&, \
+                                        std::int32_t, LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
 INSTANTIATE(float, std::int16_t);
 INSTANTIATE(float, std::int32_t);
 INSTANTIATE(double, std::int16_t);

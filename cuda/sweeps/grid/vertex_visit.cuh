@@ -57,22 +57,22 @@ __device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, cons
 
 /// The update of a vertex by one thread, its ring read from memory: for rings of any size.
 template <class Update, class T, class Slot>
-__device__ __noinline__ VertexMove<T> update_from_memory(std::int32_t v, Point2<T> position, PointArray<T> points,
-                                                         SlottedRingsView<Slot> rings) {
-  return update_over<Update>(position, ring_in_memory(points, rings, v));
+__device__ __noinline__ VertexMove<T> update_from_memory(Update method, std::int32_t v, Point2<T> position,
+                                                         PointArray<T> points, SlottedRingsView<Slot> rings) {
+  return update_over(method, v, position, ring_in_memory(points, rings, v));
 }
 
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
 /// Those that are not `active` do nothing. Exact for every ring.
-template <class Update, bool marks, class T, class Slot>
-__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const SweepData<T, Slot>& data,
-                                              ThreadTally<T>& tally) {
+template <bool marks, class Update, class T, class Slot>
+__device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t v, bool active,
+                                              const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
   const Point2<T> position = data.from.load(v);
   const SlottedRing<Slot> numbers = data.rings.ring(v);
   const int size = active ? data.rings.ring_size(v) : 0;
   const VertexMove<T> result = evaluate_by_team<Update>(
       position, size, [&](int i) { return data.from.load(numbers[i]); },
-      [&] { return update_from_memory<Update>(v, position, data.from, data.rings); });
+      [&] { return update_from_memory(method, v, position, data.from, data.rings); });
   __syncwarp();  // all threads of the team have read the position that is written now
   if (active && team_lane() == 0) {
     settle(v, result.move, data);
@@ -95,8 +95,8 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
 /// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
 /// marks the vertex itself for the next sweep.
-template <class Update, bool marks, class T, class Slot>
-__device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& record, bool active,
+template <bool marks, class Update, class T, class Slot>
+__device__ __forceinline__ bool visit(const Update& method, std::int32_t v, const RingRecord<Slot>& record, bool active,
                                       const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
   // Asked for first: it arrives together with the ring.
   const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
@@ -109,7 +109,7 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
     if (size == 0) {
       return active;
     }
-    if (!try_update(Update{}, position, ring, result)) {
+    if (!try_update(method, position, ring, result)) {
       return true;
     }
   } else {
@@ -117,7 +117,7 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
       return false;
     }
     size = record.ring_size();
-    result = update_from_memory<Update>(v, position, data.from, data.rings);
+    result = update_from_memory(method, v, position, data.from, data.rings);
   }
   settle(v, result.move, data);
   if (result.move.moved) {
@@ -134,13 +134,13 @@ __device__ __forceinline__ bool visit(std::int32_t v, const RingRecord<Slot>& re
 }
 
 /// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
-template <class Update, bool marks, class T, class Slot, class Vertex>
-__device__ __forceinline__ void visit_by_teams(int count, const SweepData<T, Slot>& data, ThreadTally<T>& tally,
-                                               const Vertex& vertex) {
+template <bool marks, class Update, class T, class Slot, class Vertex>
+__device__ __forceinline__ void visit_by_teams(const Update& method, int count, const SweepData<T, Slot>& data,
+                                               ThreadTally<T>& tally, const Vertex& vertex) {
   if constexpr (has_register_update<Update, T>) {
     for (int base = 0; base < count; base += teams) {
       const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
-      visit_by_team<Update, marks>(vertex(i < count ? i : 0), i < count, data, tally);
+      visit_by_team<marks>(method, vertex(i < count ? i : 0), i < count, data, tally);
     }
   }
 }

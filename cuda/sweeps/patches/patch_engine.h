@@ -19,9 +19,9 @@ class PatchEngine {
   using Points = PointArray<T>;
   static constexpr bool may_be_followed = true;
 
-  PatchEngine(Context& context, const VertexOrder& order, PatchedRings rings, Method method)
+  PatchEngine(Context& context, const VertexOrder& order, PatchedRings rings, const SmoothingOptions& options)
       : context_(&context),
-        method_(method),
+        method_(options.method),
         free_count_(order.free_count()),
         rings_(std::move(rings)),
         shared_bytes_(patch_bytes<T>(rings_.patches, rings_.form == Form::swap)) {
@@ -37,8 +37,9 @@ class PatchEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
-  void begin() { moved_[0].fill_bytes(1); }
-  std::int64_t sweep(const LoopRules& rules, LoopState* state, SweepSums* sums) {
+  void begin() {}
+  void begin_stage() { moved_[0].fill_bytes(1); }
+  std::int64_t sweep(const MeanRatioStep<T>& /*step*/, const LoopRules& rules, LoopState* state, SweepSums* sums) {
     const std::size_t groups = static_cast<std::size_t>(rules.sweeps);
     if (words_.size() < 2 * groups) {
       words_ = DeviceBuffer<unsigned long long>(*context_, 2 * groups);

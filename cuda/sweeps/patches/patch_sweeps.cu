@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
@@ -262,6 +264,10 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   }
 }
 
+/// A method that knows of a vertex no more than where its neighbours are: patches have numbers of their own.
+template <class Update>
+constexpr bool fits_patches = std::is_empty_v<Update>;
+
 template <class Update, class T, bool swaps>
 void launch_with(const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes, std::int32_t free_count,
                  LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found,
@@ -285,11 +291,13 @@ template <class T>
 void launch_patch_sweeps(Method method, const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes,
                          std::int32_t free_count, LoopState* state, SweepSums* sums, unsigned long long* barriers,
                          unsigned long long* found, cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(Update) {
-    if (rules.swaps) {
-      launch_with<Update, T, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
-    } else {
-      launch_with<Update, T, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+  visit_method(MethodInUse<T>{method}, [&]<class Update>(const Update&) {
+    if constexpr (fits_patches<Update>) {
+      if (rules.swaps) {
+        launch_with<Update, T, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+      } else {
+        launch_with<Update, T, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+      }
     }
   });
 }

@@ -84,7 +84,7 @@ __device__ __forceinline__ void mark_moved(std::int32_t v, const PatchSweep<T>& 
 /// The update of a vertex by one thread, for rings of any size.
 template <class Update, class T>
 __device__ __noinline__ VertexMove<T> update_alone(Point2<T> position, RingInPatch<T> ring) {
-  return update_over<Update>(position, ring);
+  return update_over(Update{}, 0, position, ring);
 }
 
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
