@@ -31,6 +31,7 @@ struct Settings {
   std::vector<std::int64_t> vertices{100'000, 1'000'000};
   std::vector<int> threads{1, 2};
   std::string method = "smart";
+  std::string boundary = "random";
   std::string form = "b";
   std::string precision = "double";
   std::string evaluation = "changed";
@@ -122,7 +123,8 @@ double bench_smoothing(const RandomMesh& mesh, const Settings& settings, int thr
 
 void bench_mesh(std::int64_t vertices, const Settings& settings) {
   RandomMesh mesh;
-  const double generating = milliseconds([&] { mesh = random_delaunay_mesh(vertices, 1); });
+  const double generating = milliseconds(
+      [&] { mesh = random_delaunay_mesh(vertices, 1, {parse_enum<GeneratedBoundary>(settings.boundary)}); });
   fmt::print("{} vertices, {} triangles, generated in {:.0f} ms\n", mesh.points.size(), mesh.triangles.size(),
              generating);
   bench_topology(mesh, settings.runs);
@@ -143,6 +145,7 @@ int run(int argc, char** argv) {
   app.add_option("--vertices", settings.vertices, "mesh sizes")->capture_default_str();
   app.add_option("--threads", settings.threads, "numbers of threads")->capture_default_str();
   app.add_option("--method", settings.method)->capture_default_str();
+  app.add_option("--boundary", settings.boundary, "of the meshes: random, resolved")->capture_default_str();
   app.add_option("--form", settings.form)->capture_default_str();
   app.add_option("--precision", settings.precision)->capture_default_str();
   app.add_option("--evaluation", settings.evaluation, "changed, or all: every vertex in every sweep")

@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
   app.add_option("--forms", settings.forms, "of all but full-sweeps, which is Form A")->capture_default_str();
   app.add_option("--precisions", settings.precisions)->capture_default_str();
   app.add_option("--method", settings.method)->capture_default_str();
+  app.add_option("--boundary", settings.boundary, "of the meshes: random, resolved")->capture_default_str();
   app.add_option("--topology", settings.topology, "halfedge, device, or auto: device from 4,000,000 vertices on")
       ->capture_default_str();
   app.add_option("--evaluation", settings.evaluation, "changed, or all: every vertex in every sweep")

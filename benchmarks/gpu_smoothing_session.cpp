@@ -80,8 +80,12 @@ std::vector<std::int64_t> Session::sizes(std::initializer_list<std::int64_t> of_
 
 const RandomMesh& Session::mesh(std::int64_t vertices) {
   const auto found = meshes_.find(vertices);
-  return found != meshes_.end() ? found->second
-                                : meshes_.emplace(vertices, random_delaunay_mesh(vertices, 1)).first->second;
+  return found != meshes_.end()
+             ? found->second
+             : meshes_
+                   .emplace(vertices,
+                            random_delaunay_mesh(vertices, 1, {parse_enum<GeneratedBoundary>(settings_.boundary)}))
+                   .first->second;
 }
 
 SmoothingOptions Session::options(const std::string& execution, const std::string& layout, const std::string& form,

@@ -28,6 +28,7 @@ struct Settings {
   std::vector<std::string> forms{"a", "b"};
   std::vector<std::string> precisions{"single", "double"};
   std::string method = "smart";
+  std::string boundary = "random";
   std::string topology = "auto";
   std::string evaluation = "changed";
   std::int64_t max_sweeps = 1000;

@@ -248,7 +248,7 @@ class Table {
   void all_of(TestMesh& mesh, std::int64_t max_sweeps) {
     SmoothingOptions options;
     options.max_sweeps = max_sweeps;
-    for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
+    for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         options.method = method;
         options.precision = precision;

@@ -113,7 +113,7 @@ void check_against_reference(const Mesh& mesh, SmoothingOptions options) {
   }
 }
 
-constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted};
+constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
 constexpr Form forms[] = {Form::swap, Form::in_place};
 constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
 
