@@ -40,6 +40,7 @@ class DeviceStages {
       : stages_(options, free_count), left_(stages_.sweeps()) {}
 
   bool is_last() const { return stages_.is_last(); }
+  std::int64_t few_moves() const { return stages_.few_moves(); }
   template <class T>
   MeanRatioStep<T> step() const {
     return stages_.step<T>();
@@ -276,7 +277,8 @@ class SweepDriver final : public DeviceSmoother {
   }
 
   /// Queues more sweeps from where host_record_ says.
-  void launch(const DeviceStages& stages, const LoopRules& loop, SmoothingResult& result) {
+  void launch(const DeviceStages& stages, LoopRules loop, SmoothingResult& result) {
+    loop.few_moves = stages.few_moves();
     LoopState next = host_record_.state;
     next.sweeps = 0;
     next.stop = LoopState::running;

@@ -14,6 +14,7 @@ namespace trismooth {
 enum class StopReason : std::uint8_t {
   fixed_point,     ///< no vertex moved in the last sweep
   tolerance,       ///< every move of the last sweep was within the tolerance
+  few_moves,       ///< so few vertices still moved that nothing is left to gain (the mean-ratio method)
   sweep_limit,     ///< max_sweeps were done
   time_limit,      ///< the time was up
   quality_target,  ///< the smallest shape reached the target
@@ -23,9 +24,10 @@ enum class StopReason : std::uint8_t {
 template <>
 struct EnumText<StopReason> {
   static constexpr std::string_view what = "stop reason";
-  static constexpr std::array<std::pair<StopReason, std::string_view>, 6> texts{
+  static constexpr std::array<std::pair<StopReason, std::string_view>, 7> texts{
       {{StopReason::fixed_point, "fixed_point"},
        {StopReason::tolerance, "tolerance"},
+       {StopReason::few_moves, "few_moves"},
        {StopReason::sweep_limit, "sweep_limit"},
        {StopReason::time_limit, "time_limit"},
        {StopReason::quality_target, "quality_target"},

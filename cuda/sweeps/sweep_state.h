@@ -28,6 +28,7 @@ struct LoopRules {
   bool measures_shape;          ///< fill SweepSums::min_quotient
   double tolerance;             ///< of SmoothingOptions
   double target;                ///< quality target, or no_target
+  std::int64_t few_moves;       ///< Stages::few_moves()
   double fixed_quotient;        ///< smallest quotient of the triangles without a free vertex
   std::int32_t sweeps;          ///< at most so many before the host is asked; no more than there are SweepSums
   std::int64_t remaining;       ///< sweeps until the limit, those of this launch among them; 0: no limit
@@ -64,8 +65,8 @@ TRISMOOTH_HOST_DEVICE inline double min_shape_after(const SweepSums& sums, const
 /// A StopReason, or LoopState::running.
 TRISMOOTH_HOST_DEVICE inline std::int32_t stop_after(const SweepSums& sums, const LoopRules& rules) {
   const double min_shape = rules.measures_shape ? min_shape_after(sums, rules) : no_target;
-  const auto reason =
-      reason_in_sweep(static_cast<std::int64_t>(sums.moved), sums.beyond_tolerance == 0, min_shape, rules.target);
+  const auto reason = reason_in_sweep(static_cast<std::int64_t>(sums.moved), sums.beyond_tolerance == 0,
+                                      rules.few_moves, min_shape, rules.target);
   return reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
 }
 

@@ -150,6 +150,8 @@ std::string_view describe(StopReason reason) {
       return "no vertex moved any more";
     case StopReason::tolerance:
       return "every move was within the tolerance";
+    case StopReason::few_moves:
+      return "few moves: nothing is left to gain";
     case StopReason::sweep_limit:
       return "the sweep limit was reached";
     case StopReason::time_limit:

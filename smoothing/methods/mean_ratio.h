@@ -47,7 +47,7 @@ constexpr TRISMOOTH_HOST_DEVICE T share_of_error(T doubled_area, T squares) {
 /// optimization using the inverse mean-ratio metric"), which is 1 / alpha, with a term that keeps sizes. The energy of
 /// a vertex is the sum over its triangles of
 ///
-///     alpha^-p / p + lambda / 3 (tau + 1 / tau),     tau = area / (area aimed at)
+///     alpha^-p + p lambda / 3 (tau + 1 / tau),     tau = area / (area aimed at)
 ///
 /// Each term is convex where the triangle is positive, so a ring has one minimum. A visit makes one Newton step with
 /// the 2 x 2 Hessian in closed form: over-relaxed first, then Newton's own, then halves of it, until the energy is
@@ -64,37 +64,55 @@ class MeanRatio {
   /// ring.number(i): the packed number of neighbour i.
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const {
+    const Attempt attempt = try_update(v, position, ring);
+    return attempt.decided ? attempt.move : SmartLaplacian::update(position, ring);
+  }
+
+  /// A move, unless there is no energy.
+  struct Attempt {
+    bool decided;
+    Move<T> move;
+  };
+
+  /// The ring may also be one that holds the inverse areas of its neighbours, and has a function for_sides(visit) that
+  /// calls visit(a, b, inverse area of a, inverse area of b) for its sides (a, b) in ring order.
+  template <class Ring>
+  constexpr TRISMOOTH_HOST_DEVICE Attempt try_update(std::int32_t v, Point2<T> position, const Ring& ring) const {
     const MeanRatioScales<T> scales = *targets_.scales;
-    const int power = step_.is_last ? scales.power : 1;
+    const Energy energy{step_.is_last ? scales.power : 1, scales.size_weight};
     Expansion at{};
     bool positive = true;
     for_triangles(v, position, ring, [&](const Triangle& t) {
       positive &= t.doubled_area > T(0);
-      at.add(t, power, scales.size_weight);
+      at.add(t, energy);
     });
     if (!positive) {
-      return SmartLaplacian::update(position, ring);
+      return {false, stay(position)};
     }
-    const T determinant = at.xx * at.yy - at.xy * at.xy;
-    const Point2<T> newton{(at.xy * at.y - at.yy * at.x) / determinant, (at.xy * at.x - at.xx * at.y) / determinant};
-    // Half of this is what a Newton step gains where the energy is quadratic.
-    const T gain = -(newton.x * at.x + newton.y * at.y);
-    if (!(determinant > T(0)) || !(gain > step_.least_gain * at.energy)) {
-      return stay(position);
+    const T inverse = T(1) / (at.xx * at.yy - at.xy * at.xy);
+    const Point2<T> newton{inverse * (at.xy * at.y - at.yy * at.x), inverse * (at.xy * at.x - at.xx * at.y)};
+    // Half of this is what a Newton step gains where the energy is quadratic. (The expansion is that of the energy
+    // divided by the power.)
+    const T gain = -static_cast<T>(energy.power) * (newton.x * at.x + newton.y * at.y);
+    if (!(inverse > T(0)) || !(gain > step_.least_gain * at.energy)) {
+      return {true, stay(position)};
     }
     T length = step_.relaxation;
     for (int tries = 0; tries < most_tries; ++tries) {
       const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
-      if (is_accepted(v, position, target, ring, at.energy, power, scales.size_weight)) {
-        return move_to(position, target);
+      if (is_accepted(v, position, target, ring, at.energy, energy)) {
+        return {true, move_to(position, target)};
       }
       length = length > T(1) ? T(1) : length * T(0.5);
     }
-    return stay(position);
+    return {true, stay(position)};
   }
 
+  /// MeanRatioTargets::inverse_areas of a vertex.
+  constexpr TRISMOOTH_HOST_DEVICE T inverse_area(std::int32_t v) const { return targets_.inverse_areas[v]; }
+
  private:
-  static constexpr int most_tries = 8;
+  static constexpr int most_tries = 4;
 
   /// A triangle (v, a, b) seen from v.
   struct Triangle {
@@ -136,12 +154,17 @@ class MeanRatio {
     return result;
   }
 
-  static constexpr TRISMOOTH_HOST_DEVICE T energy_of(const typename Triangle::Terms& terms, const Power& below,
-                                                     int power, T size_weight) {
-    return below.value * terms.ratio / static_cast<T>(power) + size_weight * (terms.tau + terms.inverse_tau);
-  }
+  /// The energy's parameters.
+  struct Energy {
+    int power;
+    T size_weight;
 
-  /// The energy around a vertex with its first and second derivatives.
+    constexpr TRISMOOTH_HOST_DEVICE T of(const typename Triangle::Terms& terms, const Power& below) const {
+      return below.value * terms.ratio + static_cast<T>(power) * size_weight * (terms.tau + terms.inverse_tau);
+    }
+  };
+
+  /// The energy around a vertex, and the first and second derivatives of its part by the power.
   struct Expansion {
     T energy;
     T x;
@@ -150,7 +173,7 @@ class MeanRatio {
     T xy;
     T yy;
 
-    constexpr TRISMOOTH_HOST_DEVICE void add(const Triangle& t, int power, T size_weight) {
+    constexpr TRISMOOTH_HOST_DEVICE void add(const Triangle& t, const Energy& of) {
       const typename Triangle::Terms terms = t.terms();
       // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
       const T area_x = -t.c.y * terms.inverse;
@@ -162,12 +185,12 @@ class MeanRatio {
       const T ratio_xx = curvature - T(2) * ratio_x * area_x;
       const T ratio_yy = curvature - T(2) * ratio_y * area_y;
       const T ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
-      const Power below = power_below(terms.ratio, power);
+      const Power below = power_below(terms.ratio, of.power);
       const T first = below.value;
       const T second = below.slope;
-      const T size_first = size_weight * (terms.tau - terms.inverse_tau);
-      const T size_second = T(2) * size_weight * terms.inverse_tau;
-      energy += energy_of(terms, below, power, size_weight);
+      const T size_first = of.size_weight * (terms.tau - terms.inverse_tau);
+      const T size_second = T(2) * of.size_weight * terms.inverse_tau;
+      energy += of.of(terms, below);
       x += first * ratio_x + size_first * area_x;
       y += first * ratio_y + size_first * area_y;
       xx += first * ratio_xx + second * ratio_x * ratio_x + size_second * area_x * area_x;
@@ -200,20 +223,40 @@ class MeanRatio {
     return {scale * (b.x * c.x + b.y * c.y), scale * -(a.x * c.x + a.y * c.y), scale * (a.x * b.x + a.y * b.y)};
   }
 
+  /// Calls visit(a, b, inverse area of a, inverse area of b, number of a, number of b) for the sides of a ring; the
+  /// numbers are 0 where the ring does not know them, and the shapes to be aimed at do not need them.
+  template <class Ring, class Visit>
+  constexpr TRISMOOTH_HOST_DEVICE void for_sides(const Ring& ring, const Visit& visit) const {
+    const auto without_numbers = [&](Point2<T> a, Point2<T> b, T of_a, T of_b) { visit(a, b, of_a, of_b, 0, 0); };
+    if constexpr (requires { ring.for_sides(without_numbers); }) {
+      ring.for_sides(without_numbers);
+    } else {
+      const int size = ring.size();
+      const std::int32_t first_number = ring.number(0);
+      const Point2<T> first = ring[0];
+      const T first_area = inverse_area(first_number);
+      std::int32_t number = first_number;
+      Point2<T> neighbour = first;
+      T area = first_area;
+      for (int i = 1; i <= size; ++i) {
+        const bool closes = i == size;
+        const std::int32_t next_number = closes ? first_number : ring.number(i);
+        const Point2<T> next = closes ? first : ring[i];
+        const T next_area = closes ? first_area : inverse_area(next_number);
+        visit(neighbour, next, area, next_area, number, next_number);
+        number = next_number;
+        neighbour = next;
+        area = next_area;
+      }
+    }
+  }
+
   /// Calls visit(triangle) for the triangles of v as they are where v is at `position`.
   template <class Ring, class Visit>
   constexpr TRISMOOTH_HOST_DEVICE void for_triangles(std::int32_t v, Point2<T> position, const Ring& ring,
                                                      const Visit& visit) const {
-    const int size = ring.size();
-    const T own = targets_.inverse_areas[v];
-    const Point2<T> first = ring[0];
-    const T first_target = targets_.inverse_areas[ring.number(0)];
-    Point2<T> neighbour = first;
-    T target = first_target;
-    for (int i = 0; i < size; ++i) {
-      const bool closes = i + 1 == size;
-      const Point2<T> next = closes ? first : ring[i + 1];
-      const T next_target = closes ? first_target : targets_.inverse_areas[ring.number(i + 1)];
+    const T own = inverse_area(v);
+    for_sides(ring, [&](Point2<T> neighbour, Point2<T> next, T of_a, T of_b, std::int32_t na, std::int32_t nb) {
       const Point2<T> a = neighbour - position;
       const Point2<T> b = next - position;
       const Point2<T> c = next - neighbour;
@@ -226,9 +269,9 @@ class MeanRatio {
                         a.y + b.y,
                         T(2),
                         share_of_error(area, squares),
-                        T(1) / T(3) * (own + target + next_target)};
+                        T(1) / T(3) * (own + of_a + of_b)};
       if constexpr (shaped) {
-        const EdgeWeights weights = reference_weights(v, ring.number(i), ring.number(closes ? 0 : i + 1));
+        const EdgeWeights weights = reference_weights(v, na, nb);
         triangle.squares =
             weights.a * squared_length(a) + weights.b * squared_length(b) + weights.c * squared_length(c);
         triangle.pull_x = weights.a * a.x + weights.b * b.x;
@@ -236,25 +279,23 @@ class MeanRatio {
         triangle.stiffness = weights.a + weights.b;
       }
       visit(triangle);
-      neighbour = next;
-      target = next_target;
-    }
+    });
   }
 
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE bool is_accepted(std::int32_t v, Point2<T> position, Point2<T> target,
-                                                   const Ring& ring, T energy_before, int power, T size_weight) const {
+                                                   const Ring& ring, T energy_before, const Energy& energy) const {
     const T largest = targets_.largest_shares[v];
-    T energy = 0;
+    T after = 0;
     bool positive = true;
     bool grows = false;
     for_triangles(v, target, ring, [&](const Triangle& t) {
       const typename Triangle::Terms terms = t.terms();
       positive &= t.doubled_area > T(0);
       grows |= t.share > largest;
-      energy += energy_of(terms, power_below(terms.ratio, power), power, size_weight);
+      after += energy.of(terms, power_below(terms.ratio, energy.power));
     });
-    return positive & (energy < energy_before) && !(grows && grows_beyond(largest, position, target, ring));
+    return positive & (after < energy_before) && !(grows && grows_beyond(largest, position, target, ring));
   }
 
   /// Whether a triangle whose share is above the bound would get a larger one than it has.
@@ -262,13 +303,10 @@ class MeanRatio {
   constexpr TRISMOOTH_HOST_DEVICE bool grows_beyond(T largest, Point2<T> position, Point2<T> target,
                                                     const Ring& ring) const {
     bool grows = false;
-    Point2<T> neighbour = ring[ring.size() - 1];
-    for (int i = 0; i < ring.size(); ++i) {
-      const Point2<T> next = ring[i];
-      const T now = share_at(target, neighbour, next);
-      grows |= now > largest && now > share_at(position, neighbour, next);
-      neighbour = next;
-    }
+    for_sides(ring, [&](Point2<T> a, Point2<T> b, T /*of_a*/, T /*of_b*/, std::int32_t /*na*/, std::int32_t /*nb*/) {
+      const T now = share_at(target, a, b);
+      grows |= now > largest && now > share_at(position, a, b);
+    });
     return grows;
   }
   static constexpr TRISMOOTH_HOST_DEVICE T share_at(Point2<T> v, Point2<T> a, Point2<T> b) {

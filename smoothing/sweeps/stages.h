@@ -9,7 +9,8 @@ namespace trismooth {
 
 /// The stages of a smoothing, one after the other: the mean-ratio method has two, the others have one that lasts to the
 /// stop. A stage begins with a sweep over all vertices. Where a sweep moves nothing, or nothing beyond the tolerance, a
-/// stage is over; the smoothing is if that was the last.
+/// stage is over; the smoothing is if that was the last. In the last stage of the mean-ratio method so is one that
+/// moves next to nothing: what is left to gain then is in the last digits.
 ///
 /// The first stage of the mean-ratio method minimises the inverse mean ratio itself, which brings vertices where they
 /// belong soonest, the last one a power of it, which sees to the worst triangles. The first lasts ten
@@ -28,6 +29,8 @@ class Stages {
   bool is_last() const { return is_last_; }
   /// Sweeps after which next() is to be asked; 0: it lasts to the stop.
   std::int64_t sweeps() const { return is_last_ ? 0 : sweeps_of_first; }
+  /// Where no more vertices move than so many the stage is over. Other methods go on until nothing moves.
+  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 300 : 0; }
   /// What the mean-ratio method does now.
   template <class T>
   MeanRatioStep<T> step() const {

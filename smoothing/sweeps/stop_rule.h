@@ -13,13 +13,18 @@ namespace trismooth {
 /// A quality target that is never reached: no target.
 inline constexpr double no_target = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether a sweep says that the stage of the smoothing is over, and with the last stage the smoothing.
-constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> settled_in_sweep(std::int64_t moved, bool within_tolerance) {
+/// Whether a sweep says that the stage of the smoothing is over, and with the last stage the smoothing. `few_moves`:
+/// Stages::few_moves().
+constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> settled_in_sweep(std::int64_t moved, bool within_tolerance,
+                                                                           std::int64_t few_moves) {
   if (moved == 0) {
     return StopReason::fixed_point;
   }
   if (within_tolerance) {
     return StopReason::tolerance;
+  }
+  if (moved <= few_moves) {
+    return StopReason::few_moves;
   }
   return std::nullopt;
 }
@@ -28,8 +33,9 @@ constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> settled_in_sweep(std::
 /// order. Sweep limit, time limit and cancellation come after these. `min_shape` is the smallest shape after the sweep,
 /// NaN where it was not measured.
 constexpr TRISMOOTH_HOST_DEVICE std::optional<StopReason> reason_in_sweep(std::int64_t moved, bool within_tolerance,
-                                                                          double min_shape, double target) {
-  if (const auto settled = settled_in_sweep(moved, within_tolerance)) {
+                                                                          std::int64_t few_moves, double min_shape,
+                                                                          double target) {
+  if (const auto settled = settled_in_sweep(moved, within_tolerance, few_moves)) {
     return settled;
   }
   if (min_shape >= target) {

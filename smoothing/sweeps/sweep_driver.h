@@ -94,7 +94,7 @@ class SweepDriver {
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
-      const auto settled = settled_in_sweep(tally.moved, tally.within_tolerance);
+      const auto settled = settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves());
       const auto reason = reason_to_stop(stages.is_last() ? settled : std::nullopt, record, watch);
       if (reason || settled || sweep_of_stage == stages.sweeps()) {
         return reason;

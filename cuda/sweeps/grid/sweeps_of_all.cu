@@ -83,7 +83,7 @@ __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces&
       first = next_first;
     } while (listed < enough_left_over && first < pieces.end);
     __syncwarp();
-    visit_by_teams<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
+    visit_left_over<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
     __syncwarp();
   }
 }

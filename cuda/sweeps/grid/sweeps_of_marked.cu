@@ -54,9 +54,9 @@ __device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool al
         left_over = added_to_list(list, left_over, left, v);
       }
       __syncwarp();
-      visit_by_teams<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
+      visit_left_over<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
     }
-    visit_by_teams<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
+    visit_left_over<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
   }
 }
 
@@ -67,10 +67,12 @@ __device__ void swap_values(T& a, T& b) {
   b = old;
 }
 
-/// The decision after a sweep needs no more of the sums than whether a block saw a move, one beyond the tolerance, and
-/// a vertex that is elsewhere than two sweeps before: the blocks tell each other at the sweep's last barrier. Counts of
-/// blocks, in 16 bits each.
-constexpr unsigned field_bits = 16;
+/// The decision after a sweep needs no more of the sums than how many vertices moved, and whether a block saw a move
+/// beyond the tolerance, and a vertex that is elsewhere than two sweeps before: the blocks tell each other at the
+/// sweep's last barrier. In the lowest 32 bits the moves, in 8 bits each the counts of blocks.
+constexpr unsigned move_bits = 32;
+constexpr unsigned block_bits = 8;
+constexpr int most_blocks = (1 << block_bits) - 1;
 
 template <class Update, class T, class Slot>
 __global__ void __launch_bounds__(threads, 1) sweep_grid(Update method, GridMesh<T, Slot> mesh, LoopRules rules,
@@ -109,9 +111,9 @@ __global__ void __launch_bounds__(threads, 1) sweep_grid(Update method, GridMesh
     }
     join_in_block(tally, work.sums);
     __syncthreads();
-    const unsigned long long contribution = (work.sums.moved > 0 ? 1ULL : 0ULL) +
-                                            (work.sums.beyond_tolerance > 0 ? 1ULL << field_bits : 0ULL) +
-                                            (!looks || work.differs != 0 ? 1ULL << (2 * field_bits) : 0ULL);
+    const unsigned long long contribution = work.sums.moved +
+                                            (work.sums.beyond_tolerance > 0 ? 1ULL << move_bits : 0ULL) +
+                                            (!looks || work.differs != 0 ? 1ULL << (move_bits + block_bits) : 0ULL);
     const unsigned long long found = grid_barrier(barriers++, contribution, work.barrier_total, [&] {
       add_block(work.sums, &sums[sweep]);
       work.sums = SweepSums{};
@@ -129,13 +131,15 @@ __global__ void __launch_bounds__(threads, 1) sweep_grid(Update method, GridMesh
       grid_barrier(barriers++, 0, work.barrier_total, nothing);
       min_shape = min_shape_after(sums[sweep], rules);
     }
-    constexpr unsigned long long field = (1ULL << field_bits) - 1;
+    constexpr unsigned long long move_field = (1ULL << move_bits) - 1;
+    constexpr unsigned long long block_field = (1ULL << block_bits) - 1;
     const auto reason =
-        reason_in_sweep((found & field) != 0 ? 1 : 0, (found >> field_bits & field) == 0, min_shape, rules.target);
+        reason_in_sweep(static_cast<std::int64_t>(found & move_field), (found >> move_bits & block_field) == 0,
+                        rules.few_moves, min_shape, rules.target);
     stop = reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
     ++sweep;
     // Twice, so that the last two sweeps evaluated what all further ones will.
-    repeats = found >> (2 * field_bits) == 0 ? repeats + 1 : 0;
+    repeats = found >> (move_bits + block_bits) == 0 ? repeats + 1 : 0;
     if (stop == LoopState::running && repeats >= 2) {
       stop = LoopState::repeating;
       current = (rules.remaining - sweep) % 2 == 0 ? current : 1 - current;
@@ -154,7 +158,7 @@ template <class Update, class T, class Slot>
 void launch_with(const Update& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                  std::int32_t largest_batch, LoopState* state, SweepSums* sums, BarrierWord* barriers,
                  cudaStream_t stream) {
-  const int blocks = std::clamp(largest_batch / smallest_share, 1, multiprocessor_count());
+  const int blocks = std::clamp(largest_batch / smallest_share, 1, std::min(multiprocessor_count(), most_blocks));
   Update method_argument = method;
   GridMesh<T, Slot> mesh_argument = mesh;
   LoopRules rules_argument = rules;

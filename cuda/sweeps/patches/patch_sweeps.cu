@@ -137,7 +137,7 @@ constexpr unsigned beyond_shift = 32;
 __device__ std::int32_t stop_in_group(unsigned long long found, std::int32_t sweep) {
   const bool moved = (found >> static_cast<unsigned>(sweep) & 1) != 0;
   const bool beyond = (found >> (beyond_shift + static_cast<unsigned>(sweep)) & 1) != 0;
-  const auto reason = reason_in_sweep(moved ? 1 : 0, !beyond, no_target, no_target);
+  const auto reason = reason_in_sweep(moved ? 1 : 0, !beyond, 0, no_target, no_target);
   return reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
 }
 
