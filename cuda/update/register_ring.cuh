@@ -42,12 +42,11 @@ struct RegisterRing {
 inline constexpr int largest_register_ring = 12;
 
 /// Fetches the ring with this record into registers. All threads of the warp call it; those that are not `active`, or
-/// whose ring is longer than the capacity, fetch nothing: their ring has size 0. Calls also(place, number) for each
-/// place that is fetched.
-template <class T, int capacity, class Slot, class Also>
+/// whose ring is longer than the capacity, fetch nothing: their ring has size 0.
+template <class T, int capacity, class Slot>
 __device__ __forceinline__ void fetch_ring(std::int32_t v, const RingRecord<Slot>& record, bool active,
                                            const std::int32_t* long_rings, const PointArray<T>& points,
-                                           RegisterRing<T, capacity>& ring, const Also& also) {
+                                           RegisterRing<T, capacity>& ring) {
   constexpr int smallest = RegisterRing<T, capacity>::smallest;
   constexpr int slots = RingRecord<Slot>::slots;
   const bool is_long = record.is_long();
@@ -57,19 +56,15 @@ __device__ __forceinline__ void fetch_ring(std::int32_t v, const RingRecord<Slot
   if (ring.size == 0) {
     return;
   }
-  const auto fetch = [&](auto i, std::int32_t number) {
-    ring.neighbours[i] = points.load(number);
-    also(i, number);
-  };
   // One place more than the longest ring has: where it is closed.
   if (!is_long) {
     const std::int32_t origin = sizeof(Slot) == 2 ? v : 0;
-    unrolled<capacity, smallest + 1>(ring.longest + 1,
-                                     [&](auto i) { fetch(i, origin + record.slot(i < slots ? i() : 0)); });
+    unrolled<capacity, smallest + 1>(
+        ring.longest + 1, [&](auto i) { ring.neighbours[i] = points.load(origin + record.slot(i < slots ? i() : 0)); });
   } else {
     const std::int32_t* const neighbours = long_rings + record.long_begin();
-    unrolled<capacity, smallest + 1>(ring.longest + 1,
-                                     [&](auto i) { fetch(i, __ldg(neighbours + (i < size ? i() : 0))); });
+    unrolled<capacity, smallest + 1>(
+        ring.longest + 1, [&](auto i) { ring.neighbours[i] = points.load(__ldg(neighbours + (i < size ? i() : 0))); });
   }
 }
 

@@ -64,20 +64,6 @@ class MeanRatio {
   /// ring.number(i): the packed number of neighbour i.
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const {
-    const Attempt attempt = try_update(v, position, ring);
-    return attempt.decided ? attempt.move : SmartLaplacian::update(position, ring);
-  }
-
-  /// A move, unless there is no energy.
-  struct Attempt {
-    bool decided;
-    Move<T> move;
-  };
-
-  /// The ring may also be one that holds the inverse areas of its neighbours, and has a function for_sides(visit) that
-  /// calls visit(a, b, inverse area of a, inverse area of b) for its sides (a, b) in ring order.
-  template <class Ring>
-  constexpr TRISMOOTH_HOST_DEVICE Attempt try_update(std::int32_t v, Point2<T> position, const Ring& ring) const {
     const MeanRatioScales<T> scales = *targets_.scales;
     const Energy energy{step_.is_last ? scales.power : 1, scales.size_weight};
     Expansion at{};
@@ -87,7 +73,7 @@ class MeanRatio {
       at.add(t, energy);
     });
     if (!positive) {
-      return {false, stay(position)};
+      return SmartLaplacian::update(position, ring);
     }
     const T inverse = T(1) / (at.xx * at.yy - at.xy * at.xy);
     const Point2<T> newton{inverse * (at.xy * at.y - at.yy * at.x), inverse * (at.xy * at.x - at.xx * at.y)};
@@ -95,21 +81,18 @@ class MeanRatio {
     // divided by the power.)
     const T gain = -static_cast<T>(energy.power) * (newton.x * at.x + newton.y * at.y);
     if (!(inverse > T(0)) || !(gain > step_.least_gain * at.energy)) {
-      return {true, stay(position)};
+      return stay(position);
     }
     T length = step_.relaxation;
     for (int tries = 0; tries < most_tries; ++tries) {
       const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
       if (is_accepted(v, position, target, ring, at.energy, energy)) {
-        return {true, move_to(position, target)};
+        return move_to(position, target);
       }
       length = length > T(1) ? T(1) : length * T(0.5);
     }
-    return {true, stay(position)};
+    return stay(position);
   }
-
-  /// MeanRatioTargets::inverse_areas of a vertex.
-  constexpr TRISMOOTH_HOST_DEVICE T inverse_area(std::int32_t v) const { return targets_.inverse_areas[v]; }
 
  private:
   static constexpr int most_tries = 4;
@@ -223,43 +206,43 @@ class MeanRatio {
     return {scale * (b.x * c.x + b.y * c.y), scale * -(a.x * c.x + a.y * c.y), scale * (a.x * b.x + a.y * b.y)};
   }
 
-  /// Calls visit(a, b, inverse area of a, inverse area of b, number of a, number of b) for the sides of a ring; the
-  /// numbers are 0 where the ring does not know them, and the shapes to be aimed at do not need them.
+  /// What is read of a neighbour.
+  struct Neighbour {
+    std::int32_t number;
+    Point2<T> position;
+    T inverse_area;
+  };
+  template <class Ring>
+  constexpr TRISMOOTH_HOST_DEVICE Neighbour fetched(const Ring& ring, int i) const {
+    const std::int32_t number = ring.number(i);
+    return {number, ring[i], targets_.inverse_areas[number]};
+  }
+
+  /// Calls visit(a, b) with the neighbours at the ends of each side of a ring. Each is fetched while the side before
+  /// its own is worked on: a device waits long for its memory.
   template <class Ring, class Visit>
   constexpr TRISMOOTH_HOST_DEVICE void for_sides(const Ring& ring, const Visit& visit) const {
-    const auto without_numbers = [&](Point2<T> a, Point2<T> b, T of_a, T of_b) { visit(a, b, of_a, of_b, 0, 0); };
-    if constexpr (requires { ring.for_sides(without_numbers); }) {
-      ring.for_sides(without_numbers);
-    } else {
-      const int size = ring.size();
-      const std::int32_t first_number = ring.number(0);
-      const Point2<T> first = ring[0];
-      const T first_area = inverse_area(first_number);
-      std::int32_t number = first_number;
-      Point2<T> neighbour = first;
-      T area = first_area;
-      for (int i = 1; i <= size; ++i) {
-        const bool closes = i == size;
-        const std::int32_t next_number = closes ? first_number : ring.number(i);
-        const Point2<T> next = closes ? first : ring[i];
-        const T next_area = closes ? first_area : inverse_area(next_number);
-        visit(neighbour, next, area, next_area, number, next_number);
-        number = next_number;
-        neighbour = next;
-        area = next_area;
-      }
+    const Neighbour first = fetched(ring, 0);
+    Neighbour from = first;
+    Neighbour to = fetched(ring, 1);
+    for (int i = 2; i <= ring.size(); ++i) {
+      const Neighbour following = i < ring.size() ? fetched(ring, i) : first;
+      visit(from, to);
+      from = to;
+      to = following;
     }
+    visit(from, to);
   }
 
   /// Calls visit(triangle) for the triangles of v as they are where v is at `position`.
   template <class Ring, class Visit>
   constexpr TRISMOOTH_HOST_DEVICE void for_triangles(std::int32_t v, Point2<T> position, const Ring& ring,
                                                      const Visit& visit) const {
-    const T own = inverse_area(v);
-    for_sides(ring, [&](Point2<T> neighbour, Point2<T> next, T of_a, T of_b, std::int32_t na, std::int32_t nb) {
-      const Point2<T> a = neighbour - position;
-      const Point2<T> b = next - position;
-      const Point2<T> c = next - neighbour;
+    const T own = targets_.inverse_areas[v];
+    for_sides(ring, [&](const Neighbour& from, const Neighbour& to) {
+      const Point2<T> a = from.position - position;
+      const Point2<T> b = to.position - position;
+      const Point2<T> c = to.position - from.position;
       const T area = cross(a, b);
       const T squares = squared_length(a) + squared_length(b) + squared_length(c);
       Triangle triangle{c,
@@ -269,9 +252,9 @@ class MeanRatio {
                         a.y + b.y,
                         T(2),
                         share_of_error(area, squares),
-                        T(1) / T(3) * (own + of_a + of_b)};
+                        T(1) / T(3) * (own + from.inverse_area + to.inverse_area)};
       if constexpr (shaped) {
-        const EdgeWeights weights = reference_weights(v, na, nb);
+        const EdgeWeights weights = reference_weights(v, from.number, to.number);
         triangle.squares =
             weights.a * squared_length(a) + weights.b * squared_length(b) + weights.c * squared_length(c);
         triangle.pull_x = weights.a * a.x + weights.b * b.x;
@@ -303,9 +286,9 @@ class MeanRatio {
   constexpr TRISMOOTH_HOST_DEVICE bool grows_beyond(T largest, Point2<T> position, Point2<T> target,
                                                     const Ring& ring) const {
     bool grows = false;
-    for_sides(ring, [&](Point2<T> a, Point2<T> b, T /*of_a*/, T /*of_b*/, std::int32_t /*na*/, std::int32_t /*nb*/) {
-      const T now = share_at(target, a, b);
-      grows |= now > largest && now > share_at(position, a, b);
+    for_sides(ring, [&](const Neighbour& from, const Neighbour& to) {
+      const T now = share_at(target, from.position, to.position);
+      grows |= now > largest && now > share_at(position, from.position, to.position);
     });
     return grows;
   }

@@ -105,8 +105,7 @@ __global__ void try_in_registers(RegisterInput<T, Slot> input, Attempt<T>* attem
   const int own = active ? i : 0;
   const std::int32_t v = input.numbers[own];
   cuda::RegisterRing<T, register_capacity> ring;
-  cuda::fetch_ring(v, input.records[own], active, input.long_rings, input.points, ring,
-                   [](auto /*place*/, std::int32_t /*number*/) {});
+  cuda::fetch_ring(v, input.records[own], active, input.long_rings, input.points, ring);
   Attempt<T> attempt{};
   attempt.size = ring.size;
   if (ring.size > 0) {

@@ -60,13 +60,17 @@ class GridEngine {
     }
   }
   /// Queues sweeps until the rules say stop or rules.sweeps are done. Returns how many kernels the host launches.
-  std::int64_t sweep(const MeanRatioStep<T>& step, const LoopRules& rules, LoopState* state, SweepSums* sums) {
+  std::int64_t sweep(const MeanRatioStep<T>& step, LoopRules rules, LoopState* state, SweepSums* sums) {
     const MethodInUse<T> method{method_, targets_.view(), step};
     std::int64_t launches = 0;
+    const bool is_mean_ratio = method_ == Method::mean_ratio;
+    // In a stage that is not the last most vertices move to its end.
+    rules.evaluates_all = rules.evaluates_all || (is_mean_ratio && !step.is_last && !rules.measures_shape);
     // The smallest shape is measured by the other kernel alone, and batches that do not fill the GPU are not worth a
-    // launch each.
-    if (!rules.measures_shape && (rules.evaluates_all || largest_batch_ >= smallest_launch)) {
-      const std::int32_t usual = form == Form::swap ? sweeps_of_all_a : sweeps_of_all_b;
+    // launch each, unless an update takes long.
+    if (!rules.measures_shape && (rules.evaluates_all || is_mean_ratio || largest_batch_ >= smallest_launch)) {
+      const std::int32_t usual =
+          is_mean_ratio ? sweeps_of_last_stage : (form == Form::swap ? sweeps_of_all_a : sweeps_of_all_b);
       const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, usual);
       launches = launch_sweeps_of_all(method, mesh_, rules, batches_, sweeps, state, sums, context_->stream());
       if (rules.evaluates_all) {
@@ -96,6 +100,7 @@ class GridEngine {
   /// begin with one over all.
   static constexpr std::int32_t sweeps_of_all_a = 18;
   static constexpr std::int32_t sweeps_of_all_b = 9;
+  static constexpr std::int32_t sweeps_of_last_stage = 5;
 
   Context* context_;
   Method method_;

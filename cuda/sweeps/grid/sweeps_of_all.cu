@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <type_traits>
 
 #include "trismooth/cuda/primitives/warp_list.cuh"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/runtime/thread_index.cuh"
 #include "trismooth/cuda/sweeps/block_tally.cuh"
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
@@ -58,6 +60,11 @@ struct Pieces {
 /// More vertices than a warp leaves to its teams before it evaluates them, but for those of its last piece.
 constexpr int enough_left_over = 32;
 
+/// Threads and blocks of a multiprocessor where a thread has one vertex: as many as hide the waiting for memory without
+/// taking registers away.
+constexpr std::int32_t threads_from_memory = 128;
+constexpr std::int32_t blocks_from_memory = 5;
+
 /// Evaluates the block's vertices. `list` is the warp's own.
 template <bool marks, class Update, class T, class Slot>
 __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces, const SweepData<T, Slot>& data,
@@ -83,36 +90,33 @@ __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces&
       first = next_first;
     } while (listed < enough_left_over && first < pieces.end);
     __syncwarp();
-    visit_left_over<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
+    visit_by_teams<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
     __syncwarp();
   }
 }
 
-/// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
-/// to be marked is what this kernel does.
-template <bool marks, class Update, class T, class Slot>
-__global__ void __launch_bounds__(threads, blocks_at_once<T>)
-    sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
-                SweepSums* sums) {
-  if (state->stop != LoopState::running || state->evaluates_all == 0 || (state->marks != 0) != marks ||
-      state->sweeps >= rules.sweeps) {
-    return;
-  }
-  __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[threads / 32][enough_left_over + 32];
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
-  }
-  __syncthreads();
-  const bool second = state->current != 0;
+/// Whether a launch that marks its moves, or does not, is the one that is to make the next sweep.
+__device__ bool is_due(const LoopState& state, bool marks, const LoopRules& rules) {
+  return state.stop == LoopState::running && state.evaluates_all != 0 && (state.marks != 0) == marks &&
+         state.sweeps < rules.sweeps;
+}
+
+/// What a launch reads and writes.
+template <class T, class Slot>
+__device__ SweepData<T, Slot> data_of(const GridMesh<T, Slot>& mesh, const LoopRules& rules, const LoopState& state) {
+  const bool second = state.current != 0;
   const bool to_second = rules.swaps ? !second : second;
-  const SweepData<T, Slot> data{mesh.rings, second ? mesh.second.points : mesh.first.points,
-                                to_second ? mesh.second.points : mesh.first.points,
-                                to_second ? mesh.second.marks : mesh.first.marks, static_cast<T>(rules.tolerance)};
-  ThreadTally<T> tally;
-  sweep_pieces<marks>(method, pieces, data, left_over[threadIdx.x / 32], tally);
+  return {mesh.rings, second ? mesh.second.points : mesh.first.points,
+          to_second ? mesh.second.points : mesh.first.points, to_second ? mesh.second.marks : mesh.first.marks,
+          static_cast<T>(rules.tolerance)};
+}
+
+/// Joins what the block's threads did in a batch of `evaluated` vertices, of which the last ends the sweep.
+template <class T>
+__device__ void end_batch(ThreadTally<T> tally, std::int32_t evaluated, bool is_last, std::int32_t free_count,
+                          const LoopRules& rules, SweepSums& shared, LoopState* state, SweepSums* sums) {
   if (threadIdx.x == 0 && blockIdx.x == 0) {
-    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
+    tally.evaluated = static_cast<unsigned>(evaluated);
   }
   join_in_block(tally, shared);
   __syncthreads();
@@ -125,9 +129,55 @@ __global__ void __launch_bounds__(threads, blocks_at_once<T>)
     if (atomicAdd(&state->blocks_done, 1U) + 1 == gridDim.x) {
       __threadfence();
       state->blocks_done = 0;
-      end_sweep(rules, mesh.rings.size, state, sums[state->sweeps]);
+      end_sweep(rules, free_count, state, sums[state->sweeps]);
     }
   }
+}
+
+/// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
+/// to be marked is what this kernel does.
+template <bool marks, class Update, class T, class Slot>
+__global__ void __launch_bounds__(threads, blocks_at_once<T>)
+    sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
+                SweepSums* sums) {
+  if (!is_due(*state, marks, rules)) {
+    return;
+  }
+  __shared__ SweepSums shared;
+  __shared__ std::int32_t left_over[threads / 32][enough_left_over + 32];
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  ThreadTally<T> tally;
+  sweep_pieces<marks>(method, pieces, data_of(mesh, rules, *state), left_over[threadIdx.x / 32], tally);
+  end_batch(tally, pieces.end - pieces.begin, is_last, mesh.rings.size, rules, shared, state, sums);
+}
+
+/// The same by a thread for each vertex, which reads its ring from memory: for methods without an update in registers.
+template <bool marks, class Update, class T, class Slot>
+__global__ void __launch_bounds__(threads_from_memory, blocks_from_memory)
+    sweep_batch_from_memory(Update method, GridMesh<T, Slot> mesh, LoopRules rules, std::int32_t begin,
+                            std::int32_t end, bool is_last, LoopState* state, SweepSums* sums) {
+  if (!is_due(*state, marks, rules)) {
+    return;
+  }
+  __shared__ SweepSums shared;
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  const SweepData<T, Slot> data = data_of(mesh, rules, *state);
+  ThreadTally<T> tally;
+  const std::int64_t v = begin + thread_index();
+  if (v < end) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    const Point2<T> position = data.from.load(vertex);
+    settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
+                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
+                           tally);
+  }
+  end_batch(tally, end - begin, is_last, mesh.rings.size, rules, shared, state, sums);
 }
 
 }  // namespace
@@ -138,25 +188,35 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
                                   SweepSums* sums, cudaStream_t stream) {
   const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
   std::int32_t launches = 0;
-  const auto launch_sweep = [&](auto kernel, const auto& update) {
+  // launch(begin, end, is_last) makes the sweep of a batch.
+  const auto launch_sweep = [&](const auto& launch) {
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-      const std::int32_t begin = batches[batch];
-      const std::int32_t end = batches[batch + 1];
-      const bool is_last = batch + 2 == batches.size();
-      const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
-      const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-      kernel<<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
-          update, mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
+      launch(batches[batch], batches[batch + 1], batch + 2 == batches.size());
       TRISMOOTH_CUDA_CHECK(cudaGetLastError());
       ++launches;
     }
   };
   visit_method(method, [&]<class Update>(const Update& update) {
+    const auto launch_with = [&](auto marks) {
+      launch_sweep([&](std::int32_t begin, std::int32_t end, bool is_last) {
+        if constexpr (has_register_update<Update, T>) {
+          const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+          const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+          sweep_batch<marks(), Update, T, Slot>
+              <<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
+                  update, mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
+        } else {
+          sweep_batch_from_memory<marks(), Update, T, Slot>
+              <<<blocks_for(end - begin, threads_from_memory), threads_from_memory, 0, stream>>>(
+                  update, mesh, rules, begin, end, is_last, state, sums);
+        }
+      });
+    };
     for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-      launch_sweep(&sweep_batch<false, Update, T, Slot>, update);
+      launch_with(std::false_type{});
     }
     if (!rules.evaluates_all) {
-      launch_sweep(&sweep_batch<true, Update, T, Slot>, update);
+      launch_with(std::true_type{});
     }
   });
   return launches;

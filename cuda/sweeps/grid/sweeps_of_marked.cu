@@ -54,9 +54,9 @@ __device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool al
         left_over = added_to_list(list, left_over, left, v);
       }
       __syncwarp();
-      visit_left_over<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
+      visit_by_teams<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
     }
-    visit_left_over<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
+    visit_by_teams<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
   }
 }
 

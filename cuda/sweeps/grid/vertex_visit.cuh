@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
 #include "trismooth/cuda/sweeps/move_tally.cuh"
-#include "trismooth/cuda/update/mean_ratio_update.cuh"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
@@ -64,6 +62,24 @@ __device__ __noinline__ VertexMove<T> update_from_memory(Update method, std::int
   return update_over(method, v, position, ring_in_memory(points, rings, v));
 }
 
+/// Writes where an evaluated vertex is, counts its move and marks what it may move.
+template <bool marks, class T, class Slot>
+__device__ __forceinline__ void settle_and_mark(std::int32_t v, Point2<T> position, int size,
+                                                const VertexMove<T>& result, const SweepData<T, Slot>& data,
+                                                ThreadTally<T>& tally) {
+  settle(v, result.move, data);
+  if (result.move.moved) {
+    add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
+    if constexpr (marks) {
+      mark(data.marks, v);
+      const SlottedRing<Slot> numbers = data.rings.ring(v);
+      for (int i = 0; i < size; ++i) {
+        mark_if_free(numbers[i], data);
+      }
+    }
+  }
+}
+
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
 /// Those that are not `active` do nothing. Exact for every ring.
 template <bool marks, class Update, class T, class Slot>
@@ -94,31 +110,9 @@ __device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t
   }
 }
 
-/// Writes where an evaluated vertex is, counts its move and marks what it may move.
-template <bool marks, class T, class Slot>
-__device__ __forceinline__ void settle_and_mark(std::int32_t v, Point2<T> position, int size,
-                                                const VertexMove<T>& result, const SweepData<T, Slot>& data,
-                                                ThreadTally<T>& tally) {
-  settle(v, result.move, data);
-  if (result.move.moved) {
-    add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
-    if constexpr (marks) {
-      mark(data.marks, v);
-      const SlottedRing<Slot> numbers = data.rings.ring(v);
-      for (int i = 0; i < size; ++i) {
-        mark_if_free(numbers[i], data);
-      }
-    }
-  }
-}
-
-/// Whether a method's update in registers is the mean-ratio one.
-template <class Update, class T>
-inline constexpr bool reads_areas = std::is_same_v<Update, MeanRatio<T, false>>;
-
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
-/// vertex that is left to visit_left_over(). A vertex that is not evaluated is at the same place in both buffers: a
-/// move marks the vertex itself for the next sweep.
+/// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
+/// marks the vertex itself for the next sweep.
 template <bool marks, class Update, class T, class Slot>
 __device__ __forceinline__ bool visit(const Update& method, std::int32_t v, const RingRecord<Slot>& record, bool active,
                                       const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
@@ -126,21 +120,9 @@ __device__ __forceinline__ bool visit(const Update& method, std::int32_t v, cons
   const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
   VertexMove<T> result;
   int size = 0;
-  if constexpr (reads_areas<Update, T>) {
-    RegisterRing<T, largest_ring_of_areas> ring;
-    T inverse_areas[largest_ring_of_areas];
-    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring,
-               [&](auto i, std::int32_t number) { inverse_areas[i] = method.inverse_area(number); });
-    size = ring.size;
-    if (size == 0) {
-      return active;
-    }
-    if (!try_update(method, v, position, ring, inverse_areas, result)) {
-      return true;
-    }
-  } else if constexpr (has_register_update<Update, T>) {
+  if constexpr (has_register_update<Update, T>) {
     RegisterRing<T, largest_register_ring> ring;
-    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring, [](auto /*i*/, std::int32_t /*number*/) {});
+    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
     size = ring.size;
     if (size == 0) {
       return active;
@@ -159,22 +141,14 @@ __device__ __forceinline__ bool visit(const Update& method, std::int32_t v, cons
   return false;
 }
 
-/// Evaluates `count` vertices that visit() has left over or that are too few for it: vertex(i) is the i-th. By the
-/// teams of the warp, where the method has an update for teams; else by its threads, from memory.
+/// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
 template <bool marks, class Update, class T, class Slot, class Vertex>
-__device__ __forceinline__ void visit_left_over(const Update& method, int count, const SweepData<T, Slot>& data,
-                                                ThreadTally<T>& tally, const Vertex& vertex) {
+__device__ __forceinline__ void visit_by_teams(const Update& method, int count, const SweepData<T, Slot>& data,
+                                               ThreadTally<T>& tally, const Vertex& vertex) {
   if constexpr (has_register_update<Update, T>) {
     for (int base = 0; base < count; base += teams) {
       const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
       visit_by_team<marks>(method, vertex(i < count ? i : 0), i < count, data, tally);
-    }
-  } else if constexpr (reads_areas<Update, T>) {
-    for (int i = static_cast<int>(threadIdx.x % 32); i < count; i += 32) {
-      const std::int32_t v = vertex(i);
-      const Point2<T> position = data.from.load(v);
-      settle_and_mark<marks>(v, position, data.rings.ring_size(v),
-                             update_from_memory(method, v, position, data.from, data.rings), data, tally);
     }
   }
 }
