@@ -30,7 +30,7 @@ class Stages {
   /// Sweeps after which next() is to be asked; 0: it lasts to the stop.
   std::int64_t sweeps() const { return is_last_ ? 0 : sweeps_of_first; }
   /// Where no more vertices move than so many the stage is over. Other methods go on until nothing moves.
-  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 300 : 0; }
+  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 100 : 0; }
   /// What the mean-ratio method does now.
   template <class T>
   MeanRatioStep<T> step() const {
