@@ -1,0 +1,101 @@
+// What share of tangled meshes is untangled, by domain and by what tangled them, and how long it takes.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/untangle/untangle.h"
+
+#include "support/tangled_meshes.h"
+
+namespace {
+
+using namespace trismooth;
+using namespace tangled_meshes;
+
+/// The runs of one domain, one tangle and one size.
+struct Tally {
+  int runs = 0;
+  int solved = 0;
+  std::int64_t inverted_before = 0;
+  std::int64_t inverted_after = 0;
+  UntangleOutcome means;
+  double milliseconds = 0;
+  double most_milliseconds = 0;
+  double smallest_shape = std::numeric_limits<double>::infinity();
+};
+
+void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed, Workers& workers, Tally& tally) {
+  const ValidMesh valid = valid_mesh(domain, vertices, seed);
+  const TriangleTopology topology = connect_triangles(valid.mesh.vertex_count(), valid.mesh.triangles, workers);
+  const std::vector<std::uint8_t> reversed(valid.mesh.triangles.size(), 0);
+  const OneRings rings = one_rings(topology, valid.mesh.triangles, reversed, valid.fixed, workers);
+  std::vector<Point2<double>> points = tangled_points(valid, tangle, seed);
+  const Stopwatch watch;
+  const UntangleOutcome outcome = untangle(rings.view(), points, workers);
+  const double milliseconds = watch.milliseconds();
+  ++tally.runs;
+  tally.solved += outcome.inverted_after == 0 ? 1 : 0;
+  tally.inverted_before += outcome.inverted_before;
+  tally.inverted_after += outcome.inverted_after;
+  tally.means.by_averages += outcome.by_averages;
+  tally.means.by_kernels += outcome.by_kernels;
+  tally.means.by_embedding += outcome.by_embedding;
+  tally.means.by_energy += outcome.by_energy;
+  tally.milliseconds += milliseconds;
+  tally.most_milliseconds = std::max(tally.most_milliseconds, milliseconds);
+  for (const Triangle& t : valid.mesh.triangles) {
+    tally.smallest_shape = std::min(tally.smallest_shape, shape(points[t[0]], points[t[1]], points[t[2]]));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The share of tangled meshes that is untangled");
+  std::vector<std::int32_t> sizes{100, 1000, 10000, 100000};
+  int threads = 0;
+  int meshes = 100;
+  std::string only;
+  app.add_option("--vertices", sizes, "sizes of the meshes");
+  app.add_option("--threads", threads, "0: one for each core");
+  app.add_option("--meshes", meshes, "meshes of 100 vertices of a kind; a tenth for ten times the vertices, 2 at least");
+  app.add_option("--domain", only, "this one alone");
+  CLI11_PARSE(app, argc, argv);
+  Workers workers(threads);
+  fmt::print("{:<10} {:>8} {:<15} {:>9} {:>10} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "domain", "vertices",
+             "tangled by", "solved", "inverted", "left", "averages", "kernels", "embedded", "energy", "ms", "most ms",
+             "shape");
+  for (const std::int32_t vertices : sizes) {
+    for (const Domain domain : all_domains) {
+      if (!only.empty() && only != name_of(domain)) {
+        continue;
+      }
+      for (const Tangle tangle : all_tangles) {
+        Tally tally;
+        const int runs = std::max(2, static_cast<int>(std::int64_t{meshes} * 100 / vertices));
+        for (int i = 0; i < runs; ++i) {
+          run(domain, tangle, vertices, static_cast<std::uint64_t>(i), workers, tally);
+        }
+        fmt::print("{:<10} {:>8} {:<15} {:>4}/{:<4} {:>10} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9.2f} {:>9.2f} {:>9.1e}\n",
+                   name_of(domain), vertices, name_of(tangle), tally.solved, tally.runs, tally.inverted_before,
+                   tally.inverted_after, tally.means.by_averages, tally.means.by_kernels, tally.means.by_embedding,
+                   tally.means.by_energy, tally.milliseconds / tally.runs, tally.most_milliseconds,
+                   tally.smallest_shape);
+        std::fflush(stdout);
+      }
+    }
+  }
+  return EXIT_SUCCESS;
+}

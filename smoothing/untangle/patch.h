@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+
+namespace trismooth {
+
+/// A part of a mesh cut out to be solved by itself: vertices that may move, all triangles around them, and the other
+/// corners of these triangles, which are held. Everything is numbered from 0 within the patch, the vertices that may
+/// move first.
+struct Patch {
+  std::vector<std::int32_t> vertices;   ///< the number outside of each vertex
+  std::int32_t free_count = 0;          ///< how many of them may move
+  std::vector<Triangle> triangles;      ///< counter-clockwise, in canonical corner order
+  std::vector<std::int32_t> offsets;    ///< of the vertices that may move, into the next two
+  std::vector<std::int32_t> neighbours; ///< in ring order
+  std::vector<std::int32_t> around;     ///< the triangle between a neighbour and the next one
+
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertices.size()); }
+  std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
+};
+
+/// Cuts patches out of one mesh. Keeps an array of the mesh's size, so it is made once.
+class PatchCutter {
+ public:
+  /// `rings` must outlive the cutter.
+  explicit PatchCutter(const RingView& rings, std::int32_t vertex_count);
+
+  /// The patch in which `free` may move, free vertices of the mesh, each once. Its numbers follow from their order and
+  /// that of their rings alone. Complexity: linear in the patch, times the size of a ring.
+  Patch cut(std::span<const std::int32_t> free);
+
+ private:
+  const RingView& rings_;
+  std::vector<std::int32_t> number_;  ///< in the patch of now; -1 elsewhere, and everywhere between two calls
+};
+
+}  // namespace trismooth

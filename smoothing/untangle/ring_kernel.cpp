@@ -1,0 +1,49 @@
+#include "trismooth/smoothing/untangle/ring_kernel.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace trismooth {
+
+std::optional<Point2<double>> kernel_centre(std::span<const Point2<double>> ring,
+                                            std::vector<Point2<double>>& scratch) {
+  Point2<double> low = ring.front();
+  Point2<double> high = low;
+  for (const Point2<double> p : ring) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  // The kernel is the bounding box cut by the line of every edge.
+  std::vector<Point2<double>> kernel{low, {high.x, low.y}, high, {low.x, high.y}};
+  for (std::size_t i = 0; i < ring.size() && !kernel.empty(); ++i) {
+    const Point2<double> from = ring[i];
+    const Point2<double> along = ring[i + 1 == ring.size() ? 0 : i + 1] - from;
+    scratch.clear();
+    for (std::size_t j = 0; j < kernel.size(); ++j) {
+      const Point2<double> a = kernel[j];
+      const Point2<double> b = kernel[j + 1 == kernel.size() ? 0 : j + 1];
+      const double side_a = cross(along, a - from);
+      const double side_b = cross(along, b - from);
+      if (side_a >= 0) {
+        scratch.push_back(a);
+      }
+      if ((side_a > 0 && side_b < 0) || (side_a < 0 && side_b > 0)) {
+        const double part = side_a / (side_a - side_b);
+        scratch.push_back({a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)});
+      }
+    }
+    kernel.swap(scratch);
+  }
+  if (kernel.size() < 3) {
+    return std::nullopt;
+  }
+  Point2<double> sum{0, 0};
+  for (const Point2<double> p : kernel) {
+    sum.x += p.x;
+    sum.y += p.y;
+  }
+  const auto count = static_cast<double>(kernel.size());
+  return Point2<double>{sum.x / count, sum.y / count};
+}
+
+}  // namespace trismooth

@@ -1,0 +1,57 @@
+#include "trismooth/smoothing/untangle/tutte.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "trismooth/smoothing/untangle/conjugate_gradients.h"
+
+namespace trismooth {
+
+void tutte(const Patch& patch, std::span<Point2<double>> points, double tolerance, Workers& workers) {
+  const auto free = points.first(static_cast<std::size_t>(patch.free_count));
+  const auto degree = [&](std::int32_t v) { return static_cast<double>(patch.offsets[v + 1] - patch.offsets[v]); };
+  // A row of the matrix times x, where held vertices are 0.
+  const auto apply = [&](std::span<const Point2<double>> x, std::int32_t v) {
+    Point2<double> sum{degree(v) * x[v].x, degree(v) * x[v].y};
+    for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
+      const std::int32_t neighbour = patch.neighbours[k];
+      if (neighbour < patch.free_count) {
+        sum.x -= x[neighbour].x;
+        sum.y -= x[neighbour].y;
+      }
+    }
+    return sum;
+  };
+  const auto precondition = [&](std::int32_t v, Point2<double> r) {
+    return Point2<double>{r.x / degree(v), r.y / degree(v)};
+  };
+  // The pull of the neighbours where they are, seen from the centre of the held ones, so that no digit is lost on it.
+  Point2<double> centre{0, 0};
+  for (const Point2<double> p : points.subspan(free.size())) {
+    centre.x += p.x;
+    centre.y += p.y;
+  }
+  const double held = static_cast<double>(points.size() - free.size());
+  centre = {centre.x / held, centre.y / held};
+  std::vector<Point2<double>> residual(free.size());
+  const double reference = std::sqrt(OrderedSum(workers)(patch.free_count, [&](std::int32_t v) {
+    Point2<double> pull{0, 0};
+    Point2<double> load{0, 0};
+    for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
+      const std::int32_t neighbour = patch.neighbours[k];
+      pull.x += points[neighbour].x - points[v].x;
+      pull.y += points[neighbour].y - points[v].y;
+      if (neighbour >= patch.free_count) {
+        load.x += points[neighbour].x - centre.x;
+        load.y += points[neighbour].y - centre.y;
+      }
+    }
+    residual[v] = pull;
+    return (load.x * load.x + load.y * load.y) / degree(v);
+  }));
+  constexpr int most_steps = 20000;
+  conjugate_gradients(apply, precondition, free, residual, reference, tolerance, most_steps, workers);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,304 @@
+#include "trismooth/smoothing/untangle/untangling_newton.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/untangle/conjugate_gradients.h"
+#include "trismooth/smoothing/untangle/regularised_energy.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t newton_grain = 1024;
+
+/// A symmetric matrix of 2 x 2 blocks, one row a vertex: the diagonal block and one for each neighbour.
+struct BlockMatrix {
+  struct Diagonal {
+    double xx, xy, yy;
+  };
+  struct Block {
+    double xx, xy, yx, yy;
+  };
+  std::vector<Diagonal> diagonal;
+  std::vector<Block> blocks;  ///< as Patch::neighbours
+};
+
+class RegularisedMinimiser {
+ public:
+  RegularisedMinimiser(const Patch& patch, std::span<Point2<double>> points, Workers& workers)
+      : patch_(patch), points_(points), workers_(workers), sum_(workers) {
+    find_target_areas();
+    pieces_.resize(patch_.triangles.size());
+    gradient_.resize(static_cast<std::size_t>(patch_.free_count));
+    matrix_.diagonal.resize(gradient_.size());
+    matrix_.blocks.resize(patch_.neighbours.size());
+  }
+
+  NewtonOutcome run(int most_steps) {
+    NewtonOutcome outcome;
+    double smallest = smallest_determinant();
+    energy_.size_weight = size_weight;
+    energy_.epsilon = first_epsilon(smallest);
+    int steps_after = 0;
+    int steps_in_vain = 0;
+    while (outcome.steps < most_steps && std::isfinite(smallest)) {
+      const double before = differentiate();
+      const bool has_moved = find_step() && search_line(before);
+      ++outcome.steps;
+      const double after = has_moved ? value() : before;
+      const double old_smallest = smallest;
+      smallest = smallest_determinant();
+      if (smallest > 0 && (++steps_after > 2 || !has_moved)) {
+        break;
+      }
+      // The paper's rule: it lets the regularisation fall as fast as the energy does.
+      const double gain = std::max(0.1, 1 - after / before);
+      const double mu = (1 - gain) * energy_.regularised(smallest);
+      const double next = smallest < mu ? 2 * std::sqrt(mu * (mu - smallest)) : 1e-10;
+      const bool stalls = !(after < 0.999 * before) && !(smallest > old_smallest + 1e-3 * std::abs(old_smallest));
+      steps_in_vain = stalls ? steps_in_vain + 1 : 0;
+      if (steps_in_vain > 8 || (!has_moved && !(next < energy_.epsilon))) {
+        break;
+      }
+      energy_.epsilon = std::min(next, energy_.epsilon);
+    }
+    outcome.inverted = inverted_triangles(patch_, points_, workers_);
+    return outcome;
+  }
+
+ private:
+  /// lambda: enough that no triangle shrinks to a point where that is cheaper than to turn it.
+  static constexpr double size_weight = 0.5;
+
+  /// A triangle's part of the system, by e and t.
+  struct Piece {
+    RegularisedEnergy::Derivatives derivatives;
+  };
+
+  /// The size that each triangle is to have: the mean of the sizes around its corners, twice. So it follows a grading,
+  /// and a triangle that the start has collapsed gets the size of its neighbours.
+  void find_target_areas() {
+    targets_.resize(patch_.triangles.size());
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      const auto [a, b, c] = patch_.triangles[t];
+      targets_[t] = 0.5 * std::abs(cross(points_[b] - points_[a], points_[c] - points_[a]));
+    }
+    std::vector<double> sums(points_.size());
+    std::vector<double> counts(points_.size());
+    for (int pass = 0; pass < 3; ++pass) {
+      std::ranges::fill(sums, 0);
+      std::ranges::fill(counts, 0);
+      for (std::size_t t = 0; t < targets_.size(); ++t) {
+        for (const std::int32_t v : patch_.triangles[t]) {
+          sums[v] += targets_[t];
+          counts[v] += 1;
+        }
+      }
+      for (std::size_t t = 0; t < targets_.size(); ++t) {
+        const auto [a, b, c] = patch_.triangles[t];
+        targets_[t] = (sums[a] / counts[a] + sums[b] / counts[b] + sums[c] / counts[c]) / 3;
+      }
+    }
+    double total = 0;
+    for (const double target : targets_) {
+      total += target;
+    }
+    const double least = 1e-9 * total / static_cast<double>(targets_.size());
+    for (double& target : targets_) {
+      target = std::max(target, least);
+    }
+  }
+
+  RegularisedEnergy::Shape shape_of(std::int32_t t, std::span<const Point2<double>> points) const {
+    const auto [a, b, c] = patch_.triangles[t];
+    return RegularisedEnergy::shape_of(points[a], points[b], points[c], targets_[t]);
+  }
+
+  double smallest_determinant() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::int32_t t = 0; t < patch_.triangle_count(); ++t) {
+      const double determinant = shape_of(t, points_).determinant;
+      if (!(determinant >= smallest)) {
+        smallest = determinant;
+      }
+    }
+    return smallest;
+  }
+
+  static double first_epsilon(double smallest) {
+    return smallest > 0 ? 1e-10 : std::sqrt(1e-4 + 0.04 * smallest * smallest);
+  }
+
+  double value_at(std::span<const Point2<double>> points) {
+    return sum_(patch_.triangle_count(), [&](std::int32_t t) { return energy_.value(shape_of(t, points)); });
+  }
+  double value() { return value_at(points_); }
+
+  /// Gradient and matrix at the points; returns the energy.
+  double differentiate() {
+    const double total = sum_(patch_.triangle_count(), [&](std::int32_t t) {
+      pieces_[t].derivatives = energy_.derivatives(shape_of(t, points_), targets_[t]);
+      return pieces_[t].derivatives.value;
+    });
+    workers_.for_blocks(patch_.free_count, newton_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        assemble_row(v);
+      }
+    });
+    return total;
+  }
+
+  /// How corner i of a triangle comes into e (times the unit matrix) and t (times J).
+  static constexpr double into_e[3] = {1, -0.5, -0.5};
+  static constexpr double into_t[3] = {0, 0.5 * RegularisedEnergy::root3, -0.5 * RegularisedEnergy::root3};
+
+  /// What a triangle gives to the block of its corners i and j.
+  static BlockMatrix::Block block_of(const RegularisedEnergy::Derivatives& piece, int i, int j) {
+    const double aa = into_e[i] * into_e[j];
+    const double ab = into_e[i] * into_t[j];
+    const double ba = into_t[i] * into_e[j];
+    const double bb = into_t[i] * into_t[j];
+    // et J, its transpose, and J^T tt J; J = (0 -1; 1 0).
+    const double m[4] = {piece.et[1], -piece.et[0], piece.et[3], -piece.et[2]};
+    return {aa * piece.ee[0] + ab * m[0] + ba * m[0] + bb * piece.tt[2],
+            aa * piece.ee[1] + ab * m[1] + ba * m[2] - bb * piece.tt[1],
+            aa * piece.ee[1] + ab * m[2] + ba * m[1] - bb * piece.tt[1],
+            aa * piece.ee[2] + ab * m[3] + ba * m[3] + bb * piece.tt[0]};
+  }
+
+  static void add(BlockMatrix::Block& to, const BlockMatrix::Block& from) {
+    to.xx += from.xx;
+    to.xy += from.xy;
+    to.yx += from.yx;
+    to.yy += from.yy;
+  }
+
+  void assemble_row(std::int32_t v) {
+    const std::int32_t begin = patch_.offsets[v];
+    const std::int32_t end = patch_.offsets[v + 1];
+    std::fill(matrix_.blocks.begin() + begin, matrix_.blocks.begin() + end, BlockMatrix::Block{0, 0, 0, 0});
+    BlockMatrix::Diagonal diagonal{0, 0, 0};
+    Point2<double> gradient{0, 0};
+    for (std::int32_t k = begin; k < end; ++k) {
+      const std::int32_t t = patch_.around[k];
+      const Triangle& corners = patch_.triangles[t];
+      const RegularisedEnergy::Derivatives& piece = pieces_[t].derivatives;
+      const int i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      // J^T by_t = (by_t.y, -by_t.x).
+      gradient.x += into_e[i] * piece.by_e.x + into_t[i] * piece.by_t.y;
+      gradient.y += into_e[i] * piece.by_e.y - into_t[i] * piece.by_t.x;
+      const BlockMatrix::Block own = block_of(piece, i, i);
+      diagonal.xx += own.xx;
+      diagonal.xy += 0.5 * (own.xy + own.yx);
+      diagonal.yy += own.yy;
+      add(matrix_.blocks[k], block_of(piece, i, (i + 1) % 3));
+      add(matrix_.blocks[k + 1 == end ? begin : k + 1], block_of(piece, i, (i + 2) % 3));
+    }
+    matrix_.diagonal[v] = diagonal;
+    gradient_[v] = gradient;
+  }
+
+  /// The Newton step, into step_; false where there is none.
+  bool find_step() {
+    const auto apply = [&](std::span<const Point2<double>> x, std::int32_t v) {
+      const BlockMatrix::Diagonal& d = matrix_.diagonal[v];
+      Point2<double> sum{d.xx * x[v].x + d.xy * x[v].y, d.xy * x[v].x + d.yy * x[v].y};
+      for (std::int32_t k = patch_.offsets[v]; k < patch_.offsets[v + 1]; ++k) {
+        const std::int32_t neighbour = patch_.neighbours[k];
+        if (neighbour < patch_.free_count) {
+          const BlockMatrix::Block& b = matrix_.blocks[k];
+          sum.x += b.xx * x[neighbour].x + b.xy * x[neighbour].y;
+          sum.y += b.yx * x[neighbour].x + b.yy * x[neighbour].y;
+        }
+      }
+      return sum;
+    };
+    const auto precondition = [&](std::int32_t v, Point2<double> r) {
+      const BlockMatrix::Diagonal& d = matrix_.diagonal[v];
+      const double determinant = d.xx * d.yy - d.xy * d.xy;
+      if (!(determinant > 0)) {
+        const double trace = d.xx + d.yy;
+        return Point2<double>{r.x / trace, r.y / trace};
+      }
+      return Point2<double>{(d.yy * r.x - d.xy * r.y) / determinant, (d.xx * r.y - d.xy * r.x) / determinant};
+    };
+    step_.assign(gradient_.size(), {0, 0});
+    residual_.resize(gradient_.size());
+    const double reference = std::sqrt(sum_(patch_.free_count, [&](std::int32_t v) {
+      residual_[v] = {-gradient_[v].x, -gradient_[v].y};
+      const Point2<double> answer = precondition(v, residual_[v]);
+      return answer.x * residual_[v].x + answer.y * residual_[v].y;
+    }));
+    if (!(reference > 0) || !std::isfinite(reference)) {
+      return false;
+    }
+    constexpr double tolerance = 1e-2;
+    constexpr int most_steps = 2000;
+    conjugate_gradients(apply, precondition, step_, residual_, reference, tolerance, most_steps, workers_);
+    return true;
+  }
+
+  /// Moves the points along the step as far as the energy gets smaller.
+  bool search_line(double before) {
+    const double slope = sum_(patch_.free_count, [&](std::int32_t v) {
+      return gradient_[v].x * step_[v].x + gradient_[v].y * step_[v].y;
+    });
+    if (!(slope < 0)) {
+      return false;
+    }
+    trial_.assign(points_.begin(), points_.end());
+    double length = 1;
+    for (int halving = 0; halving < 30; ++halving, length *= 0.5) {
+      for (std::int32_t v = 0; v < patch_.free_count; ++v) {
+        trial_[v] = {points_[v].x + length * step_[v].x, points_[v].y + length * step_[v].y};
+      }
+      if (value_at(trial_) <= before + 1e-4 * length * slope) {
+        std::ranges::copy(trial_, points_.begin());
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const Patch& patch_;
+  std::span<Point2<double>> points_;
+  Workers& workers_;
+  OrderedSum sum_;
+  RegularisedEnergy energy_;
+  std::vector<double> targets_;  ///< A* of each triangle
+  std::vector<Piece> pieces_;
+  std::vector<Point2<double>> gradient_;
+  BlockMatrix matrix_;
+  std::vector<Point2<double>> step_;
+  std::vector<Point2<double>> residual_;
+  std::vector<Point2<double>> trial_;
+};
+
+}  // namespace
+
+std::int64_t inverted_triangles(const Patch& patch, std::span<const Point2<double>> points, Workers& workers) {
+  std::atomic<std::int64_t> total{0};
+  workers.for_blocks(patch.triangle_count(), 4096, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t inverted = 0;
+    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
+      const auto [a, b, c] = patch.triangles[t];
+      inverted += shape_quotient(points[a], points[b], points[c]) > 0 ? 0 : 1;
+    }
+    total.fetch_add(inverted, std::memory_order_relaxed);
+  });
+  return total;
+}
+
+NewtonOutcome minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps,
+                                   Workers& workers) {
+  return RegularisedMinimiser(patch, points, workers).run(most_steps);
+}
+
+}  // namespace trismooth
