@@ -68,10 +68,13 @@ int main(int argc, char** argv) {
   int threads = 0;
   int meshes = 100;
   std::string only;
+  std::string only_by;
   app.add_option("--vertices", sizes, "sizes of the meshes");
   app.add_option("--threads", threads, "0: one for each core");
-  app.add_option("--meshes", meshes, "meshes of 100 vertices of a kind; a tenth for ten times the vertices, 2 at least");
+  app.add_option("--meshes", meshes,
+                 "meshes of 100 vertices of a kind; a tenth for ten times the vertices, 2 at least");
   app.add_option("--domain", only, "this one alone");
+  app.add_option("--tangle", only_by, "this one alone");
   CLI11_PARSE(app, argc, argv);
   Workers workers(threads);
   fmt::print("{:<10} {:>8} {:<15} {:>9} {:>10} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "domain", "vertices",
@@ -83,6 +86,9 @@ int main(int argc, char** argv) {
         continue;
       }
       for (const Tangle tangle : all_tangles) {
+        if (!only_by.empty() && only_by != name_of(tangle)) {
+          continue;
+        }
         Tally tally;
         const int runs = std::max(2, static_cast<int>(std::int64_t{meshes} * 100 / vertices));
         for (int i = 0; i < runs; ++i) {

@@ -65,8 +65,7 @@ double conjugate_gradients(const Apply& apply, const Precondition& precondition,
       answer[v] = precondition(v, residual[v]);
       return dot(answer[v], residual[v]);
     });
-    if (!(next_rho > 0) || !std::isfinite(next_rho) || step == most ||
-        std::sqrt(next_rho) <= tolerance * reference) {
+    if (!(next_rho > 0) || !std::isfinite(next_rho) || step == most || std::sqrt(next_rho) <= tolerance * reference) {
       return std::sqrt(std::max(next_rho, 0.0));
     }
     beta = step == 0 ? 0 : next_rho / rho;

@@ -55,8 +55,8 @@ Patch PatchCutter::cut(std::span<const std::int32_t> free) {
   }
   // From the corner on that the input numbers lowest, as everywhere: rounding gives slivers a sign that depends on it.
   for (Triangle& triangle : patch.triangles) {
-    const auto first = std::ranges::min_element(
-        triangle, {}, [&](std::int32_t v) { return rings_.input(patch.vertices[v]); });
+    const auto first =
+        std::ranges::min_element(triangle, {}, [&](std::int32_t v) { return rings_.input(patch.vertices[v]); });
     std::rotate(triangle.begin(), first, triangle.end());
   }
   for (const std::int32_t vertex : patch.vertices) {

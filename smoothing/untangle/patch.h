@@ -14,12 +14,12 @@ namespace trismooth {
 /// corners of these triangles, which are held. Everything is numbered from 0 within the patch, the vertices that may
 /// move first.
 struct Patch {
-  std::vector<std::int32_t> vertices;   ///< the number outside of each vertex
-  std::int32_t free_count = 0;          ///< how many of them may move
-  std::vector<Triangle> triangles;      ///< counter-clockwise, in canonical corner order
-  std::vector<std::int32_t> offsets;    ///< of the vertices that may move, into the next two
-  std::vector<std::int32_t> neighbours; ///< in ring order
-  std::vector<std::int32_t> around;     ///< the triangle between a neighbour and the next one
+  std::vector<std::int32_t> vertices;    ///< the number outside of each vertex
+  std::int32_t free_count = 0;           ///< how many of them may move
+  std::vector<Triangle> triangles;       ///< counter-clockwise, in canonical corner order
+  std::vector<std::int32_t> offsets;     ///< of the vertices that may move, into the next two
+  std::vector<std::int32_t> neighbours;  ///< in ring order
+  std::vector<std::int32_t> around;      ///< the triangle between a neighbour and the next one
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertices.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }

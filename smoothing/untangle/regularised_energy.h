@@ -18,7 +18,8 @@ namespace trismooth {
 /// It is written in e = z0 - (z1 + z2) / 2 and t = sqrt(3)/2 J (z1 - z2), with J the turn by 90 degrees to the left:
 /// p = (e - t) / sqrt(3) is the part of the triangle that is similar to the ideal one, q = (e + t) / sqrt(3) the part
 /// that is similar to its mirror image. A = sqrt(3)/4 (|p|^2 - |q|^2), and f depends on |p|^2 and |q|^2 alone. So the
-/// Hessian splits into what is across p, across q and along both (2 x 2), and its positive part is found in closed form.
+/// Hessian splits into what is across p, across q and along both (2 x 2), and its positive part is found in closed
+/// form.
 struct RegularisedEnergy {
   double epsilon = 0;
   double size_weight = 0;  ///< lambda
@@ -76,7 +77,7 @@ struct RegularisedEnergy {
     const double determinant = shape.determinant;
     const double root = root_of(determinant);
     const double x = regularised(determinant);
-    const double x1 = x / root;                                        // dX/dD
+    const double x1 = x / root;                                          // dX/dD
     const double x2 = 0.5 * (epsilon / root) * (epsilon / root) / root;  // d2X/dD2
     const double squares = shape.squared_p + shape.squared_q;
     const double numerator = 2 * squares + size_weight * (1 + determinant * determinant);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <mutex>
 #include <vector>
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/untangle/patch.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
@@ -34,77 +36,115 @@ void for_own_triangles(const RingView& rings, std::int32_t v, const Visit& visit
   }
 }
 
+/// Triangles of a shape below this are mended with the inverted ones, where they have come about by that: rounding is
+/// enough to invert them again.
+constexpr double weak_quotient = 1e-4 / shape_constant;
+
+/// What is wrong with a set of triangles.
+struct Faults {
+  std::int64_t inverted = 0;  ///< or degenerate
+  std::int64_t weak = 0;      ///< nearly so, and worse than they came
+
+  bool any() const { return inverted + weak > 0; }
+  friend bool operator<(const Faults& a, const Faults& b) {
+    return a.inverted != b.inverted ? a.inverted < b.inverted : a.weak < b.weak;
+  }
+  /// Counts a triangle by its quotient now and in the input.
+  void count(double quotient, double input) {
+    if (!(quotient > 0)) {
+      ++inverted;
+    } else if (quotient < weak_quotient && !(quotient >= input && input > 0)) {
+      ++weak;
+    }
+  }
+};
+
 class Untangler {
  public:
   Untangler(const RingView& rings, std::span<Point2<double>> points, Workers& workers)
-      : rings_(rings), points_(points), workers_(workers), listed_(points.size(), 0), cutter_(rings, mesh_size()) {
-    find_inverted();
+      : rings_(rings),
+        points_(points),
+        input_(points.begin(), points.end()),
+        workers_(workers),
+        listed_(points.size(), 0),
+        cutter_(rings, static_cast<std::int32_t>(points.size())) {
+    find_faulty();
   }
 
   UntangleOutcome run() {
-    UntangleOutcome outcome;
-    const std::vector<Point2<double>> input(points_.begin(), points_.end());
-    outcome.inverted_before = inverted_count();
-    auto mended_since = [&, last = inverted_count()]() mutable {
-      const std::int64_t mended = last - inverted_count();
-      last = inverted_count();
-      return mended;
-    };
+    outcome_.inverted_before = faults_.inverted;
     const auto move_to_means = [&](std::int32_t v) { move_to_mean(v); };
     const auto move_to_kernels = [&](std::int32_t v) { move_to_kernel(v); };
-    move_corners(move_to_means, 12);
-    outcome.by_averages = mended_since();
-    move_corners(move_to_kernels, 4);
-    outcome.by_kernels = mended_since();
-    for (std::int64_t rings = 2; !inverted_.empty(); rings *= 2) {
-      const bool is_all = solve_parts(rings, outcome);
-      if (is_all) {
+    move_corners(move_to_means, 12, outcome_.by_averages);
+    move_corners(move_to_kernels, 4, outcome_.by_kernels);
+    for (std::int64_t rings = 2; faults_.any(); rings *= 2) {
+      // Where much is wrong, a part of the mesh is hardly ever enough.
+      const bool is_much = std::ssize(faulty_) > rings_.size() / 64;
+      const bool takes_all = is_much || rings > most_rings;
+      if (takes_all && faults_.inverted == 0 && !is_much) {
+        break;  // what is weak alone is not worth the whole mesh
+      }
+      const bool were_all = solve_parts(takes_all ? all_rings : rings);
+      if (were_all) {
         break;
       }
     }
-    outcome.inverted_after = inverted_count();
-    return outcome;
+    outcome_.inverted_after = faults_.inverted;
+    return outcome_;
   }
 
  private:
-  std::int32_t mesh_size() const { return static_cast<std::int32_t>(points_.size()); }
-  std::int64_t inverted_count() const { return std::ssize(inverted_); }
+  static constexpr std::int64_t most_rings = 32;
+  static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
-  bool is_inverted(const Triangle& triangle) const {
+  double quotient(std::span<const Point2<double>> points, const Triangle& triangle) const {
     const auto [a, b, c] = triangle;
-    return !(canonical_quotient(points_[a], points_[b], points_[c], rings_.input(a), rings_.input(b),
-                                rings_.input(c)) > 0);
+    return canonical_quotient(points[a], points[b], points[c], rings_.input(a), rings_.input(b), rings_.input(c));
   }
 
-  bool comes_first(std::int32_t a, std::int32_t b) const { return rings_.input(a) < rings_.input(b); }
+  Faults faults_of(const Triangle& triangle) const {
+    Faults faults;
+    if (const double now = quotient(points_, triangle); !(now >= weak_quotient)) {
+      faults.count(now, quotient(input_, triangle));
+    }
+    return faults;
+  }
 
   /// In the order of the input: nothing that is found may depend on how the rings are numbered.
   void sort_by_input(std::vector<std::int32_t>& vertices) const {
     std::ranges::sort(vertices, {}, [&](std::int32_t v) { return rings_.input(v); });
   }
 
-  /// All inverted triangles of the mesh.
-  void find_inverted() {
-    inverted_.clear();
+  /// All faulty triangles of the mesh.
+  void find_faulty() {
+    faulty_.clear();
+    faults_ = {};
     std::mutex joining;
     workers_.for_blocks(rings_.size(), counting_grain, [&](std::int64_t begin, std::int64_t end) {
       std::vector<Triangle> found;
+      Faults faults;
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        for_own_triangles(rings_, v, [&](const Triangle& triangle) {
-          if (is_inverted(triangle)) {
-            found.push_back(triangle);
-          }
-        });
+        for_own_triangles(rings_, v, [&](const Triangle& triangle) { look_at(triangle, found, faults); });
       }
       const std::lock_guard lock(joining);
-      inverted_.insert(inverted_.end(), found.begin(), found.end());
+      faulty_.insert(faulty_.end(), found.begin(), found.end());
+      faults_.inverted += faults.inverted;
+      faults_.weak += faults.weak;
     });
   }
 
-  /// The free corners of the inverted triangles, each once, in the order of the input.
+  void look_at(const Triangle& triangle, std::vector<Triangle>& found, Faults& faults) const {
+    if (const Faults own = faults_of(triangle); own.any()) {
+      found.push_back(triangle);
+      faults.inverted += own.inverted;
+      faults.weak += own.weak;
+    }
+  }
+
+  /// The free corners of the faulty triangles, each once, in the order of the input.
   std::vector<std::int32_t> corners() {
     std::vector<std::int32_t> found;
-    for (const Triangle& triangle : inverted_) {
+    for (const Triangle& triangle : faulty_) {
       for (const std::int32_t v : triangle) {
         if (rings_.is_free(v) && listed_[v] == 0) {
           listed_[v] = 1;
@@ -123,27 +163,24 @@ class Untangler {
     }
   }
 
-  /// The inverted triangles around `moved` vertices, each once.
-  std::vector<Triangle> inverted_around(std::span<const std::int32_t> moved) {
+  /// The faulty triangles around `moved` vertices, which were the corners of all faulty ones.
+  void find_faulty_around(std::span<const std::int32_t> moved) {
     for (const std::int32_t v : moved) {
       listed_[v] = 1;
     }
-    std::vector<Triangle> found;
+    faulty_.clear();
+    faults_ = {};
     for (const std::int32_t v : moved) {
       const auto ring = rings_[v];
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const std::int32_t b = ring[k];
         const std::int32_t c = ring[k + 1 == ring.size() ? 0 : k + 1];
-        if ((b < v && listed_[b] != 0) || (c < v && listed_[c] != 0)) {
-          continue;
-        }
-        if (is_inverted({v, b, c})) {
-          found.push_back({v, b, c});
+        if (!(b < v && listed_[b] != 0) && !(c < v && listed_[c] != 0)) {
+          look_at({v, b, c}, faulty_, faults_);
         }
       }
     }
     unlist(moved);
-    return found;
   }
 
   void move_to_mean(std::int32_t v) {
@@ -161,7 +198,7 @@ class Untangler {
     const auto ring = rings_[v];
     std::int64_t inverted = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      inverted += is_inverted({v, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]}) ? 1 : 0;
+      inverted += quotient(points_, {v, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]}) > 0 ? 0 : 1;
     }
     return inverted;
   }
@@ -185,43 +222,47 @@ class Untangler {
     }
   }
 
-  /// Moves the corners of inverted triangles, one after the other, for some passes, and keeps the best of them.
+  /// Moves the corners of faulty triangles, one after the other, for some passes, and keeps the best of them.
   template <class Move>
-  void move_corners(const Move& move, int most_passes) {
-    if (inverted_.empty()) {
+  void move_corners(const Move& move, int most_passes, std::int64_t& mended) {
+    if (!faults_.any()) {
       return;
     }
+    const std::int64_t before = faults_.inverted;
     std::vector<Point2<double>> best_points(points_.begin(), points_.end());
-    std::vector<Triangle> best = inverted_;
+    std::vector<Triangle> best = faulty_;
+    Faults fewest = faults_;
     int passes_in_vain = 0;
-    for (int pass = 0; pass < most_passes && !inverted_.empty() && passes_in_vain < 2; ++pass) {
+    for (int pass = 0; pass < most_passes && faults_.any() && passes_in_vain < 2; ++pass) {
       const std::vector<std::int32_t> moved = corners();
       for (const std::int32_t v : moved) {
         move(v);
       }
-      inverted_ = inverted_around(moved);
-      if (inverted_.size() < best.size()) {
-        best = inverted_;
+      find_faulty_around(moved);
+      ++passes_in_vain;
+      if (faults_ < fewest) {
+        best = faulty_;
+        fewest = faults_;
         best_points.assign(points_.begin(), points_.end());
         passes_in_vain = 0;
-      } else {
-        ++passes_in_vain;
       }
     }
     std::ranges::copy(best_points, points_.begin());
-    inverted_ = std::move(best);
+    faulty_ = std::move(best);
+    faults_ = fewest;
+    mended += before - faults_.inverted;
   }
 
-  /// Cuts out the parts of the mesh within `rings` of inverted triangles and solves each by itself. Returns whether
-  /// they could not have been larger.
-  bool solve_parts(std::int64_t rings, UntangleOutcome& outcome) {
+  /// Cuts out the parts of the mesh within `rings` of faulty triangles and solves each by itself. Returns whether they
+  /// could not have been larger.
+  bool solve_parts(std::int64_t rings) {
     std::vector<std::int32_t> near = corners();
     for (const std::int32_t v : near) {
       listed_[v] = 1;
     }
     std::size_t done = 0;
-    bool is_all = false;
-    for (std::int64_t ring = 0; ring < rings; ++ring) {
+    bool are_all = false;
+    for (std::int64_t ring = 0; ring < rings && !are_all; ++ring) {
       const std::size_t end = near.size();
       for (; done < end; ++done) {
         for (const std::int32_t neighbour : rings_[near[done]]) {
@@ -231,15 +272,11 @@ class Untangler {
           }
         }
       }
-      if (near.size() == end) {
-        is_all = true;
-        break;
-      }
+      are_all = near.size() == end;
     }
     // Parts that do not hang together are solved apart: listed_ is 1 for who waits for a part.
-    std::vector<std::int32_t> seeds = near;
     std::vector<std::int32_t> part;
-    for (const std::int32_t seed : seeds) {
+    for (const std::int32_t seed : near) {
       if (listed_[seed] != 1) {
         continue;
       }
@@ -253,15 +290,25 @@ class Untangler {
           }
         }
       }
-      solve(part, outcome);
+      solve(part, are_all);
     }
     unlist(near);
-    find_inverted();
-    return is_all;
+    find_faulty();
+    return are_all;
   }
 
-  /// Solves one part; keeps the result where it has fewer inverted triangles.
-  void solve(std::span<const std::int32_t> part, UntangleOutcome& outcome) {
+  /// What is wrong with the patch where its points are `points`; `input`: the quotients of its triangles in the input.
+  Faults faults_of(const Patch& patch, std::span<const Point2<double>> points, std::span<const double> input) const {
+    Faults faults;
+    for (std::size_t t = 0; t < input.size(); ++t) {
+      const auto [a, b, c] = patch.triangles[t];
+      faults.count(shape_quotient(points[a], points[b], points[c]), input[t]);
+    }
+    return faults;
+  }
+
+  /// Solves one part and keeps the result where less is wrong with it. `is_whole`: it cannot be larger.
+  void solve(std::span<const std::int32_t> part, bool is_whole) {
     const Patch patch = cutter_.cut(part);
     if (patch.vertex_count() == patch.free_count) {
       return;  // nothing holds it: a closed surface, laid flat
@@ -270,37 +317,36 @@ class Untangler {
     for (const std::int32_t v : patch.vertices) {
       points.push_back(points_[v]);
     }
-    const std::int64_t before = trismooth::inverted_triangles(patch, points, workers_);
-    if (before == 0) {
-      return;
+    std::vector<double> input;
+    for (const auto& [a, b, c] : patch.triangles) {
+      input.push_back(shape_quotient(input_[patch.vertices[a]], input_[patch.vertices[b]], input_[patch.vertices[c]]));
     }
+    const Faults before = faults_of(patch, points, input);
     std::vector<Point2<double>> best = points;
-    std::int64_t fewest = before;
+    Faults fewest = before;
     const auto keep_if_better = [&](const std::vector<Point2<double>>& found, std::int64_t& mended) {
-      const std::int64_t inverted = trismooth::inverted_triangles(patch, found, workers_);
-      if (inverted < fewest) {
-        mended += fewest - inverted;
-        fewest = inverted;
+      const Faults faults = faults_of(patch, found, input);
+      if (faults < fewest) {
+        mended += fewest.inverted - faults.inverted;
+        fewest = faults;
         best = found;
       }
+      return faults.any();
     };
     std::vector<Point2<double>> embedded = points;
-    for (const double tolerance : {1e-6, 1e-9, 1e-13}) {
-      tutte(patch, embedded, tolerance, workers_);
-      keep_if_better(embedded, outcome.by_embedding);
-      if (fewest == 0) {
-        break;
-      }
+    bool is_faulty = true;
+    for (std::size_t i = 0; i < std::size(tutte_tolerances) && is_faulty; ++i) {
+      tutte(patch, embedded, tutte_tolerances[i], workers_);
+      is_faulty = keep_if_better(embedded, outcome_.by_embedding);
     }
-    if (fewest > 0) {
-      std::vector<Point2<double>> lowered = embedded;
-      minimise_regularised(patch, lowered, most_newton_steps, workers_);
-      keep_if_better(lowered, outcome.by_energy);
+    if (is_faulty) {
+      minimise_regularised(patch, embedded, is_whole ? most_newton_steps : few_newton_steps, workers_);
+      is_faulty = keep_if_better(embedded, outcome_.by_energy);
     }
-    if (fewest > 0) {
+    if (is_faulty && fewest.inverted > 0 && is_whole) {
       std::vector<Point2<double>> lowered = points;
       minimise_regularised(patch, lowered, most_newton_steps, workers_);
-      keep_if_better(lowered, outcome.by_energy);
+      keep_if_better(lowered, outcome_.by_energy);
     }
     if (fewest < before) {
       for (std::size_t v = 0; v < part.size(); ++v) {
@@ -309,13 +355,18 @@ class Untangler {
     }
   }
 
+  static constexpr double tutte_tolerances[] = {1e-6, 1e-9, 1e-13};
+  static constexpr int few_newton_steps = 30;
   static constexpr int most_newton_steps = 100;
 
   const RingView& rings_;
   std::span<Point2<double>> points_;
+  std::vector<Point2<double>> input_;
   Workers& workers_;
-  std::vector<Triangle> inverted_;     ///< the inverted triangles of now
-  std::vector<std::uint8_t> listed_;   ///< marks of vertices, 0 between two uses
+  UntangleOutcome outcome_;
+  std::vector<Triangle> faulty_;      ///< the faulty triangles of now
+  Faults faults_;                     ///< their number
+  std::vector<std::uint8_t> listed_;  ///< marks of vertices, 0 between two uses
   PatchCutter cutter_;
   std::vector<Point2<double>> ring_points_;
   std::vector<Point2<double>> scratch_;

@@ -55,7 +55,8 @@ class RegularisedMinimiser {
       const double after = has_moved ? value() : before;
       const double old_smallest = smallest;
       smallest = smallest_determinant();
-      if (smallest > 0 && (++steps_after > 2 || !has_moved)) {
+      // Where it is untangled, the shapes get better for some steps more, while that is quick.
+      if (smallest > 0 && (++steps_after > 6 || !(after < 0.99 * before) || !has_moved)) {
         break;
       }
       // The paper's rule: it lets the regularisation fall as fast as the energy does.
@@ -247,9 +248,8 @@ class RegularisedMinimiser {
 
   /// Moves the points along the step as far as the energy gets smaller.
   bool search_line(double before) {
-    const double slope = sum_(patch_.free_count, [&](std::int32_t v) {
-      return gradient_[v].x * step_[v].x + gradient_[v].y * step_[v].y;
-    });
+    const double slope = sum_(
+        patch_.free_count, [&](std::int32_t v) { return gradient_[v].x * step_[v].x + gradient_[v].y * step_[v].y; });
     if (!(slope < 0)) {
       return false;
     }

@@ -28,9 +28,9 @@ enum class Domain : std::uint8_t {
   flat_comb,  ///< a comb, ten times as long as high, elements likewise
   regions,    ///< a square of several regions: their boundaries are held
 };
-inline constexpr std::array all_domains{Domain::square, Domain::disc,  Domain::hull, Domain::graded,    Domain::flat,
-                                        Domain::corner, Domain::comb,  Domain::holes, Domain::ring,
-                                        Domain::flat_comb, Domain::regions};
+inline constexpr std::array all_domains{Domain::square, Domain::disc,      Domain::hull,   Domain::graded,
+                                        Domain::flat,   Domain::corner,    Domain::comb,   Domain::holes,
+                                        Domain::ring,   Domain::flat_comb, Domain::regions};
 std::string_view name_of(Domain domain);
 
 /// The inside is connected and the boundary convex: Tutte's theorem holds.
