@@ -235,6 +235,7 @@ class Run {
     }
     result_.timings_ms.topology += smoothing.timings.prepare;
     result_.timings_ms.transfer_in = smoothing.timings.transfer_in;
+    result_.timings_ms.untangle = smoothing.timings.untangle;
     result_.timings_ms.smooth = smoothing.timings.smooth;
     result_.timings_ms.transfer_out = smoothing.timings.transfer_out;
     result_.timings_ms.guard = smoothing.timings.commit;

@@ -81,8 +81,8 @@ struct InputSummary {
 
 /// Milliseconds of each stage.
 struct PipelineTimings {
-  double read = 0, topology = 0, check_before = 0, transfer_in = 0, smooth = 0, transfer_out = 0, guard = 0,
-         check_after = 0, write = 0, total = 0;
+  double read = 0, topology = 0, check_before = 0, transfer_in = 0, untangle = 0, smooth = 0, transfer_out = 0,
+         guard = 0, check_after = 0, write = 0, total = 0;
 };
 
 /// What a run did and found. Cells and centroids of worst elements are those of the file.

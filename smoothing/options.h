@@ -60,6 +60,9 @@ enum class Precision : std::uint8_t {
   single_precision,  ///< float32: faster on most devices; the caller's coordinates keep their type
 };
 
+/// Whether free vertices around inverted triangles are moved apart before the sweeps.
+enum class Untangle : std::uint8_t { off, on };
+
 /// Which vertices a sweep evaluates. The result is the same bit for bit. The CUDA executions single_block and cdp
 /// evaluate all, as the paper does, whatever is asked for.
 enum class Evaluation : std::uint8_t {
@@ -140,6 +143,18 @@ struct MeanRatioOptions {
   TargetShape target = TargetShape::uniform;
 };
 
+template <>
+struct EnumText<Untangle> {
+  static constexpr std::string_view what = "setting of untangling";
+  static constexpr std::array<std::pair<Untangle, std::string_view>, 2> texts{
+      {{Untangle::off, "off"}, {Untangle::on, "on"}}};
+};
+
+/// What a method does about inverted triangles where nothing else is asked for.
+constexpr Untangle default_untangle(Method /*method*/) {
+  return Untangle::off;
+}
+
 /// Everything that steers a smoothing. The defaults are those of the command line.
 struct SmoothingOptions {
   Method method = Method::smart;
@@ -154,6 +169,9 @@ struct SmoothingOptions {
   /// The never-worse guard: when the sweeps are over, the vertices go back whose moves made an element invalid, or
   /// worse than it was and worse than the worst of all elements around moved vertices was.
   bool guard = true;
+  /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
+  /// pass where none is. Absent: default_untangle(method).
+  std::optional<Untangle> untangle{};
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
@@ -171,6 +189,9 @@ struct SmoothingOptions {
 
   /// Whether the smallest shape of the mesh is found after every sweep: for a quality target or for the record.
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
+
+  /// Whether inverted triangles are untangled before the sweeps.
+  [[nodiscard]] bool untangles() const { return untangle.value_or(default_untangle(method)) == Untangle::on; }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
   /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident, Layout::soa with

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,31 +54,44 @@ struct RevertedVertex {
 struct SmoothingTimings {
   double prepare = 0;       ///< renumbering, colouring, packing; next to nothing where an earlier call has done it
   double transfer_in = 0;   ///< to the device
+  double untangle = 0;      ///< before the sweeps
   double smooth = 0;        ///< the sweeps
   double transfer_out = 0;  ///< from the device
   double commit = 0;        ///< the never-worse guard
+};
+
+/// What the untangling before the sweeps did. Triangles are counted that are inverted or degenerate.
+struct UntanglingResult {
+  std::int64_t inverted_before = 0;     ///< with a free vertex, in the input
+  std::int64_t inverted_untangled = 0;  ///< of these, after the untangling: never more
+  std::int64_t inverted_after = 0;      ///< with a free vertex, in the result
+  std::int64_t inverted_fixed = 0;      ///< without a free vertex: nothing can mend them
+  /// Components whose free vertices were so tangled that the wrong triangles were in the majority: they have been
+  /// turned over, and count as inverted what they were before that.
+  std::int32_t turned_components = 0;
 };
 
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.
 struct SmoothingResult {
   std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
   StopReason stop_reason = StopReason::fixed_point;
-  std::int64_t vertex_updates = 0;       ///< evaluations over all sweeps
-  std::int64_t moved_vertices = 0;       ///< vertices whose stored coordinates differ from the input's
-  std::int64_t reverted_vertices = 0;    ///< vertices that the guard took back
-  std::int64_t guard_rounds = 0;         ///< rounds of the guard that took vertices back
-  std::int64_t free_vertices = 0;        ///< vertices that nothing holds fixed
-  std::int32_t colours = 0;              ///< of Form B; 0 for Form A
-  std::vector<SweepRecord> history;      ///< one record a sweep
-  std::vector<RevertedVertex> reverted;  ///< ascending by vertex
-  std::string backend;                   ///< "cpu", "cuda"
-  std::string device;                    ///< the processor or GPU by name
-  int threads = 0;                       ///< of the CPU; 0 where a device made the sweeps
-  std::int64_t kernel_launches = 0;      ///< on a device, by the host: sweeps and guard
-  std::int64_t child_launches = 0;       ///< on a device, by the device (dynamic parallelism)
-  std::int64_t device_memory_bytes = 0;  ///< the most that was allocated on the device at a time
-  bool reproducible = true;              ///< false for Order::unordered
-  std::string backend_note;              ///< why a backend was chosen that the caller may not have expected, or empty
+  std::int64_t vertex_updates = 0;             ///< evaluations over all sweeps
+  std::int64_t moved_vertices = 0;             ///< vertices whose stored coordinates differ from the input's
+  std::int64_t reverted_vertices = 0;          ///< vertices that the guard took back
+  std::int64_t guard_rounds = 0;               ///< rounds of the guard that took vertices back
+  std::int64_t free_vertices = 0;              ///< vertices that nothing holds fixed
+  std::int32_t colours = 0;                    ///< of Form B; 0 for Form A
+  std::vector<SweepRecord> history;            ///< one record a sweep
+  std::vector<RevertedVertex> reverted;        ///< ascending by vertex
+  std::optional<UntanglingResult> untangling;  ///< where it was asked for
+  std::string backend;                         ///< "cpu", "cuda"
+  std::string device;                          ///< the processor or GPU by name
+  int threads = 0;                             ///< of the CPU; 0 where a device made the sweeps
+  std::int64_t kernel_launches = 0;            ///< on a device, by the host: sweeps and guard
+  std::int64_t child_launches = 0;             ///< on a device, by the device (dynamic parallelism)
+  std::int64_t device_memory_bytes = 0;        ///< the most that was allocated on the device at a time
+  bool reproducible = true;                    ///< false for Order::unordered
+  std::string backend_note;  ///< why a backend was chosen that the caller may not have expected, or empty
   SmoothingTimings timings;
 };
 

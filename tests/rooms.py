@@ -13,7 +13,7 @@ FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints",
          "cuda/device_constraints.h": "cuda faces"}
 
 SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/sweeps",
-             "smoothing/guard", "smoothing"]
+             "smoothing/guard", "smoothing/untangle", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
@@ -22,6 +22,7 @@ MAY_USE = {
     "smoothing/rings": ["base", "quality", "smoothing faces"],
     "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings"],
     "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings"],
+    "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
     "mesh_io": ["base"],
     "mesh_io/halfedge": SMOOTHING,

@@ -267,6 +267,7 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
             {"form", std::string(to_string(chosen.form))},
             {"precision", std::string(to_string(chosen.precision))},
             {"guard", chosen.guard ? "on" : "off"},
+            {"untangle", std::string(to_string(chosen.untangles() ? Untangle::on : Untangle::off))},
             {"sweep limit", chosen.max_sweeps == 0 ? "none" : count_text(chosen.max_sweeps)},
             {"tolerance", fmt::format("{}", chosen.tolerance)},
             {"time limit", optional_number(chosen.time_limit_seconds, " s")},
@@ -301,6 +302,9 @@ std::string outcome_table(const SmoothingResult& smoothing) {
             {"vertices moved", count_text(smoothing.moved_vertices)},
             {"vertices put back", count_text(smoothing.reverted_vertices)},
             {"guard rounds", count_text(smoothing.guard_rounds)}};
+  if (smoothing.untangling) {
+    rows.emplace_back("untangling", untangling_text(*smoothing.untangling));
+  }
   if (ran_on_device(smoothing)) {
     rows.emplace_back("kernel launches", launches_text(smoothing));
     rows.emplace_back("device memory", bytes_text(smoothing.device_memory_bytes));

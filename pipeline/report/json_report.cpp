@@ -87,6 +87,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"topology", name_of(smoothing.topology)},
           {"precision", name_of(smoothing.precision)},
           {"guard", smoothing.guard},
+          {"untangle", name_of(smoothing.untangles() ? Untangle::on : Untangle::off)},
           {"threads", result ? result->threads : smoothing.threads},
           {"max_sweeps", smoothing.max_sweeps},
           {"tolerance", number_json(smoothing.tolerance)},
@@ -155,6 +156,17 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   return json;
 }
 
+Json untangling_json(const std::optional<UntanglingResult>& untangling) {
+  if (!untangling) {
+    return nullptr;
+  }
+  return {{"inverted_before", untangling->inverted_before},
+          {"inverted_untangled", untangling->inverted_untangled},
+          {"inverted_after", untangling->inverted_after},
+          {"inverted_fixed", untangling->inverted_fixed},
+          {"turned_components", untangling->turned_components}};
+}
+
 Json smoothing_json(const SmoothingResult& smoothing) {
   Json history = Json::array();
   for (const SweepRecord& record : smoothing.history) {
@@ -176,6 +188,7 @@ Json smoothing_json(const SmoothingResult& smoothing) {
           {"child_launches", smoothing.child_launches},
           {"device_memory_bytes", smoothing.device_memory_bytes},
           {"guard_rounds", smoothing.guard_rounds},
+          {"untangling", untangling_json(smoothing.untangling)},
           {"history", std::move(history)}};
 }
 

@@ -74,7 +74,8 @@ std::string device_line(const SmoothingOptions& options, const SmoothingResult& 
 std::string method_lines(const SmoothingOptions& options, const PipelineResult& result, TextDetail detail) {
   const SmoothingResult& smoothing = *result.smoothing;
   const PipelineTimings& timings = result.timings_ms;
-  const double smoothing_time = timings.transfer_in + timings.smooth + timings.transfer_out + timings.guard;
+  const double smoothing_time =
+      timings.transfer_in + timings.untangle + timings.smooth + timings.transfer_out + timings.guard;
   std::string text = labelled_line(
       "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", to_string(options.method), to_string(options.form),
                                 to_string(options.precision), who_smoothed(smoothing), duration_text(smoothing_time)));
@@ -99,7 +100,10 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
   }
   std::string reason(to_string(smoothing.stop_reason));
   std::ranges::replace(reason, '_', ' ');
-  std::string lines = labelled_line("result:", text + "; stopped by " + reason);
+  std::string lines = smoothing.untangling && (smoothing.untangling->inverted_before > 0 || detail == TextDetail::all)
+                          ? labelled_line("untangling:", untangling_text(*smoothing.untangling))
+                          : std::string{};
+  lines += labelled_line("result:", text + "; stopped by " + reason);
   if (detail == TextDetail::all) {
     if (smoothing.reverted_vertices > 0) {
       lines += labelled_line("", fmt::format("put back where they had made an element worse, in {}",
@@ -143,6 +147,22 @@ std::string inverted_line(const PipelineResult& result) {
 }
 
 }  // namespace
+
+std::string untangling_text(const UntanglingResult& untangling) {
+  std::string text = "no triangle was inverted";
+  if (untangling.inverted_before > 0) {
+    text = fmt::format("{} inverted or degenerate before, {} after it, {} in the result",
+                       counted(untangling.inverted_before, "triangle", "triangles"), untangling.inverted_untangled,
+                       untangling.inverted_after);
+  }
+  if (untangling.inverted_fixed > 0) {
+    text += fmt::format("; {} more between fixed vertices alone: nothing can mend that", untangling.inverted_fixed);
+  }
+  if (untangling.turned_components > 0) {
+    text += fmt::format("; {} turned over", counted(untangling.turned_components, "component", "components"));
+  }
+  return text;
+}
 
 std::string_view describe(StopReason reason) {
   switch (reason) {

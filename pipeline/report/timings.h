@@ -9,11 +9,12 @@
 namespace trismooth {
 
 /// The parts of a run's time in their order, each with its name in reports; the total is not among them.
-inline std::array<std::pair<std::string_view, double>, 9> timing_parts(const PipelineTimings& timings) {
+inline std::array<std::pair<std::string_view, double>, 10> timing_parts(const PipelineTimings& timings) {
   return {{{"read", timings.read},
            {"topology", timings.topology},
            {"check_before", timings.check_before},
            {"transfer_in", timings.transfer_in},
+           {"untangle", timings.untangle},
            {"smooth", timings.smooth},
            {"transfer_out", timings.transfer_out},
            {"commit", timings.guard},

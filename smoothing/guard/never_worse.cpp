@@ -161,4 +161,10 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<doub
   return Guard(rings, before, after, workers).run();
 }
 
+void name_once(std::vector<RevertedVertex>& reverted) {
+  std::ranges::stable_sort(reverted, {}, &RevertedVertex::vertex);
+  const auto is_same = [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; };
+  reverted.erase(std::unique(reverted.begin(), reverted.end(), is_same), reverted.end());
+}
+
 }  // namespace trismooth

@@ -6,6 +6,7 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
@@ -29,5 +30,9 @@ struct GuardOutcome {
 /// vertices; a round costs what it takes back (times log n), not the mesh.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers);
+
+/// Sorts what several guards took back by vertex. Who went back more than once is named once, with where the first
+/// found it.
+void name_once(std::vector<RevertedVertex>& reverted);
 
 }  // namespace trismooth

@@ -40,6 +40,15 @@ class FixedTriangles {
     return smallest;
   }
 
+  /// How many of them are inverted or degenerate, likewise.
+  template <class Position>
+  std::int64_t inverted(const Position& position) const {
+    return std::ranges::count_if(corners_, [&](const Triangle& triangle) {
+      const auto [a, b, c] = triangle;
+      return !(shape_quotient(position(a), position(b), position(c)) > 0);
+    });
+  }
+
  private:
   std::vector<Triangle> corners_;  ///< in canonical order
 };

@@ -77,23 +77,28 @@ class Untangler {
     const auto move_to_kernels = [&](std::int32_t v) { move_to_kernel(v); };
     move_corners(move_to_means, 12, outcome_.by_averages);
     move_corners(move_to_kernels, 4, outcome_.by_kernels);
-    for (std::int64_t rings = 2; faults_.any(); rings *= 2) {
-      // Where much is wrong, a part of the mesh is hardly ever enough.
-      const bool is_much = std::ssize(faulty_) > rings_.size() / 64;
-      const bool takes_all = is_much || rings > most_rings;
-      if (takes_all && faults_.inverted == 0 && !is_much) {
-        break;  // what is weak alone is not worth the whole mesh
-      }
-      const bool were_all = solve_parts(takes_all ? all_rings : rings);
-      if (were_all) {
+    if (is_much()) {
+      solve_parts(all_rings, Effort::embedding);
+    }
+    for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !is_much(); rings *= 2) {
+      if (solve_parts(rings, Effort::few_steps)) {
         break;
       }
+    }
+    if (faults_.inverted > 0 || (faults_.weak > 0 && is_much())) {
+      solve_parts(all_rings, Effort::many_steps);  // what is weak alone is not worth the whole mesh
     }
     outcome_.inverted_after = faults_.inverted;
     return outcome_;
   }
 
  private:
+  /// What a part is worth.
+  enum class Effort : std::uint8_t { embedding, few_steps, many_steps };
+
+  /// Where that many triangles are faulty, a part of the mesh is hardly ever enough.
+  bool is_much() const { return std::ssize(faulty_) > rings_.size() / 64; }
+
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
@@ -255,7 +260,7 @@ class Untangler {
 
   /// Cuts out the parts of the mesh within `rings` of faulty triangles and solves each by itself. Returns whether they
   /// could not have been larger.
-  bool solve_parts(std::int64_t rings) {
+  bool solve_parts(std::int64_t rings, Effort effort) {
     std::vector<std::int32_t> near = corners();
     for (const std::int32_t v : near) {
       listed_[v] = 1;
@@ -290,7 +295,7 @@ class Untangler {
           }
         }
       }
-      solve(part, are_all);
+      solve(part, effort);
     }
     unlist(near);
     find_faulty();
@@ -307,8 +312,17 @@ class Untangler {
     return faults;
   }
 
-  /// Solves one part and keeps the result where less is wrong with it. `is_whole`: it cannot be larger.
-  void solve(std::span<const std::int32_t> part, bool is_whole) {
+  /// What the triangles of the patch have in all: its held vertices alone decide that.
+  static double area(const Patch& patch, std::span<const Point2<double>> points) {
+    double sum = 0;
+    for (const auto& [a, b, c] : patch.triangles) {
+      sum += cross(points[b] - points[a], points[c] - points[a]);
+    }
+    return sum;
+  }
+
+  /// Solves one part and keeps the result where less is wrong with it.
+  void solve(std::span<const std::int32_t> part, Effort effort) {
     const Patch patch = cutter_.cut(part);
     if (patch.vertex_count() == patch.free_count) {
       return;  // nothing holds it: a closed surface, laid flat
@@ -316,6 +330,10 @@ class Untangler {
     std::vector<Point2<double>> points;
     for (const std::int32_t v : patch.vertices) {
       points.push_back(points_[v]);
+    }
+    if (!(area(patch, points) > 0)) {
+      outcome_.parts_of_no_area += effort == Effort::many_steps ? 1 : 0;
+      return;
     }
     std::vector<double> input;
     for (const auto& [a, b, c] : patch.triangles) {
@@ -339,11 +357,12 @@ class Untangler {
       tutte(patch, embedded, tutte_tolerances[i], workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_embedding);
     }
-    if (is_faulty) {
-      minimise_regularised(patch, embedded, is_whole ? most_newton_steps : few_newton_steps, workers_);
+    if (is_faulty && effort != Effort::embedding) {
+      const int steps = effort == Effort::many_steps ? most_newton_steps : few_newton_steps;
+      minimise_regularised(patch, embedded, steps, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_energy);
     }
-    if (is_faulty && fewest.inverted > 0 && is_whole) {
+    if (is_faulty && fewest.inverted > 0 && effort == Effort::many_steps) {
       std::vector<Point2<double>> lowered = points;
       minimise_regularised(patch, lowered, most_newton_steps, workers_);
       keep_if_better(lowered, outcome_.by_energy);

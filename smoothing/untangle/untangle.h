@@ -18,6 +18,9 @@ struct UntangleOutcome {
   std::int64_t by_kernels = 0;       ///< mended by moving single vertices to where all their triangles are valid
   std::int64_t by_embedding = 0;     ///< mended by Tutte's embedding of a part of the mesh
   std::int64_t by_energy = 0;        ///< mended by the regularised energy on a part of the mesh
+  /// Parts of the mesh that cannot be untangled as they are oriented: their triangles have no positive area in all,
+  /// wherever the free vertices are.
+  std::int64_t parts_of_no_area = 0;
 };
 
 /// Moves free vertices until no triangle around them is inverted or degenerate, as far as that can be found. `points`:

@@ -26,13 +26,13 @@ REPORT_KEYS = {
                 "max_sweeps", "tolerance"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
                   "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
-                  "guard_rounds", "history"},
-    "timings_ms": {"read", "topology", "check_before", "transfer_in", "smooth", "transfer_out", "commit",
+                  "guard_rounds", "untangling", "history"},
+    "timings_ms": {"read", "topology", "check_before", "transfer_in", "untangle", "smooth", "transfer_out", "commit",
                    "check_after", "write", "total"},
 }
 # What a report may hold beyond the keys that are promised.
 MORE_KEYS = {"input": {"region_array"},
-             "options": {"output", "guard", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
+             "options": {"output", "guard", "untangle", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
                          "fixed_ids", "annotate", "annotated_metrics"}}
 
 

@@ -45,7 +45,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
   for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
-                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard"}) {
+                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard", "untangle"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
@@ -59,13 +59,27 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
     CHECK(report[side]["histogram"]["shape"].size() == 20);
     CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid", "all_fixed"});
   }
-  CHECK(keys_of(report["smoothing"]) ==
-        Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device", "backend_note",
-             "reproducible", "kernel_launches", "child_launches", "device_memory_bytes", "guard_rounds", "history"});
+  CHECK(keys_of(report["smoothing"]) == Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices",
+                                             "reverted_vertices", "device", "backend_note", "reproducible",
+                                             "kernel_launches", "child_launches", "device_memory_bytes", "guard_rounds",
+                                             "untangling", "history"});
   CHECK(keys_of(report["smoothing"]["history"][0]) ==
         Keys{"sweep", "evaluated", "moved", "max_relative_move", "min_shape"});
-  CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "smooth",
+  CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "untangle", "smooth",
                                               "transfer_out", "commit", "check_after", "write", "total"});
+}
+
+TEST_CASE("the JSON report says what untangling did") {
+  trismooth::PipelineOptions options = sample::options();
+  options.smoothing.untangle = trismooth::Untangle::on;
+  const Json report = Json::parse(json_report(options, sample::untangled_result()));
+  CHECK(report["options"]["untangle"] == "on");
+  CHECK(report["smoothing"]["untangling"] == Json{{"inverted_before", 12},
+                                                  {"inverted_untangled", 4},
+                                                  {"inverted_after", 3},
+                                                  {"inverted_fixed", 2},
+                                                  {"turned_components", 1}});
+  CHECK(report["timings_ms"]["untangle"] == 10.5);
 }
 
 TEST_CASE("the JSON report holds the run's values") {
@@ -112,6 +126,8 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["smoothing"]["history"][1]["min_shape"] == 0.375);
   CHECK(report["coordinates_hash"] == "0123456789abcdef");
   CHECK(report["uncommitted_hash"] == "fedcba9876543210");
+  CHECK(report["smoothing"]["untangling"].is_null());
+  CHECK(report["options"]["untangle"] == "off");
   CHECK(report["timings_ms"]["read"] == 1.5);
   CHECK(report["timings_ms"]["write"] == 9.5);
   CHECK(report["timings_ms"]["total"] == 50);

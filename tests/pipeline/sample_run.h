@@ -65,7 +65,7 @@ inline trismooth::PipelineResult result() {
   result.coordinates_hash = 0x0123456789abcdefU;
   result.unguarded_hash = 0xfedcba9876543210U;
   result.notes = {"a note with <b>markup</b> & an ampersand"};
-  result.timings_ms = {1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 50};
+  result.timings_ms = {1.5, 2.5, 3.5, 4.5, 0, 5.5, 6.5, 7.5, 8.5, 9.5, 50};
   result.peak_memory_bytes = 987654321;
   return result;
 }
@@ -78,6 +78,15 @@ inline trismooth::RunRecord record() {
   record.gates = {{{"min_shape", trismooth::Comparison::at_least, 0.5}, 0.35, false},
                   {{"degenerate", trismooth::Comparison::below, 7}, 6, true}};
   return record;
+}
+
+/// The same of a run that untangled the mesh first.
+inline trismooth::PipelineResult untangled_result() {
+  trismooth::PipelineResult untangled = result();
+  untangled.smoothing->untangling = {
+      .inverted_before = 12, .inverted_untangled = 4, .inverted_after = 3, .inverted_fixed = 2, .turned_components = 1};
+  untangled.timings_ms.untangle = 10.5;
+  return untangled;
 }
 
 /// The same of a run on a device, in the paper's literal version.

@@ -84,8 +84,41 @@ Mesh carved(const Mesh& mesh, const Inside& inside) {
   return result;
 }
 
+bool is_valid(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.triangles, [&](const Triangle& t) {
+    return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]) > 0;
+  });
+}
+
+/// The mesh with every point p at place(p, strength), with the largest strength below `strength` that leaves every
+/// triangle valid.
+template <class Place>
+Mesh warped(const Mesh& mesh, double strength, const Place& place) {
+  for (;; strength *= 0.8) {
+    Mesh result = mesh;
+    for (Point& p : result.points) {
+      p = place(p, strength);
+    }
+    if (is_valid(result)) {
+      return result;
+    }
+  }
+}
+
 double distance(Point a, Point b) {
   return std::sqrt(squared_length(a - b));
+}
+
+bool in_ring(Point p) {
+  const double radius = distance(p, {0.5, 0.5});
+  return radius > 0.25 && radius < 0.5;
+}
+
+bool in_spiral(Point p) {
+  const double radius = distance(p, {0.5, 0.5});
+  const double turns = std::atan2(p.y - 0.5, p.x - 0.5) / (2 * std::numbers::pi) + 0.5;
+  const double along = radius * 7 - turns;
+  return radius > 0.08 && radius < 0.48 && along - std::floor(along) < 0.7;
 }
 
 bool in_comb(Point p) {
@@ -139,10 +172,21 @@ Mesh domain_mesh(Domain domain, std::int32_t count, Random& random) {
     case Domain::holes:
       return carved(delaunay_mesh(square_points(count * 4 / 3, random), random), outside_holes);
     case Domain::ring:
-      return carved(delaunay_mesh(square_points(count * 2, random), random), [](Point p) {
-        const double radius = distance(p, {0.5, 0.5});
-        return radius > 0.25 && radius < 0.5;
+      return carved(delaunay_mesh(square_points(count * 2, random), random), in_ring);
+    case Domain::twisted:
+      return warped(carved(delaunay_mesh(square_points(count * 2, random), random), in_ring), 3,
+                    [](Point p, double strength) {
+                      const double turn = strength * (0.5 - distance(p, {0.5, 0.5})) / 0.25;
+                      const Point d = p - Point{0.5, 0.5};
+                      return Point{0.5 + d.x * std::cos(turn) - d.y * std::sin(turn),
+                                   0.5 + d.x * std::sin(turn) + d.y * std::cos(turn)};
+                    });
+    case Domain::wave:
+      return warped(delaunay_mesh(square_points(count, random), random), 1, [](Point p, double strength) {
+        return Point{p.x, p.y + strength * std::sin(9 * p.x)};
       });
+    case Domain::spiral:
+      return carved(delaunay_mesh(square_points(count * 2, random), random), in_spiral);
     case Domain::square:
     case Domain::flat:
     case Domain::regions:
@@ -154,8 +198,9 @@ Mesh domain_mesh(Domain domain, std::int32_t count, Random& random) {
 }  // namespace
 
 std::string_view name_of(Domain domain) {
-  constexpr std::array<std::string_view, all_domains.size()> names{
-      "square", "disc", "hull", "graded", "flat", "corner", "comb", "holes", "ring", "flat comb", "regions"};
+  constexpr std::array<std::string_view, all_domains.size()> names{"square",  "disc",    "hull",  "graded", "flat",
+                                                                   "corner",  "comb",    "holes", "ring",   "flat comb",
+                                                                   "regions", "twisted", "wave",  "spiral"};
   return names[static_cast<std::size_t>(domain)];
 }
 

@@ -27,10 +27,13 @@ enum class Domain : std::uint8_t {
   ring,       ///< what is between two circles
   flat_comb,  ///< a comb, ten times as long as high, elements likewise
   regions,    ///< a square of several regions: their boundaries are held
+  twisted,    ///< a ring whose inner circle has been turned, elements with it
+  wave,       ///< a square whose columns have been moved up and down, elements with them
+  spiral,     ///< a band along a spiral
 };
-inline constexpr std::array all_domains{Domain::square, Domain::disc,      Domain::hull,   Domain::graded,
-                                        Domain::flat,   Domain::corner,    Domain::comb,   Domain::holes,
-                                        Domain::ring,   Domain::flat_comb, Domain::regions};
+inline constexpr std::array all_domains{
+    Domain::square, Domain::disc, Domain::hull,      Domain::graded,  Domain::flat,    Domain::corner, Domain::comb,
+    Domain::holes,  Domain::ring, Domain::flat_comb, Domain::regions, Domain::twisted, Domain::wave,   Domain::spiral};
 std::string_view name_of(Domain domain);
 
 /// The inside is connected and the boundary convex: Tutte's theorem holds.
