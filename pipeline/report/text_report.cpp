@@ -149,14 +149,14 @@ std::string inverted_line(const PipelineResult& result) {
 }  // namespace
 
 std::string untangling_text(const UntanglingResult& untangling) {
-  std::string text = "no triangle was inverted";
+  std::string text = "every triangle was valid";
   if (untangling.inverted_before > 0) {
-    text = fmt::format("{} inverted or degenerate before, {} after it, {} in the result",
+    text = fmt::format("{} not valid before, {} after it, {} in the result",
                        counted(untangling.inverted_before, "triangle", "triangles"), untangling.inverted_untangled,
                        untangling.inverted_after);
   }
   if (untangling.inverted_fixed > 0) {
-    text += fmt::format("; {} more between fixed vertices alone: nothing can mend that", untangling.inverted_fixed);
+    text += fmt::format("; {} more have fixed vertices alone", untangling.inverted_fixed);
   }
   if (untangling.turned_components > 0) {
     text += fmt::format("; {} turned over", counted(untangling.turned_components, "component", "components"));

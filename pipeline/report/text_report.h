@@ -27,7 +27,7 @@ bool ran_on_device(const SmoothingResult& smoothing);
 /// "14 by the host, 120 by the device": kernel launches of a smoothing on a device.
 std::string launches_text(const SmoothingResult& smoothing);
 
-/// "12 inverted or degenerate triangles before, 0 after it, 0 in the result": what untangling did.
+/// "12 triangles not valid before, 0 after it, 0 in the result": what untangling did.
 std::string untangling_text(const UntanglingResult& untangling);
 
 /// What every report says of a result that another run would not give.

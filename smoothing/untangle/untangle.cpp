@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <mutex>
@@ -80,13 +81,17 @@ class Untangler {
     if (is_much()) {
       solve_parts(all_rings, Effort::embedding);
     }
-    for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !is_much(); rings *= 2) {
-      if (solve_parts(rings, Effort::few_steps)) {
-        break;
-      }
+    bool are_all = false;
+    bool has_helped = true;
+    for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !are_all; rings *= 4) {
+      const Faults before = faults_;
+      are_all = solve_parts(rings, Effort::energy);
+      has_helped = faults_ < before;
     }
-    if (faults_.inverted > 0 || (faults_.weak > 0 && is_much())) {
-      solve_parts(all_rings, Effort::many_steps);  // what is weak alone is not worth the whole mesh
+    // What is weak alone is not worth the whole mesh. Nor is, if that is large, what so many rings did nothing for: it
+    // is fixed vertices that fold it.
+    if (faults_.inverted > 0 && (has_helped || are_all || rings_.size() <= large_mesh)) {
+      solve_parts(all_rings, Effort::all);
     }
     outcome_.inverted_after = faults_.inverted;
     return outcome_;
@@ -94,11 +99,12 @@ class Untangler {
 
  private:
   /// What a part is worth.
-  enum class Effort : std::uint8_t { embedding, few_steps, many_steps };
+  enum class Effort : std::uint8_t { embedding, energy, all };
 
   /// Where that many triangles are faulty, a part of the mesh is hardly ever enough.
-  bool is_much() const { return std::ssize(faulty_) > rings_.size() / 64; }
+  bool is_much() const { return std::ssize(faulty_) > rings_.size() / 10; }
 
+  static constexpr std::int32_t large_mesh = 50000;
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
@@ -312,13 +318,16 @@ class Untangler {
     return faults;
   }
 
-  /// What the triangles of the patch have in all: its held vertices alone decide that.
-  static double area(const Patch& patch, std::span<const Point2<double>> points) {
+  /// Whether the triangles of the patch have a positive area in all: the held vertices alone decide that.
+  static bool has_area(const Patch& patch, std::span<const Point2<double>> points) {
     double sum = 0;
+    double size = 0;
     for (const auto& [a, b, c] : patch.triangles) {
-      sum += cross(points[b] - points[a], points[c] - points[a]);
+      const double area = cross(points[b] - points[a], points[c] - points[a]);
+      sum += area;
+      size += std::abs(area);
     }
-    return sum;
+    return sum > no_area * size;
   }
 
   /// Solves one part and keeps the result where less is wrong with it.
@@ -331,8 +340,8 @@ class Untangler {
     for (const std::int32_t v : patch.vertices) {
       points.push_back(points_[v]);
     }
-    if (!(area(patch, points) > 0)) {
-      outcome_.parts_of_no_area += effort == Effort::many_steps ? 1 : 0;
+    if (!has_area(patch, points)) {
+      outcome_.parts_of_no_area += effort == Effort::all ? 1 : 0;
       return;
     }
     std::vector<double> input;
@@ -353,16 +362,17 @@ class Untangler {
     };
     std::vector<Point2<double>> embedded = points;
     bool is_faulty = true;
-    for (std::size_t i = 0; i < std::size(tutte_tolerances) && is_faulty; ++i) {
-      tutte(patch, embedded, tutte_tolerances[i], workers_);
+    tutte(patch, embedded, rough_embedding, workers_);
+    is_faulty = keep_if_better(embedded, outcome_.by_embedding);
+    if (is_faulty && effort != Effort::embedding) {
+      tutte(patch, embedded, exact_embedding, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_embedding);
     }
     if (is_faulty && effort != Effort::embedding) {
-      const int steps = effort == Effort::many_steps ? most_newton_steps : few_newton_steps;
-      minimise_regularised(patch, embedded, steps, workers_);
+      minimise_regularised(patch, embedded, most_newton_steps, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_energy);
     }
-    if (is_faulty && fewest.inverted > 0 && effort == Effort::many_steps) {
+    if (is_faulty && fewest.inverted > 0 && effort == Effort::all) {
       std::vector<Point2<double>> lowered = points;
       minimise_regularised(patch, lowered, most_newton_steps, workers_);
       keep_if_better(lowered, outcome_.by_energy);
@@ -374,8 +384,8 @@ class Untangler {
     }
   }
 
-  static constexpr double tutte_tolerances[] = {1e-6, 1e-9, 1e-13};
-  static constexpr int few_newton_steps = 30;
+  static constexpr double rough_embedding = 1e-6;
+  static constexpr double exact_embedding = 1e-11;
   static constexpr int most_newton_steps = 100;
 
   const RingView& rings_;

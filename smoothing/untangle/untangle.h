@@ -23,6 +23,9 @@ struct UntangleOutcome {
   std::int64_t parts_of_no_area = 0;
 };
 
+/// Areas that cancel out to this part of what they are without their signs are no area: the rest is rounding.
+inline constexpr double no_area = 1e-10;
+
 /// Moves free vertices until no triangle around them is inverted or degenerate, as far as that can be found. `points`:
 /// one for each vertex of the mesh in the numbering of `rings`, in the local frame, changed in place.
 ///

@@ -1,6 +1,7 @@
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -20,22 +21,29 @@ class TurnedMesh {
       : rings_(rings), triangles_(triangles), reversed_(reversed.begin(), reversed.end()) {
     const std::vector<Point2<double>> input = in_input_order(points);
     sides_ = match_sides(static_cast<std::int32_t>(points.size()), triangles, workers);
-    std::vector<double> areas(static_cast<std::size_t>(sides_.components), 0);
+    struct Area {
+      double sum = 0;
+      double size = 0;  ///< without the signs
+
+      bool is_negative() const { return sum < -no_area * size; }
+    };
+    std::vector<Area> areas(static_cast<std::size_t>(sides_.components));
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto [a, b, c] = triangles[t];
       const double area = cross(input[b] - input[a], input[c] - input[a]);
-      areas[sides_.component[t]] += reversed_[t] != 0 ? -area : area;
+      areas[sides_.component[t]].sum += reversed_[t] != 0 ? -area : area;
+      areas[sides_.component[t]].size += std::abs(area);
     }
     std::vector<std::uint8_t> turned_vertices(points.size(), 0);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (areas[sides_.component[t]] < 0) {
+      if (areas[sides_.component[t]].is_negative()) {
         reversed_[t] ^= 1U;
         for (const std::int32_t v : triangles[t]) {
           turned_vertices[v] = 1;
         }
       }
     }
-    count_ = static_cast<std::int32_t>(std::ranges::count_if(areas, [](double area) { return area < 0; }));
+    count_ = static_cast<std::int32_t>(std::ranges::count_if(areas, &Area::is_negative));
     turned_.resize(points.size());
     for (std::int32_t v = 0; v < rings_.size(); ++v) {
       turned_[v] = rings_.is_free(v) ? turned_vertices[rings_.input(v)] : std::uint8_t{0};

@@ -47,25 +47,29 @@ class RegularisedMinimiser {
     energy_.size_weight = size_weight;
     energy_.epsilon = first_epsilon(smallest);
     int steps_after = 0;
-    int steps_in_vain = 0;
+    double smallest_then = smallest;
+    double energy_then = std::numeric_limits<double>::infinity();
     while (outcome.steps < most_steps && std::isfinite(smallest)) {
       const double before = differentiate();
       const bool has_moved = find_step() && search_line(before);
       ++outcome.steps;
       const double after = has_moved ? value() : before;
-      const double old_smallest = smallest;
       smallest = smallest_determinant();
       // Where it is untangled, the shapes get better for some steps more, while that is quick.
       if (smallest > 0 && (++steps_after > 6 || !(after < 0.99 * before) || !has_moved)) {
         break;
       }
-      // The paper's rule: it lets the regularisation fall as fast as the energy does.
-      const double gain = std::max(0.1, 1 - after / before);
-      const double mu = (1 - gain) * energy_.regularised(smallest);
-      const double next = smallest < mu ? 2 * std::sqrt(mu * (mu - smallest)) : 1e-10;
-      const bool stalls = !(after < 0.999 * before) && !(smallest > old_smallest + 1e-3 * std::abs(old_smallest));
-      steps_in_vain = stalls ? steps_in_vain + 1 : 0;
-      if (steps_in_vain > 8 || (!has_moved && !(next < energy_.epsilon))) {
+      const double next = first_epsilon(smallest);
+      if (outcome.steps % stall_window == 0) {
+        const bool stalls =
+            !(after < 0.98 * energy_then) && !(smallest > smallest_then + 0.1 * std::abs(smallest_then));
+        if (stalls) {
+          break;
+        }
+        energy_then = after;
+        smallest_then = smallest;
+      }
+      if (!has_moved && !(next < energy_.epsilon)) {
         break;
       }
       energy_.epsilon = std::min(next, energy_.epsilon);
@@ -75,6 +79,8 @@ class RegularisedMinimiser {
   }
 
  private:
+  static constexpr int stall_window = 8;
+
   /// lambda: enough that no triangle shrinks to a point where that is cheaper than to turn it.
   static constexpr double size_weight = 0.5;
 
@@ -134,7 +140,7 @@ class RegularisedMinimiser {
   }
 
   static double first_epsilon(double smallest) {
-    return smallest > 0 ? 1e-10 : std::sqrt(1e-4 + 0.04 * smallest * smallest);
+    return smallest > 0 ? 1e-10 : std::sqrt(1e-6 + 0.04 * smallest * smallest);
   }
 
   double value_at(std::span<const Point2<double>> points) {
@@ -240,7 +246,7 @@ class RegularisedMinimiser {
     if (!(reference > 0) || !std::isfinite(reference)) {
       return false;
     }
-    constexpr double tolerance = 1e-2;
+    constexpr double tolerance = 0.1;  // a rough step at little cost beats an exact one
     constexpr int most_steps = 2000;
     conjugate_gradients(apply, precondition, step_, residual_, reference, tolerance, most_steps, workers_);
     return true;

@@ -32,6 +32,7 @@ TEST_CASE("without options, smooth uses the documented defaults") {
   CHECK(options.smoothing.form == trismooth::Form::in_place);
   CHECK(options.smoothing.precision == trismooth::Precision::double_precision);
   CHECK(options.smoothing.guard);
+  CHECK_FALSE(options.smoothing.untangle);
   CHECK(options.smoothing.max_sweeps == 1000);
   CHECK(options.smoothing.tolerance == 1e-6);
   CHECK_FALSE(options.smoothing.target_quality);
@@ -41,15 +42,25 @@ TEST_CASE("without options, smooth uses the documented defaults") {
 }
 
 TEST_CASE("every option of smooth reaches the pipeline") {
-  const Outcome outcome = smooth({"--method",         "weighted",     "--form",        "a",
-                                  "--layout",         "soa",          "--backend",     "cpu",
-                                  "--execution",      "single-block", "--order",       "colour",
-                                  "--topology",       "device",       "--guard",       "off",
-                                  "--precision",      "single",       "--max-sweeps",  "0",
-                                  "--tolerance",      "2.5e-3",       "--time-limit",  "7.5",
-                                  "--target-quality", "0.25",         "--threads",     "3",
-                                  "--region-array",   "material",     "--fixed-array", "anchors",
-                                  "--fixed-ids",      "ids.txt",      "--annotate"});
+  const Outcome outcome = smooth({"--method",         "weighted",
+                                  "--form",           "a",
+                                  "--layout",         "soa",
+                                  "--backend",        "cpu",
+                                  "--execution",      "single-block",
+                                  "--order",          "colour",
+                                  "--topology",       "device",
+                                  "--guard",          "off",
+                                  "--untangle",       "on",
+                                  "--precision",      "single",
+                                  "--max-sweeps",     "0",
+                                  "--tolerance",      "2.5e-3",
+                                  "--time-limit",     "7.5",
+                                  "--target-quality", "0.25",
+                                  "--threads",        "3",
+                                  "--region-array",   "material",
+                                  "--fixed-array",    "anchors",
+                                  "--fixed-ids",      "ids.txt",
+                                  "--annotate"});
   REQUIRE(outcome.code == 0);
   const PipelineOptions& options = *outcome.options;
   CHECK(options.smoothing.method == trismooth::Method::weighted);
@@ -60,6 +71,7 @@ TEST_CASE("every option of smooth reaches the pipeline") {
   CHECK(options.smoothing.topology == trismooth::Topology::device);
   CHECK(options.smoothing.precision == trismooth::Precision::single_precision);
   CHECK_FALSE(options.smoothing.guard);
+  CHECK(options.smoothing.untangle == trismooth::Untangle::on);
   CHECK(options.smoothing.max_sweeps == 0);
   CHECK(options.smoothing.tolerance == 2.5e-3);
   CHECK(options.smoothing.time_limit_seconds == 7.5);
@@ -124,6 +136,7 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--order", "x"}, "valid are colour, unordered"},
       {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are halfedge, device"},
       {{"smooth", "a.off", "b.off", "--guard", "x"}, "valid are on, off"},
+      {{"smooth", "a.off", "b.off", "--untangle", "x"}, "valid are off, on"},
       {{"smooth", "a.off", "b.off", "--precision", "x"}, "valid are double, single"},
       {{"smooth", "a.off", "b.off", "--max-sweeps", "-1"}, "--max-sweeps"},
       {{"smooth", "a.off", "b.off", "--max-sweeps", "10x"}, "'10x'"},

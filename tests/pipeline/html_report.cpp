@@ -82,6 +82,11 @@ TEST_CASE("the report of a run on a device says how it ran, and whether another 
   }
 }
 
+TEST_CASE("the report says what untangling did") {
+  const std::string page = html_report(sample::options(), sample::untangled_result(), sample::record());
+  CHECK(page.find("4 after it, 3 in the result; 2 more have fixed vertices alone") != std::string::npos);
+}
+
 TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
   auto options = sample::options();
   options.output.reset();

@@ -77,6 +77,7 @@ TEST_CASE("the defaults are those of the contract and valid") {
   CHECK(options.max_sweeps == 1000);
   CHECK(options.tolerance == 1e-6);
   CHECK_FALSE(options.target_quality.has_value());
+  CHECK_FALSE(options.untangles());
 }
 
 TEST_CASE("numbers out of range are refused, and the message names the option") {

@@ -1,0 +1,67 @@
+#include "trismooth/smoothing/untangle/ring_kernel.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using trismooth::kernel_centre;
+using trismooth::Point2;
+
+namespace {
+
+using Ring = std::vector<Point2<double>>;
+
+bool sees_all(const Ring& ring, Point2<double> p) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (!(cross(ring[i] - p, ring[(i + 1) % ring.size()] - p) > 0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Some are folded, some see all of themselves from somewhere.
+Ring random_ring(test_meshes::Random& random) {
+  const std::int32_t size = 3 + random.below(8);
+  Ring ring;
+  for (std::int32_t i = 0; i < size; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.between(-1.2, 1.2)) / size;
+    const double radius = random.between(0.2, 1);
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+}  // namespace
+
+TEST_CASE("a vertex in the centre of a ring's kernel has valid triangles alone, and there is a centre where any has") {
+  test_meshes::Random random(1);
+  std::vector<Point2<double>> scratch;
+  int with_kernel = 0;
+  int without = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Ring ring = random_ring(random);
+    const auto centre = kernel_centre(ring, scratch);
+    if (centre) {
+      REQUIRE(sees_all(ring, *centre));
+      ++with_kernel;
+      continue;
+    }
+    ++without;
+    for (int tries = 0; tries < 200; ++tries) {
+      const double x = random.between(-1, 1);
+      REQUIRE_FALSE(sees_all(ring, {x, random.between(-1, 1)}));
+    }
+  }
+  CHECK(with_kernel > 500);
+  CHECK(without > 500);
+}
+
+TEST_CASE("a ring that goes round clockwise has no kernel") {
+  std::vector<Point2<double>> scratch;
+  CHECK(kernel_centre(Ring{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, scratch) == Point2<double>{0.5, 0.5});
+  CHECK_FALSE(kernel_centre(Ring{{0, 0}, {0, 1}, {1, 1}, {1, 0}}, scratch));
+}
