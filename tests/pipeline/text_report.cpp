@@ -120,9 +120,10 @@ TEST_CASE("the result of a run on a device says how it ran, and whether another 
 
 TEST_CASE("the text says what untangling did, and nothing where it was not asked for") {
   const std::string text = text_report(sample::options(), sample::untangled_result());
+  CAPTURE(text);
   CHECK(says(text,
-             "untangling: 12 triangles not valid before, 4 after it, 3 in the result; 2\n"
-             "            more have fixed vertices alone; 1 component turned over\n"));
+             "untangling: 12 triangles not valid before, 4 after it, 3 in the result; 2 more\n"
+             "            have fixed vertices alone; 1 component turned over\n"));
   CHECK_FALSE(says(full_report(sample::options(), sample::result()), "untangling"));
   trismooth::PipelineResult nothing_inverted = sample::untangled_result();
   nothing_inverted.smoothing->untangling = trismooth::UntanglingResult{};
