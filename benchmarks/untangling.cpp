@@ -1,6 +1,7 @@
 // What share of tangled meshes is untangled, by domain and by what tangled them, and how long it takes.
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -36,8 +37,20 @@ struct Tally {
   double smallest_shape = std::numeric_limits<double>::infinity();
 };
 
-void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed, Workers& workers, Tally& tally) {
-  const ValidMesh valid = valid_mesh(domain, vertices, seed);
+/// What every run has in common.
+struct Settings {
+  std::vector<std::int32_t> sizes{100, 1000, 10000, 100000};
+  int threads = 0;
+  int meshes = 100;
+  std::int32_t held_folds = 0;
+  std::string domain;
+  std::string tangle;
+};
+
+void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed, const Settings& settings,
+         Workers& workers, Tally& tally) {
+  ValidMesh valid = valid_mesh(domain, vertices, seed);
+  fold_by_held_vertices(valid, settings.held_folds, seed);
   const TriangleTopology topology = connect_triangles(valid.mesh.vertex_count(), valid.mesh.triangles, workers);
   const std::vector<std::uint8_t> reversed(valid.mesh.triangles.size(), 0);
   const OneRings rings = one_rings(topology, valid.mesh.triangles, reversed, valid.fixed, workers);
@@ -64,35 +77,32 @@ void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed
 
 int main(int argc, char** argv) {
   CLI::App app("The share of tangled meshes that is untangled");
-  std::vector<std::int32_t> sizes{100, 1000, 10000, 100000};
-  int threads = 0;
-  int meshes = 100;
-  std::string only;
-  std::string only_by;
-  app.add_option("--vertices", sizes, "sizes of the meshes");
-  app.add_option("--threads", threads, "0: one for each core");
-  app.add_option("--meshes", meshes,
+  Settings settings;
+  app.add_option("--vertices", settings.sizes, "sizes of the meshes");
+  app.add_option("--threads", settings.threads, "0: one for each core");
+  app.add_option("--meshes", settings.meshes,
                  "meshes of 100 vertices of a kind; a tenth for ten times the vertices, 2 at least");
-  app.add_option("--domain", only, "this one alone");
-  app.add_option("--tangle", only_by, "this one alone");
+  app.add_option("--domain", settings.domain, "this one alone");
+  app.add_option("--tangle", settings.tangle, "this one alone");
+  app.add_option("--held-folds", settings.held_folds, "places that fixed vertices fold: nothing mends these");
   CLI11_PARSE(app, argc, argv);
-  Workers workers(threads);
+  Workers workers(settings.threads);
   fmt::print("{:<10} {:>8} {:<15} {:>9} {:>10} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "domain", "vertices",
              "tangled by", "solved", "inverted", "left", "averages", "kernels", "embedded", "energy", "ms", "most ms",
              "shape");
-  for (const std::int32_t vertices : sizes) {
+  for (const std::int32_t vertices : settings.sizes) {
     for (const Domain domain : all_domains) {
-      if (!only.empty() && only != name_of(domain)) {
+      if (!settings.domain.empty() && settings.domain != name_of(domain)) {
         continue;
       }
       for (const Tangle tangle : all_tangles) {
-        if (!only_by.empty() && only_by != name_of(tangle)) {
+        if (!settings.tangle.empty() && settings.tangle != name_of(tangle)) {
           continue;
         }
         Tally tally;
-        const int runs = std::max(2, static_cast<int>(std::int64_t{meshes} * 100 / vertices));
+        const int runs = std::max(2, static_cast<int>(std::int64_t{settings.meshes} * 100 / vertices));
         for (int i = 0; i < runs; ++i) {
-          run(domain, tangle, vertices, static_cast<std::uint64_t>(i), workers, tally);
+          run(domain, tangle, vertices, static_cast<std::uint64_t>(i), settings, workers, tally);
         }
         fmt::print("{:<10} {:>8} {:<15} {:>4}/{:<4} {:>10} {:>8} {:>9} {:>8} {:>9} {:>9} {:>9.2f} {:>9.2f} {:>9.1e}\n",
                    name_of(domain), vertices, name_of(tangle), tally.solved, tally.runs, tally.inverted_before,

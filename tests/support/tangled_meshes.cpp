@@ -261,6 +261,31 @@ std::vector<Point> displaced_points(const ValidMesh& mesh, double part, double e
   return points;
 }
 
+void fold_by_held_vertices(ValidMesh& mesh, std::int32_t count, std::uint64_t seed) {
+  Random random(seed + 55);
+  std::vector<std::vector<std::int32_t>> neighbours(mesh.mesh.points.size());
+  for (const Triangle& t : mesh.mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      neighbours[t[i]].push_back(t[(i + 1) % 3]);
+    }
+  }
+  const std::vector<Point> valid = mesh.mesh.points;
+  const std::vector<std::uint8_t> fixed = mesh.fixed;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t v = random.below(mesh.mesh.vertex_count());
+    const auto& ring = neighbours[v];
+    if (fixed[v] != 0 || std::ranges::any_of(ring, [&](std::int32_t n) { return mesh.fixed[n] != 0; })) {
+      continue;
+    }
+    for (const std::int32_t n : ring) {
+      mesh.fixed[n] = 1;
+    }
+    const auto farthest = *std::ranges::max_element(
+        ring, {}, [&](std::int32_t n) { return squared_length(valid[n] - valid[ring.front()]); });
+    mesh.mesh.points[ring.front()] = {2 * valid[farthest].x - valid[v].x, 2 * valid[farthest].y - valid[v].y};
+  }
+}
+
 std::vector<Point> tangled_points(const ValidMesh& mesh, Tangle tangle, std::uint64_t seed) {
   switch (tangle) {
     case Tangle::some_displaced:

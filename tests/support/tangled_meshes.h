@@ -71,4 +71,8 @@ std::vector<test_meshes::Point> tangled_points(const ValidMesh& mesh, Tangle tan
 /// `part` of the free vertices (in [0, 1]) displaced by up to `edges` times the mean length of their edges.
 std::vector<test_meshes::Point> displaced_points(const ValidMesh& mesh, double part, double edges, std::uint64_t seed);
 
+/// Holds the neighbours of about `count` vertices and puts one neighbour of each across the others: some triangles
+/// around these vertices are inverted wherever free vertices are. Changes mesh.fixed, and the points of the held ones.
+void fold_by_held_vertices(ValidMesh& mesh, std::int32_t count, std::uint64_t seed);
+
 }  // namespace tangled_meshes
