@@ -12,6 +12,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/untangle/coarse_to_fine.h"
 #include "trismooth/smoothing/untangle/patch.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
 #include "trismooth/smoothing/untangle/tutte.h"
@@ -105,6 +106,7 @@ class Untangler {
   bool is_much() const { return std::ssize(faulty_) > rings_.size() / 10; }
 
   static constexpr std::int32_t large_mesh = 50000;
+  static constexpr std::int32_t large_patch = 3000;
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
@@ -367,6 +369,11 @@ class Untangler {
     if (is_faulty && effort != Effort::embedding) {
       tutte(patch, embedded, exact_embedding, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_embedding);
+    }
+    if (is_faulty && effort != Effort::embedding && patch.free_count > large_patch) {
+      std::vector<Point2<double>> refined = embedded;
+      untangle_coarse_to_fine(patch, refined, workers_);
+      is_faulty = keep_if_better(refined, outcome_.by_energy);
     }
     if (is_faulty && effort != Effort::embedding) {
       minimise_regularised(patch, embedded, most_newton_steps, workers_);
