@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
 #include "trismooth/smoothing/untangle/tutte.h"
@@ -85,11 +88,19 @@ class CollapsibleRings {
     return last_;
   }
 
+  template <class Visit>
+  void for_each_ring(const Visit& visit) const {
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(rings_.size()); ++v) {
+      if (!rings_[v].empty()) {
+        visit(v, std::span<const std::int32_t>(rings_[v]));
+      }
+    }
+  }
+
   /// The patch of what is left. Its vertices are those of the patch that this was made of.
   Patch patch() const {
-    OneRings rings = OneRings::with_sizes(static_cast<std::int32_t>(rings_.size()), [&](std::int32_t v) {
-      return static_cast<std::int64_t>(rings_[v].size());
-    });
+    OneRings rings = OneRings::with_sizes(static_cast<std::int32_t>(rings_.size()),
+                                          [&](std::int32_t v) { return static_cast<std::int64_t>(rings_[v].size()); });
     std::vector<std::int32_t> left;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(rings_.size()); ++v) {
       std::ranges::copy(rings_[v], rings.neighbours.begin() + rings.offsets[v]);
@@ -193,15 +204,47 @@ class CollapsibleRings {
   Collapse last_;
 };
 
+/// The free vertices of the coarsest mesh: more where there are more held ones to go round.
 constexpr std::int32_t coarsest = 1000;
+constexpr std::int32_t coarsest_by_held = 2;
 constexpr int coarsest_steps = 150;
 constexpr int level_steps = 4;
+constexpr int smart_sweeps = 4;
+
+double worst_quotient(Point2<double> centre, std::span<const std::int32_t> ring,
+                      std::span<const Point2<double>> points) {
+  double worst = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const double quotient = shape_quotient(centre, points[ring[i]], points[ring[i + 1 == ring.size() ? 0 : i + 1]]);
+    worst = quotient < worst ? quotient : worst;
+  }
+  return worst;
+}
+
+/// The smart move, whole or half of it.
+void move_to_mean_if_better(std::int32_t v, std::span<const std::int32_t> ring, std::span<Point2<double>> points) {
+  Point2<double> mean{0, 0};
+  for (const std::int32_t neighbour : ring) {
+    mean.x += points[neighbour].x;
+    mean.y += points[neighbour].y;
+  }
+  const auto count = static_cast<double>(ring.size());
+  mean = {mean.x / count, mean.y / count};
+  const Point2<double> half{0.5 * (mean.x + points[v].x), 0.5 * (mean.y + points[v].y)};
+  const double now = worst_quotient(points[v], ring, points);
+  for (const Point2<double> place : {mean, half}) {
+    if (worst_quotient(place, ring, points) > now) {
+      points[v] = place;
+      return;
+    }
+  }
+}
 
 }  // namespace
 
 void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> points, Workers& workers) {
   CollapsibleRings rings(patch);
-  rings.collapse_to(coarsest);
+  rings.collapse_to(coarsest + coarsest_by_held * (patch.vertex_count() - patch.free_count));
   std::vector<Point2<double>> level_points;
   const auto improve = [&](bool is_coarsest) {
     const Patch level = rings.patch();
@@ -230,6 +273,10 @@ void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> point
       }
       const auto centre = kernel_centre(around, scratch);
       points[v] = centre ? *centre : points[ring.front()];
+    }
+    for (int sweep = 0; sweep < smart_sweeps; ++sweep) {
+      rings.for_each_ring(
+          [&](std::int32_t v, std::span<const std::int32_t> ring) { move_to_mean_if_better(v, ring, points); });
     }
     improve(false);
   }

@@ -84,7 +84,7 @@ class Untangler {
     }
     bool are_all = false;
     bool has_helped = true;
-    for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !are_all; rings *= 4) {
+    for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !are_all && !is_much(); rings *= 4) {
       const Faults before = faults_;
       are_all = solve_parts(rings, Effort::energy);
       has_helped = faults_ < before;
@@ -375,7 +375,7 @@ class Untangler {
       untangle_coarse_to_fine(patch, refined, workers_);
       is_faulty = keep_if_better(refined, outcome_.by_energy);
     }
-    if (is_faulty && effort != Effort::embedding) {
+    if (is_faulty && effort != Effort::embedding && (effort == Effort::all || patch.free_count <= large_patch)) {
       minimise_regularised(patch, embedded, most_newton_steps, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_energy);
     }
