@@ -82,6 +82,9 @@ class Untangler {
     if (is_much()) {
       solve_parts(all_rings, Effort::embedding);
     }
+    if (is_much()) {
+      solve_parts(all_rings, Effort::refinement);
+    }
     bool are_all = false;
     bool has_helped = true;
     for (std::int64_t rings = 2; faults_.any() && rings <= most_rings && !are_all && !is_much(); rings *= 4) {
@@ -100,13 +103,14 @@ class Untangler {
 
  private:
   /// What a part is worth.
-  enum class Effort : std::uint8_t { embedding, energy, all };
+  enum class Effort : std::uint8_t { embedding, refinement, energy, all };
 
   /// Where that many triangles are faulty, a part of the mesh is hardly ever enough.
   bool is_much() const { return std::ssize(faulty_) > rings_.size() / 10; }
 
   static constexpr std::int32_t large_mesh = 50000;
-  static constexpr std::int32_t large_patch = 3000;
+  static constexpr std::int32_t large_patch = 3000;     ///< refinement is cheaper than the energy from here on
+  static constexpr std::int32_t largest_patch = 30000;  ///< the energy is hopeless from here on
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
@@ -370,16 +374,17 @@ class Untangler {
       tutte(patch, embedded, exact_embedding, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_embedding);
     }
-    if (is_faulty && effort != Effort::embedding && patch.free_count > large_patch) {
+    if (is_faulty && effort != Effort::embedding && (patch.free_count > large_patch || effort == Effort::refinement)) {
       std::vector<Point2<double>> refined = embedded;
       untangle_coarse_to_fine(patch, refined, workers_);
       is_faulty = keep_if_better(refined, outcome_.by_energy);
     }
-    if (is_faulty && effort != Effort::embedding && (effort == Effort::all || patch.free_count <= large_patch)) {
+    const std::int32_t largest = effort == Effort::all ? largest_patch : effort == Effort::energy ? large_patch : 0;
+    if (is_faulty && patch.free_count <= largest) {
       minimise_regularised(patch, embedded, most_newton_steps, workers_);
       is_faulty = keep_if_better(embedded, outcome_.by_energy);
     }
-    if (is_faulty && fewest.inverted > 0 && effort == Effort::all) {
+    if (is_faulty && fewest.inverted > 0 && patch.free_count <= largest && effort == Effort::all) {
       std::vector<Point2<double>> lowered = points;
       minimise_regularised(patch, lowered, most_newton_steps, workers_);
       keep_if_better(lowered, outcome_.by_energy);

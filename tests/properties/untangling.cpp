@@ -72,6 +72,34 @@ TEST_CASE("tangled meshes of every domain are untangled", "[untangling]") {
   }
 }
 
+TEST_CASE("what is folded as a whole is untangled from few vertices on") {
+  trismooth::Workers workers(2);
+  for (const Domain domain : {Domain::twisted, Domain::wave, Domain::holes}) {
+    CAPTURE(name_of(domain));
+    const ValidMesh valid = valid_mesh(domain, 8000, 3);
+    const trismooth::OneRings rings = rings_of(valid, workers);
+    auto points = tangled_points(valid, Tangle::one_point, 3);
+    CHECK(trismooth::untangle(rings.view(), points, workers).inverted_after == 0);
+    CHECK(inverted(valid.mesh.triangles, points) == 0);
+  }
+}
+
+TEST_CASE("the rest is untangled where held vertices fold some places, and nothing is worse than it came") {
+  trismooth::Workers workers(2);
+  for (const Domain domain : all_domains) {
+    CAPTURE(name_of(domain));
+    ValidMesh valid = valid_mesh(domain, 2000, 4);
+    fold_by_held_vertices(valid, 12, 4);
+    const std::int64_t folds = inverted(valid.mesh.triangles, valid.mesh.points);
+    CHECK(folds > 0);
+    const trismooth::OneRings rings = rings_of(valid, workers);
+    auto points = tangled_points(valid, Tangle::many_displaced, 4);
+    const auto outcome = trismooth::untangle(rings.view(), points, workers);
+    CHECK(outcome.inverted_after <= outcome.inverted_before);
+    CHECK(outcome.inverted_after <= folds);
+  }
+}
+
 TEST_CASE("every share of displaced vertices is untangled") {
   trismooth::Workers workers(2);
   const ValidMesh valid = valid_mesh(Domain::holes, 2000, 5);
