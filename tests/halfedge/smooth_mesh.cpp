@@ -216,6 +216,42 @@ TEST_CASE("in a tilted plane vertices stay in the plane, boundaries where they a
   }
 }
 
+TEST_CASE("a tangled halfedge mesh is untangled, tilted or not, and turned over where its inside is mirrored") {
+  std::mt19937_64 random(34);
+  const Sample sample = planar_samples::grid(14, 0.2, random);
+  const bool is_tilted = GENERATE(false, true);
+  const bool is_mirrored = GENERATE(false, true);
+  const Eigen::Matrix3d rotation = is_tilted ? random_rotation(random) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  TriangleMesh mesh = mesh_of(sample, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return rotation * p; });
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto v : mesh.all_vertices()) {
+    centre += mesh.point(v) / static_cast<double>(mesh.n_vertices());
+  }
+  const Eigen::Vector3d along = rotation.col(0);
+  for (const auto v : mesh.all_vertices()) {
+    if (!mesh.is_boundary(v)) {
+      const Eigen::Vector3d p = mesh.point(v);
+      mesh.set_point(v, is_mirrored ? Eigen::Vector3d(p - 2 * (p - centre).dot(along) * along) : centre);
+    }
+  }
+  SmoothingOptions options;
+  options.untangle = trismooth::Untangle::on;
+  const SmoothingResult result = trismooth::smooth(mesh, options);
+  REQUIRE(result.untangling);
+  CHECK(result.untangling->inverted_before > 0);
+  CHECK(result.untangling->inverted_after == 0);
+  CHECK(result.untangling->turned_components == (is_mirrored ? 1 : 0));
+  // The grid is listed one way round, and its sides have not moved.
+  double least = 1;
+  double most = -1;
+  for (const Triangle& t : consistent(sample)) {
+    const double shape = shape_in_space(points_of(mesh), t, rotation.col(2));
+    least = std::min(least, shape);
+    most = std::max(most, shape);
+  }
+  CHECK(least * most > 0);
+}
+
 TEST_CASE("a tilted mesh is smoothed like the flat one, to rounding") {
   std::mt19937_64 random(33);
   const Sample sample = planar_samples::grid(12, 0.3, random);
