@@ -41,18 +41,16 @@ class RegularisedMinimiser {
     matrix_.blocks.resize(patch_.neighbours.size());
   }
 
-  NewtonOutcome run(int most_steps) {
-    NewtonOutcome outcome;
+  void run(int most_steps) {
     double smallest = smallest_determinant();
     energy_.size_weight = size_weight;
     energy_.epsilon = first_epsilon(smallest);
     int steps_after = 0;
     double smallest_then = smallest;
     double energy_then = std::numeric_limits<double>::infinity();
-    while (outcome.steps < most_steps && std::isfinite(smallest)) {
+    for (int step = 1; step <= most_steps && std::isfinite(smallest); ++step) {
       const double before = differentiate();
       const bool has_moved = find_step() && search_line(before);
-      ++outcome.steps;
       const double after = has_moved ? value() : before;
       smallest = smallest_determinant();
       // Where it is untangled, the shapes get better for some steps more, while that is quick.
@@ -60,7 +58,7 @@ class RegularisedMinimiser {
         break;
       }
       const double next = first_epsilon(smallest);
-      if (outcome.steps % stall_window == 0) {
+      if (step % stall_window == 0) {
         const bool stalls =
             !(after < 0.98 * energy_then) && !(smallest > smallest_then + 0.1 * std::abs(smallest_then));
         if (stalls) {
@@ -74,11 +72,10 @@ class RegularisedMinimiser {
       }
       energy_.epsilon = std::min(next, energy_.epsilon);
     }
-    outcome.inverted = inverted_triangles(patch_, points_, workers_);
-    return outcome;
   }
 
  private:
+  /// Steps in which the energy or the smallest D must get better by some hundredths.
   static constexpr int stall_window = 8;
 
   /// lambda: enough that no triangle shrinks to a point where that is cheaper than to turn it.
@@ -89,8 +86,8 @@ class RegularisedMinimiser {
     RegularisedEnergy::Derivatives derivatives;
   };
 
-  /// The size that each triangle is to have: the mean of the sizes around its corners, twice. So it follows a grading,
-  /// and a triangle that the start has collapsed gets the size of its neighbours.
+  /// The size that each triangle is to have: the mean of the sizes around its corners, three times. So it follows a
+  /// grading, and a triangle that the start has collapsed gets the size of its neighbours.
   void find_target_areas() {
     targets_.resize(patch_.triangles.size());
     for (std::size_t t = 0; t < targets_.size(); ++t) {
@@ -302,9 +299,8 @@ std::int64_t inverted_triangles(const Patch& patch, std::span<const Point2<doubl
   return total;
 }
 
-NewtonOutcome minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps,
-                                   Workers& workers) {
-  return RegularisedMinimiser(patch, points, workers).run(most_steps);
+void minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps, Workers& workers) {
+  RegularisedMinimiser(patch, points, workers).run(most_steps);
 }
 
 }  // namespace trismooth

@@ -10,18 +10,12 @@ namespace trismooth {
 
 class Workers;
 
-/// What minimise_regularised() did.
-struct NewtonOutcome {
-  int steps = 0;
-  std::int64_t inverted = 0;  ///< triangles of the patch that are not positive at its end
-};
-
 /// Minimises the regularised energy of the patch (RegularisedEnergy) by Newton's method with the positive part of the
-/// Hessian, lowering the regularisation as the paper does, until no triangle is inverted and the shapes have had a few
-/// steps more, nothing is gained any more, or `most_steps` are done. `points` holds the start and gets the result.
+/// Hessian. The regularisation is a fifth of the smallest D, and falls with it. Ends when no triangle is inverted and
+/// the shapes have had a few steps more, when nothing is gained any more, or when `most_steps` are done. `points` holds
+/// the start and gets the result.
 /// Complexity: a step is conjugate gradients on the patch.
-NewtonOutcome minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps,
-                                   Workers& workers);
+void minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps, Workers& workers);
 
 /// The triangles of the patch that are inverted or degenerate.
 std::int64_t inverted_triangles(const Patch& patch, std::span<const Point2<double>> points, Workers& workers);
