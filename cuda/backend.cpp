@@ -14,6 +14,7 @@
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/host_untangling.h"
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/runtime/host_copy.h"
 #include "trismooth/cuda/runtime/timeline.h"
@@ -69,7 +70,10 @@ class RingSmoother final : public PreparedSmoother {
         fixed_(mesh.fixed) {
     const Stopwatch watch;
     smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
-    if (options.measures_shape()) {
+    if (options.untangles()) {
+      untangling_.emplace(mesh, triangles, options);
+    }
+    if (options.measures_shape() || options.untangles()) {
       fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
     }
     context_.synchronize();
@@ -82,9 +86,17 @@ class RingSmoother final : public PreparedSmoother {
     const double fixed_quotient =
         fixed_triangles_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });
     frame_.upload({&frame, 1});
+    bool is_tangled = false;
     SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, nullptr, [&] {
-      return smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
+      is_tangled = untangling_ && smoother_->is_tangled(stored_.data(), frame_.data());
+      return is_tangled ? SmoothingResult{} : smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
     });
+    if (is_tangled) {
+      result = untangling_->smooth(points, storage);
+    } else if (untangling_) {
+      result.untangling = UntanglingResult{
+          .inverted_fixed = fixed_triangles_.inverted([&](std::int32_t v) { return frame.enter(points[v]); })};
+    }
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
@@ -102,8 +114,9 @@ class RingSmoother final : public PreparedSmoother {
   HostCopier copier_;
   DeviceBuffer<Point2<double>> stored_;
   DeviceBuffer<LocalFrame> frame_;
-  std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
-  FixedTriangles fixed_triangles_;   ///< where they are asked for
+  std::vector<std::uint8_t> fixed_;           ///< as MeshRings::fixed
+  FixedTriangles fixed_triangles_;            ///< where they are asked for
+  std::optional<HostUntangling> untangling_;  ///< likewise
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;  ///< until a call has reported it
 };

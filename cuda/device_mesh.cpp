@@ -13,10 +13,12 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/host_untangling.h"
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/topology/device_topology.h"
 
@@ -50,6 +52,8 @@ class Plan::Implementation {
  public:
   Implementation(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream)
       : vertex_count_(mesh.vertex_count),
+        triangle_count_(mesh.triangle_count),
+        triangles_(mesh.triangles),
         options_(options),
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
@@ -83,9 +87,30 @@ class Plan::Implementation {
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
     const double preparing_ms = watch.milliseconds();
-    SmoothingResult result = smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
+    // Where triangles without a free vertex are inverted, the host counts them.
+    const bool is_tangled =
+        options_.untangles() && (fixed_quotient <= 0 || smoother_->is_tangled(stored, extent_.frame()));
+    SmoothingResult result =
+        is_tangled ? untangle(stored, storage) : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
+    if (options_.untangles() && !is_tangled) {
+      result.untangling = UntanglingResult{};
+    }
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
+    return result;
+  }
+
+  /// Takes the mesh to the host and back.
+  SmoothingResult untangle(Point2<double>* stored, Storage storage) {
+    const auto vertices = static_cast<std::size_t>(vertex_count_);
+    std::vector<Point2<double>> points = download(context_, static_cast<const Point2<double>*>(stored), vertices);
+    static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
+    const std::vector<Triangle> triangles =
+        download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
+    SmoothingResult result = untangle_on_host(fixed(), triangles, options_, points, storage);
+    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(stored, points.data(), vertices * sizeof(Point2<double>),
+                                         cudaMemcpyHostToDevice, context_.stream()));
+    context_.synchronize();
     return result;
   }
 
@@ -101,7 +126,7 @@ class Plan::Implementation {
     if (const std::int32_t vertex = extent_.extent().first_not_finite; vertex >= 0) {
       throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
     }
-    if (options_.measures_shape()) {
+    if (options_.measures_shape() || options_.untangles()) {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
     if (smoother_ == nullptr) {
@@ -111,6 +136,8 @@ class Plan::Implementation {
   }
 
   std::int32_t vertex_count_;
+  std::int32_t triangle_count_;
+  const std::int32_t* triangles_;  ///< the caller's, on the device
   SmoothingOptions options_;
   Context context_;
   DeviceTopology topology_;

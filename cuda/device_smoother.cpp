@@ -16,6 +16,7 @@
 #include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/sweep_engine.h"
+#include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/sweeps/stages.h"
@@ -82,6 +83,26 @@ class SweepDriver final : public DeviceSmoother {
         guard_buffers_ = GuardBuffers(context, order_.free_count());
       }
     }
+  }
+
+  bool is_tangled(const Point2<double>* stored, const LocalFrame* frame) override {
+    if (!engine_) {
+      return false;
+    }
+    host_record_ = RunRecord{};
+    record_.upload({&host_record_, 1});
+    with_engine([&](auto& engine) {
+      const auto [first, second] = engine.input();
+      enter_frame_packed(context_, stored, order_, frame, before_.data(), first, second);
+      static_assert(sizeof(Point2<double>) == sizeof(PointRecord<double>));
+      launch_smallest_quotient(engine.rings(),
+                               PointArray<double>{reinterpret_cast<PointRecord<double>*>(before_.data())},
+                               record_.data()->sums.data(), context_.stream());
+    });
+    record_.download({&host_record_, 1});
+    // Seen from another corner a quotient may be rounded to the other side of 0.
+    constexpr double surely_positive = 1e-12;
+    return from_falling_key(host_record_.sums.front().min_quotient) < surely_positive;
   }
 
   SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,

@@ -19,10 +19,15 @@ class DeviceSmoother {
   DeviceSmoother& operator=(const DeviceSmoother&) = delete;
   virtual ~DeviceSmoother() = default;
 
+  /// Whether a triangle with a free vertex is inverted or degenerate, or so near to it that only the host can tell.
+  /// Arguments as those of smooth(). Waits for the device.
+  virtual bool is_tangled(const Point2<double>* stored, const LocalFrame* frame) = 0;
+
   /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, guard.
-  /// They are finite. `frame`: their local frame, on the device. `fixed_quotient`: see PreparedSmoother::smooth().
-  /// Fills all of the result but transfers and preparation. From the call on until the result is written the device is
-  /// not waited for, unless there is a callback, a time limit or a quality target to ask.
+  /// They are finite, and nothing is untangled. `frame`: their local frame, on the device. `fixed_quotient`: see
+  /// PreparedSmoother::smooth(). Fills all of the result but transfers and preparation. From the call on until the
+  /// result is written the device is not waited for, unless there is a callback, a time limit or a quality target to
+  /// ask.
   virtual SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                                  double fixed_quotient) = 0;
 };

@@ -151,8 +151,8 @@ struct EnumText<Untangle> {
 };
 
 /// What a method does about inverted triangles where nothing else is asked for.
-constexpr Untangle default_untangle(Method /*method*/) {
-  return Untangle::off;
+constexpr Untangle default_untangle(Method method) {
+  return method == Method::mean_ratio ? Untangle::on : Untangle::off;
 }
 
 /// Everything that steers a smoothing. The defaults are those of the command line.
