@@ -30,7 +30,7 @@ std::string complaint(std::string_view text) {
 
 TEMPLATE_TEST_CASE("every text reads back as its value, and no two are alike", "", trismooth::Method, trismooth::Form,
                    trismooth::Layout, trismooth::Execution, trismooth::Order, trismooth::Precision,
-                   trismooth::StopReason) {
+                   trismooth::StopReason, trismooth::TargetShape) {
   std::set<std::string_view> texts;
   std::set<TestType> values;
   for (const auto& [value, text] : trismooth::EnumText<TestType>::texts) {
@@ -46,19 +46,21 @@ TEMPLATE_TEST_CASE("every text reads back as its value, and no two are alike", "
 }
 
 TEST_CASE("the texts are those of the command line and the JSON report") {
-  CHECK(valid_texts<trismooth::Method>() == "smart, laplacian, weighted");
+  CHECK(valid_texts<trismooth::Method>() == "smart, laplacian, weighted, mean-ratio");
   CHECK(valid_texts<trismooth::Form>() == "a, b");
   CHECK(valid_texts<trismooth::Layout>() == "aos, soa");
   CHECK(valid_texts<trismooth::Execution>() == "resident, single-block, cdp");
   CHECK(valid_texts<trismooth::Order>() == "colour, unordered");
   CHECK(valid_texts<trismooth::Precision>() == "double, single");
+  CHECK(valid_texts<trismooth::TargetShape>() == "uniform, input-shape");
   CHECK(to_string(trismooth::Form::swap) == "a");
   CHECK(to_string(trismooth::StopReason::quality_target) == "quality_target");
+  CHECK(to_string(trismooth::StopReason::few_moves) == "few_moves");
 }
 
 TEST_CASE("a bad value's message says what it is and which are valid") {
   CHECK(complaint<trismooth::Form>("c") == "unknown form 'c'; valid are a, b");
-  CHECK(complaint<trismooth::Method>("") == "unknown method ''; valid are smart, laplacian, weighted");
-  CHECK(complaint<trismooth::Method>("Smart") == "unknown method 'Smart'; valid are smart, laplacian, weighted");
+  CHECK(complaint<trismooth::Method>("") == "unknown method ''; valid are smart, laplacian, weighted, mean-ratio");
+  CHECK(complaint<trismooth::Method>("Smart") == "unknown method 'Smart'; valid are smart, laplacian, weighted, mean-ratio");
   CHECK(complaint<trismooth::Precision>("half") == "unknown precision 'half'; valid are double, single");
 }

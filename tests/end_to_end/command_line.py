@@ -75,24 +75,25 @@ class Usage(CommandLineTest):
                 self.assert_usage(*arguments, says=says)
 
     def test_an_unknown_value_is_answered_with_the_valid_ones(self):
-        for option, valid in {"--method": ["smart", "laplacian", "weighted"], "--form": ["a", "b"],
+        for option, valid in {"--method": ["smart", "laplacian", "weighted", "mean-ratio"], "--form": ["a", "b"],
                               "--layout": ["aos", "soa"], "--backend": ["auto", "cpu", "cuda"],
                               "--execution": ["resident", "single-block", "cdp"], "--order": ["colour", "unordered"],
                               "--topology": ["halfedge", "device"], "--guard": ["on", "off"],
-                              "--precision": ["double", "single"]}.items():
+                              "--precision": ["double", "single"], "--target": ["uniform", "input-shape"]}.items():
             with self.subTest(option):
                 arguments = ("smooth", "plate.off", "out.off", option, "bogus")
                 line = self.assert_usage(*arguments, says=f"{option}.*'bogus'")[0]
                 self.assertRegex(line, "valid are " + ", ".join(valid))
 
     def test_every_documented_value_is_taken(self):
-        for option, values in {"--method": ["smart", "laplacian", "weighted"], "--form": ["a", "b"],
+        for option, values in {"--method": ["smart", "laplacian", "weighted", "mean-ratio"], "--form": ["a", "b"],
                                "--layout": ["aos"], "--backend": ["auto", "cpu"],
                                "--execution": ["resident", "single-block", "cdp"], "--order": ["colour"],
                                "--topology": ["halfedge", "device"], "--guard": ["on", "off"],
                                "--precision": ["double", "single"], "--threads": ["1", "2"],
                                "--max-sweeps": ["0", "3"], "--tolerance": ["0", "1e-3"], "--time-limit": ["5"],
-                               "--target-quality": ["0.5"]}.items():
+                               "--target-quality": ["0.5"], "--size-weight": ["0", "2.5"], "--power": ["1", "8"],
+                               "--target": ["uniform", "input-shape"]}.items():
             for value in values:
                 with self.subTest(f"{option} {value}"):
                     self.run_tool("smooth", "plate.off", "out.off", option, value)
@@ -320,7 +321,7 @@ class SameResult(CommandLineTest):
         triangles = [t for _, t in mesh_reader.read(self.path("random.off")).triangles()]
         orientation = planar_geometry.Orientation(triangles, before)
         old = min(orientation.shapes(before))
-        for method in ("smart", "laplacian", "weighted"):
+        for method in ("smart", "laplacian", "weighted", "mean-ratio"):
             for form in "ab":
                 for precision in ("double", "single"):
                     with self.subTest(method=method, form=form, precision=precision):

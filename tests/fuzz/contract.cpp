@@ -50,7 +50,7 @@ ByContract smooth(std::span<const Point2<double>> points, std::span<const Triang
   const std::vector<Triangle> triangles = counter_clockwise(listed, topology);
   ByContract result;
   result.outcome = naive::smooth(working, rings_of(triangles, topology), options.method, options.form,
-                                 options.tolerance, options.max_sweeps);
+                                 options.tolerance, options.max_sweeps, options.mean_ratio);
   result.points.assign(points.begin(), points.end());
   std::vector<Point2<double>> after = before;
   for (std::size_t v = 0; v < points.size(); ++v) {

@@ -84,6 +84,22 @@ TEST_CASE("every option of smooth reaches the pipeline") {
   CHECK(options.annotate);
 }
 
+TEST_CASE("the options of mean-ratio reach the pipeline") {
+  const Outcome outcome =
+      smooth({"--method", "mean-ratio", "--size-weight", "2.5", "--power", "8", "--target", "input-shape"});
+  REQUIRE(outcome.code == 0);
+  const trismooth::SmoothingOptions& options = outcome.options->smoothing;
+  CHECK(options.method == trismooth::Method::mean_ratio);
+  CHECK(options.mean_ratio.size_weight == 2.5);
+  CHECK(options.mean_ratio.power == 8);
+  CHECK(options.mean_ratio.target == trismooth::TargetShape::input);
+  const Outcome defaults = smooth({"--method", "mean-ratio"});
+  REQUIRE(defaults.code == 0);
+  CHECK(defaults.options->smoothing.mean_ratio.size_weight == 1);
+  CHECK(defaults.options->smoothing.mean_ratio.power == 0);
+  CHECK(defaults.options->smoothing.mean_ratio.target == trismooth::TargetShape::uniform);
+}
+
 TEST_CASE("options may stand before, between and after the files") {
   const Outcome outcome =
       call({"smooth", "--require", "inverted==0", "plate.vtk", "--form=a", "out.vtk", "--annotate"});
@@ -123,13 +139,20 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "--wibble"}, "unknown option '--wibble'; "},
       {{"smooth", "a.off", "b.off", "c", "d", "e"}, "unexpected arguments 'c', 'd', 'e'; "},
       {{"smooth", "a.off", "b.off", "c"}, "unexpected argument 'c'; "},
-      {{"smooth", "a.off", "b.off", "--method", "laplcian"}, "weighted (did you mean 'laplacian'?)"},
+      {{"smooth", "a.off", "b.off", "--method", "laplcian"}, "mean-ratio (did you mean 'laplacian'?)"},
       {{"smooth", "a.off", "b.off", "--require", "min_shap>=1"}, "(did you mean 'min_shape'?)"},
       {{"bench", "--versions", "cpu,serail"}, "(did you mean 'serial'?)"},
       {{"smooth", "a.off", "b.off", "--form"}, "--form"},
       {{"smooth", "a.off", "b.off", "--form", "a", "--form", "b"}, "--form: expected one value, and to be given once"},
       {{"smooth", "a.off", "b.off", "--form", "c"}, "unknown form 'c'; valid are a, b"},
-      {{"smooth", "a.off", "b.off", "--method", "x"}, "valid are smart, laplacian, weighted"},
+      {{"smooth", "a.off", "b.off", "--method", "x"}, "valid are smart, laplacian, weighted, mean-ratio"},
+      {{"smooth", "a.off", "b.off", "--target", "x"}, "valid are uniform, input-shape"},
+      {{"smooth", "a.off", "b.off", "--size-weight", "-1"}, "--size-weight"},
+      {{"smooth", "a.off", "b.off", "--size-weight", "inf"}, "--size-weight"},
+      {{"smooth", "a.off", "b.off", "--size-weight", "nan"}, "--size-weight"},
+      {{"smooth", "a.off", "b.off", "--power", "9"}, "--power"},
+      {{"smooth", "a.off", "b.off", "--power", "-1"}, "--power"},
+      {{"smooth", "a.off", "b.off", "--power", "1.5"}, "--power"},
       {{"smooth", "a.off", "b.off", "--layout", "x"}, "valid are aos, soa"},
       {{"smooth", "a.off", "b.off", "--backend", "x"}, "valid are auto, cpu, cuda"},
       {{"smooth", "a.off", "b.off", "--execution", "x"}, "valid are resident, single-block, cdp"},

@@ -29,13 +29,13 @@ using trismooth::SmoothingResult;
 using trismooth::StopReason;
 using trismooth::Storage;
 
-/// Method, form and precision number `index` of 12.
-inline constexpr std::uint64_t combinations = 12;
+/// Method, form and precision number `index` of 16.
+inline constexpr std::uint64_t combinations = 16;
 inline SmoothingOptions combination(std::uint64_t index) {
   SmoothingOptions options;
-  options.method = static_cast<Method>(index % 3);
-  options.form = static_cast<Form>(index / 3 % 2);
-  options.precision = static_cast<Precision>(index / 6 % 2);
+  options.method = static_cast<Method>(index % 4);
+  options.form = static_cast<Form>(index / 4 % 2);
+  options.precision = static_cast<Precision>(index / 8 % 2);
   options.threads = 1;
   return options;
 }

@@ -88,6 +88,9 @@ TEST_CASE("smoothing again what stopped at its fixed point moves nothing") {
   std::int64_t moving = 0;
   for_random_meshes(2000, [&](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
+      if (options.method == Method::mean_ratio) {
+        return {};  // what it aims at it finds in the mesh, which is another one now
+      }
       options.tolerance = 0;
       options.max_sweeps = random.below(4) == 0 ? 500 : 100;
       const Run first = run(mesh, options);

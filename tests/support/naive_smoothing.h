@@ -14,11 +14,15 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
+#include "support/naive_mean_ratio.h"
+
 /// The smoothing once more, written down as the contract says it, with no thought of speed: what the engine must equal
-/// bit for bit. Shares no code with it but plain structures. Triangles are listed counter-clockwise.
+/// bit for bit. Shares no code with it but plain structures, and the mean-ratio method's update of one vertex, which
+/// tests/smoothing/mean_ratio.cpp holds to the definition of its energy. Triangles are listed counter-clockwise.
 namespace naive {
 
 using trismooth::Form;
@@ -185,14 +189,71 @@ struct Outcome {
   StopReason reason = StopReason::fixed_point;
 };
 
+/// A ring as the mean-ratio method asks for it.
+template <class T>
+struct NumberedRing {
+  const Ring<T>& positions;
+  const std::vector<std::int32_t>& numbers;
+
+  int size() const { return static_cast<int>(positions.size()); }
+  Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
+  std::int32_t number(int i) const { return numbers[static_cast<std::size_t>(i)]; }
+};
+
+/// The stages of the mean-ratio method: ten sweeps, and ten more as long as much moves, then the last.
+class MeanRatioStages {
+ public:
+  MeanRatioStages(Form form, std::size_t free_count) : form_(form), free_count_(static_cast<double>(free_count)) {}
+
+  bool is_last() const { return is_last_; }
+  bool is_few(std::int64_t moved) const { return is_last_ && static_cast<double>(moved) <= free_count_ / 100; }
+  template <class T>
+  trismooth::MeanRatioStep<T> step() const {
+    const double in_place = is_last_ ? 1.5 : 1.9;
+    return {static_cast<T>(form_ == Form::swap ? 0.7 : in_place), static_cast<T>(goes_far_ ? 1e-4 : 3e-4), is_last_};
+  }
+  /// Whether the stage ends with this sweep and another one begins.
+  bool ends(std::int64_t moved, bool is_settled) {
+    ++sweep_of_stage_;
+    if (is_last_ || (!is_settled && sweep_of_stage_ < 10)) {
+      return false;
+    }
+    sweep_of_stage_ = 0;
+    const double part = static_cast<double>(moved) / std::max(free_count_, 1.0);
+    is_last_ = !(part > (goes_far_ ? 0.25 : 0.875));
+    goes_far_ = goes_far_ || !is_last_;
+    return true;
+  }
+
+ private:
+  Form form_;
+  double free_count_;
+  bool is_last_ = false;
+  bool goes_far_ = false;
+  int sweep_of_stage_ = 0;
+};
+
 /// All sweeps: every free vertex in every one. `max_sweeps` is not 0.
 template <class T>
 Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method, Form form, double tolerance,
-               std::int64_t max_sweeps) {
+               std::int64_t max_sweeps, const trismooth::MeanRatioOptions& mean_ratio = {}) {
+  const bool is_mean_ratio = method == Method::mean_ratio;
+  const MeanRatioAims<T> aims = is_mean_ratio ? mean_ratio_aims(points, rings, mean_ratio) : MeanRatioAims<T>{};
   std::vector<std::int32_t> visited;
   for (const auto& colour : colour_classes(rings)) {
     visited.insert(visited.end(), colour.begin(), colour.end());
   }
+  MeanRatioStages stages(form, visited.size());
+  const auto update = [&](std::int32_t v, Point2<T> position, const Ring<T>& ring) {
+    if (!is_mean_ratio) {
+      return updated(method, position, ring);
+    }
+    const NumberedRing<T> numbered{ring, rings[v]};
+    const auto step = stages.template step<T>();
+    return aims.reference.empty()
+               ? trismooth::MeanRatio<T, false>(aims.view(), step).update(v, position, numbered).position
+               : trismooth::MeanRatio<T, true>(aims.view(), step).update(v, position, numbered).position;
+  };
   std::vector<Ring<T>> last_read(points.size());
   Outcome outcome;
   for (;;) {
@@ -212,7 +273,7 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
       count.changed += read == last_read[v] ? 0 : 1;
       last_read[v] = read;
 
-      const Point2<T> target = updated(method, position, ring);
+      const Point2<T> target = update(v, position, ring);
       if (!(target == position)) {
         ++count.moved;
         T sum = 0;
@@ -238,11 +299,20 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
     }
     count.min_shape = 2 * std::sqrt(3.0) * static_cast<double>(worst);
     outcome.sweeps.push_back(count);
-    if (count.moved == 0 || within_tolerance || static_cast<std::int64_t>(outcome.sweeps.size()) == max_sweeps) {
-      outcome.reason = count.moved == 0   ? StopReason::fixed_point
-                       : within_tolerance ? StopReason::tolerance
-                                          : StopReason::sweep_limit;
+    const bool is_settled = count.moved == 0 || within_tolerance;
+    const bool may_settle = !is_mean_ratio || stages.is_last();
+    const bool is_few = is_mean_ratio && stages.is_few(count.moved);
+    const bool is_limit = static_cast<std::int64_t>(outcome.sweeps.size()) == max_sweeps;
+    if ((may_settle && is_settled) || is_few || is_limit) {
+      outcome.reason = may_settle && count.moved == 0     ? StopReason::fixed_point
+                       : may_settle && within_tolerance   ? StopReason::tolerance
+                       : is_few                           ? StopReason::few_moves
+                                                          : StopReason::sweep_limit;
       return outcome;
+    }
+    if (is_mean_ratio && stages.ends(count.moved, is_settled)) {
+      // Every vertex is evaluated anew.
+      std::ranges::fill(last_read, Ring<T>{});
     }
   }
 }
