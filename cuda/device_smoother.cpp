@@ -50,13 +50,13 @@ class DeviceStages {
   std::int32_t at_most(std::int32_t sweeps) const {
     return is_last() ? sweeps : static_cast<std::int32_t>(std::min<std::int64_t>(sweeps, left_));
   }
-  /// Whether next() is due after a launch that made so many sweeps. `settled`: nothing moves any more.
+  /// Whether next() is due after a launch that made so many sweeps. `settled`: the last one ends the stage.
   bool is_over(std::int64_t sweeps, bool settled) {
     left_ -= sweeps;
     return !is_last() && (settled || left_ == 0);
   }
-  void next(std::int64_t moved) {
-    stages_.next(moved);
+  void next(std::int64_t moved, bool settled) {
+    stages_.next(moved, settled);
     left_ = stages_.sweeps();
   }
 
@@ -241,8 +241,9 @@ class SweepDriver final : public DeviceSmoother {
         result.stop_reason = StopReason::time_limit;
       } else {
         batches.adapt(seconds_since(launched), seconds_since(start));
-        if (stages.is_over(state.sweeps, state.stop != LoopState::running)) {
-          stages.next(result.history.back().moved);
+        const bool settled = state.stop != LoopState::running;
+        if (stages.is_over(state.sweeps, settled)) {
+          stages.next(result.history.back().moved, settled);
           begin_stage();
         }
         continue;
@@ -268,8 +269,9 @@ class SweepDriver final : public DeviceSmoother {
       launch(stages, loop, result);
       read_record(result);
       done += host_record_.state.sweeps;
-      if (stages.is_over(host_record_.state.sweeps, host_record_.state.stop != LoopState::running)) {
-        stages.next(result.history[static_cast<std::size_t>(done) - 1].moved);
+      const bool settled = host_record_.state.stop != LoopState::running;
+      if (stages.is_over(host_record_.state.sweeps, settled)) {
+        stages.next(result.history[static_cast<std::size_t>(done) - 1].moved, settled);
         begin_stage();
       }
     }

@@ -23,7 +23,7 @@ class Stages {
       : is_mean_ratio_(options.method == Method::mean_ratio),
         is_form_a_(options.form == Form::swap),
         free_count_(free_count),
-        is_last_(!is_mean_ratio_) {}
+        is_last_(!is_mean_ratio_ || free_count == 0) {}
 
   /// Whether the stage lasts to the stop.
   bool is_last() const { return is_last_; }
@@ -40,9 +40,11 @@ class Stages {
     const double least_gain = has_far_to_go_ ? 1e-4 : 3e-4;
     return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_};
   }
-  /// The next stage, or the same once more. `moved`: vertices in the last sweep. Only where this one is not the last.
-  void next(std::int64_t moved) {
-    const bool goes_on = has_far_to_go_ ? 4 * moved > free_count_ : 8 * moved > 7 * free_count_;
+  /// The next stage, or the same once more. `moved`: vertices in the last sweep; `settled`: that sweep ended the stage,
+  /// see settled_in_sweep(). Only where this one is not the last.
+  void next(std::int64_t moved, bool settled) {
+    const bool moves_much = has_far_to_go_ ? 4 * moved > free_count_ : 8 * moved > 7 * free_count_;
+    const bool goes_on = moves_much && !settled;
     has_far_to_go_ = has_far_to_go_ || goes_on;
     is_last_ = !goes_on;
   }

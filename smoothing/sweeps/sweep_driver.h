@@ -67,14 +67,13 @@ class SweepDriver {
       if (reason) {
         break;
       }
-      stages.next(result.history.back().moved);
     }
     result.stop_reason = *reason;
   }
 
-  /// Sweeps to the end of the stage. Nothing where another one follows.
+  /// Sweeps to the end of the stage. Nothing where another one follows, which `stages` is at then.
   template <class Update>
-  std::optional<StopReason> run_stage(const Update& method, std::vector<Point2<T>>& points, const Stages& stages,
+  std::optional<StopReason> run_stage(const Update& method, std::vector<Point2<T>>& points, Stages& stages,
                                       double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
     const bool swaps = options_.form == Form::swap;
     const auto free_count = static_cast<std::size_t>(rings_.free_count());
@@ -96,8 +95,12 @@ class SweepDriver {
       result.history.push_back(record);
       const auto settled = settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves());
       const auto reason = reason_to_stop(stages.is_last() ? settled : std::nullopt, record, watch);
-      if (reason || settled || sweep_of_stage == stages.sweeps()) {
+      if (reason) {
         return reason;
+      }
+      if (settled || sweep_of_stage == stages.sweeps()) {
+        stages.next(tally.moved, settled.has_value());
+        return std::nullopt;
       }
     }
   }

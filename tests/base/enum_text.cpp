@@ -61,6 +61,7 @@ TEST_CASE("the texts are those of the command line and the JSON report") {
 TEST_CASE("a bad value's message says what it is and which are valid") {
   CHECK(complaint<trismooth::Form>("c") == "unknown form 'c'; valid are a, b");
   CHECK(complaint<trismooth::Method>("") == "unknown method ''; valid are smart, laplacian, weighted, mean-ratio");
-  CHECK(complaint<trismooth::Method>("Smart") == "unknown method 'Smart'; valid are smart, laplacian, weighted, mean-ratio");
+  CHECK(complaint<trismooth::Method>("Smart") ==
+        "unknown method 'Smart'; valid are smart, laplacian, weighted, mean-ratio");
   CHECK(complaint<trismooth::Precision>("half") == "unknown precision 'half'; valid are double, single");
 }

@@ -51,9 +51,8 @@ Run naive_run(const RandomMesh& mesh, const SmoothingOptions& options, Storage s
     before.push_back(frame.enter(p));
     working.push_back(narrowed<T>(before.back()));
   }
-  const naive::Outcome outcome =
-      naive::smooth(working, rings, options.method, options.form, options.tolerance, options.max_sweeps,
- options.mean_ratio);
+  const naive::Outcome outcome = naive::smooth(working, rings, options.method, options.form, options.tolerance,
+                                               options.max_sweeps, options.mean_ratio);
 
   Run run;
   run.result.sweeps = static_cast<std::int64_t>(outcome.sweeps.size());

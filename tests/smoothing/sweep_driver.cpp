@@ -47,7 +47,7 @@ Reference reference(const Mesh& mesh, const SmoothingOptions& options) {
   const naive::Rings rings = naive::one_rings(mesh.vertex_count(), mesh.triangles);
   Reference result;
   result.outcome = naive::smooth(points, rings, options.method, options.form, options.tolerance, options.max_sweeps,
- options.mean_ratio);
+                                 options.mean_ratio);
   result.xy = mesh.xy();
   result.free_vertices = std::ranges::count_if(rings, [](const auto& ring) { return !ring.empty(); });
   for (std::size_t v = 0; v < points.size(); ++v) {

@@ -41,12 +41,12 @@ inline Real share(Point2<Real> a, Point2<Real> b, Point2<Real> c) {
 /// A vertex's ring with all that the energy around it asks for.
 struct EnergyRing {
   std::vector<Point2<Real>> positions;
-  std::vector<Real> inverse_areas;         ///< 1 / (twice the area aimed at) around each neighbour
-  Real own_inverse_area = 1;               ///< around the vertex
-  Real third_of_weight = 0;                ///< lambda / 3
-  int power = 1;                           ///< p
-  std::vector<Point2<Real>> reference{};   ///< of the neighbours, or none: shapes are equilateral
-  Point2<Real> own_reference{};            ///< of the vertex
+  std::vector<Real> inverse_areas;        ///< 1 / (twice the area aimed at) around each neighbour
+  Real own_inverse_area = 1;              ///< around the vertex
+  Real third_of_weight = 0;               ///< lambda / 3
+  int power = 1;                          ///< p
+  std::vector<Point2<Real>> reference{};  ///< of the neighbours, or none: shapes are equilateral
+  Point2<Real> own_reference{};           ///< of the vertex
 
   std::size_t next(std::size_t i) const { return (i + 1) % positions.size(); }
 

@@ -203,7 +203,8 @@ struct NumberedRing {
 /// The stages of the mean-ratio method: ten sweeps, and ten more as long as much moves, then the last.
 class MeanRatioStages {
  public:
-  MeanRatioStages(Form form, std::size_t free_count) : form_(form), free_count_(static_cast<double>(free_count)) {}
+  MeanRatioStages(Form form, std::size_t free_count)
+      : form_(form), free_count_(static_cast<double>(free_count)), is_last_(free_count == 0) {}
 
   bool is_last() const { return is_last_; }
   bool is_few(std::int64_t moved) const { return is_last_ && static_cast<double>(moved) <= free_count_ / 100; }
@@ -220,7 +221,7 @@ class MeanRatioStages {
     }
     sweep_of_stage_ = 0;
     const double part = static_cast<double>(moved) / std::max(free_count_, 1.0);
-    is_last_ = !(part > (goes_far_ ? 0.25 : 0.875));
+    is_last_ = is_settled || !(part > (goes_far_ ? 0.25 : 0.875));
     goes_far_ = goes_far_ || !is_last_;
     return true;
   }
@@ -228,7 +229,7 @@ class MeanRatioStages {
  private:
   Form form_;
   double free_count_;
-  bool is_last_ = false;
+  bool is_last_;
   bool goes_far_ = false;
   int sweep_of_stage_ = 0;
 };
@@ -304,10 +305,10 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
     const bool is_few = is_mean_ratio && stages.is_few(count.moved);
     const bool is_limit = static_cast<std::int64_t>(outcome.sweeps.size()) == max_sweeps;
     if ((may_settle && is_settled) || is_few || is_limit) {
-      outcome.reason = may_settle && count.moved == 0     ? StopReason::fixed_point
-                       : may_settle && within_tolerance   ? StopReason::tolerance
-                       : is_few                           ? StopReason::few_moves
-                                                          : StopReason::sweep_limit;
+      outcome.reason = may_settle && count.moved == 0   ? StopReason::fixed_point
+                       : may_settle && within_tolerance ? StopReason::tolerance
+                       : is_few                         ? StopReason::few_moves
+                                                        : StopReason::sweep_limit;
       return outcome;
     }
     if (is_mean_ratio && stages.ends(count.moved, is_settled)) {
