@@ -177,7 +177,8 @@ class MeanRatio {
       x += first * ratio_x + size_first * area_x;
       y += first * ratio_y + size_first * area_y;
       xx += first * ratio_xx + second * ratio_x * ratio_x + size_second * area_x * area_x;
-      xy += first * ratio_xy + second * ratio_x * ratio_y + size_second * area_x * area_y;
+      // Products of x and y first: a mesh turned by a right angle has the same bits.
+      xy += first * ratio_xy + second * (ratio_x * ratio_y) + size_second * (area_x * area_y);
       yy += first * ratio_yy + second * ratio_y * ratio_y + size_second * area_y * area_y;
     }
   };
