@@ -15,6 +15,7 @@
 #include <exception>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -109,11 +110,15 @@ constexpr std::int64_t most_sweeps = 4;
 /// All executions that this program has, on one mesh, against the CPU.
 void compare_executions(const test_meshes::Mesh& mesh) {
   const auto triangles = mesh.indices();
-  for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
+  for (const auto& [method, target] :
+       {std::pair(Method::smart, TargetShape::uniform), std::pair(Method::laplacian, TargetShape::uniform),
+        std::pair(Method::weighted, TargetShape::uniform), std::pair(Method::mean_ratio, TargetShape::uniform),
+        std::pair(Method::mean_ratio, TargetShape::input)}) {
     for (const Form form : {Form::swap, Form::in_place}) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         SmoothingOptions options;
         options.method = method;
+        options.mean_ratio.target = target;
         options.form = form;
         options.precision = precision;
         options.max_sweeps = most_sweeps;

@@ -12,6 +12,7 @@
 
 #include "trismooth/base/splitmix64.h"
 #include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/methods/weighted_laplacian.h"
 
@@ -40,6 +41,8 @@ struct Case {
 
   __host__ __device__ int size() const { return ring_size; }
   __host__ __device__ Point2<T> operator[](int i) const { return neighbours[i]; }
+  /// The vertex is number 0.
+  __host__ __device__ std::int32_t number(int i) const { return i + 1; }
 };
 
 template <class T>
@@ -47,14 +50,37 @@ struct Answer {
   Move<T> smart;
   Move<T> laplacian;
   Move<T> weighted;
+  Move<T> mean_ratio;
+  Move<T> mean_ratio_to_shapes;
   T worst;
   unsigned long long hash;
 };
 
+/// By the mean-ratio method, of a power that goes with the case.
+template <class T, bool shaped>
+__host__ __device__ Move<T> mean_ratio(const Case<T>& ring, int index) {
+  const trismooth::MeanRatioScales<T> scales{T(0.1) * static_cast<T>(index % 5), 1 + index % 8};
+  T inverse_areas[largest_ring + 1];
+  T reference[2 * (largest_ring + 1)];
+  for (int i = 0; i <= largest_ring; ++i) {
+    inverse_areas[i] = T(1) + T(0.125) * static_cast<T>((index + i) % 9);
+    reference[2 * i] = i == 0 ? T(0) : ring.neighbours[i - 1].x * T(0.75);
+    reference[2 * i + 1] = i == 0 ? T(0) : ring.neighbours[i - 1].y;
+  }
+  const T largest_share = T(0.5) + static_cast<T>(index % 7);
+  return trismooth::MeanRatio<T, shaped>({inverse_areas, &largest_share, &scales, shaped ? reference : nullptr},
+                                         {T(1.5), T(3e-4), index % 2 == 0})
+      .update(0, ring.position, ring);
+}
+
 template <class T>
 __host__ __device__ Answer<T> answer(const Case<T>& ring, int index) {
-  return {trismooth::SmartLaplacian::update(ring.position, ring), trismooth::Laplacian::update(ring.position, ring),
-          trismooth::WeightedLaplacian::update(ring.position, ring), trismooth::worst_quotient(ring.position, ring),
+  return {trismooth::SmartLaplacian::update(ring.position, ring),
+          trismooth::Laplacian::update(ring.position, ring),
+          trismooth::WeightedLaplacian::update(ring.position, ring),
+          mean_ratio<T, false>(ring, index),
+          mean_ratio<T, true>(ring, index),
+          trismooth::worst_quotient(ring.position, ring),
           trismooth::splitmix64(static_cast<std::uint64_t>(index))};
 }
 
@@ -113,16 +139,20 @@ int differences(const char* type) {
 
   int different = 0;
   int smart_moves = 0;
+  int mean_ratio_moves = 0;
   for (int i = 0; i < cases; ++i) {
     const Answer<T> host = answer(rings[i], i);
     const Answer<T>& device = answers[i];
     smart_moves += host.smart.moved ? 1 : 0;
+    mean_ratio_moves += host.mean_ratio.moved ? 1 : 0;
     const bool same = same_bits(host.smart, device.smart) && same_bits(host.laplacian, device.laplacian) &&
-                      same_bits(host.weighted, device.weighted) && host.hash == device.hash &&
+                      same_bits(host.weighted, device.weighted) && same_bits(host.mean_ratio, device.mean_ratio) &&
+                      same_bits(host.mean_ratio_to_shapes, device.mean_ratio_to_shapes) && host.hash == device.hash &&
                       std::memcmp(&host.worst, &device.worst, sizeof(T)) == 0;
     different += same ? 0 : 1;
   }
-  std::printf("%s: %d rings, %d smart moves, %d differ\n", type, cases, smart_moves, different);
+  std::printf("%s: %d rings, %d smart and %d mean-ratio moves, %d differ\n", type, cases, smart_moves, mean_ratio_moves,
+              different);
   return different;
 }
 
