@@ -363,6 +363,7 @@ class SameResult(CommandLineTest):
     def test_stops_are_told_by_their_reason(self):
         for arguments, reason in {("--max-sweeps", "2"): "sweep_limit", ("--tolerance", "0.5"): "tolerance",
                                   ("--tolerance", "0", "--max-sweeps", "0"): "fixed_point",
+                                  ("--method", "mean-ratio"): "few_moves",
                                   ("--target-quality", "-1"): "quality_target"}.items():
             with self.subTest(reason):
                 report = self.report("smooth", "random.off", "out.off", *arguments)

@@ -48,6 +48,10 @@ std::uint64_t hash_of(const properties::RandomMesh& mesh) {
   for (std::uint64_t index = 0; index < properties::combinations; ++index) {
     trismooth::SmoothingOptions options = properties::combination(index);
     options.max_sweeps = 20;
+    if (options.method == properties::Method::mean_ratio) {
+      test_meshes::Random random = properties::draws_for(mesh);
+      options.mean_ratio = properties::any_mean_ratio(random);
+    }
     const properties::Run run = properties::run(mesh, options);
     for (const double coordinate : run.xy) {
       hash.add(coordinate);

@@ -147,7 +147,7 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--form", "c"}, "unknown form 'c'; valid are a, b"},
       {{"smooth", "a.off", "b.off", "--method", "x"}, "valid are smart, laplacian, weighted, mean-ratio"},
       {{"smooth", "a.off", "b.off", "--target", "x"}, "valid are uniform, input-shape"},
-      {{"smooth", "a.off", "b.off", "--size-weight", "-1"}, "--size-weight"},
+      {{"smooth", "a.off", "b.off", "--size-weight", "-1"}, "the size weight must be a number from 0"},
       {{"smooth", "a.off", "b.off", "--size-weight", "inf"}, "--size-weight"},
       {{"smooth", "a.off", "b.off", "--size-weight", "nan"}, "--size-weight"},
       {{"smooth", "a.off", "b.off", "--power", "9"}, "--power"},

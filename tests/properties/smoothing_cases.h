@@ -41,8 +41,14 @@ inline SmoothingOptions combination(std::uint64_t index) {
 }
 
 inline std::string text_of(const SmoothingOptions& options) {
-  return fmt::format("{}, form {}, {}, {} sweeps, tolerance {}", to_string(options.method), to_string(options.form),
-                     to_string(options.precision), options.max_sweeps, options.tolerance);
+  const std::string text =
+      fmt::format("{}, form {}, {}, {} sweeps, tolerance {}", to_string(options.method), to_string(options.form),
+                  to_string(options.precision), options.max_sweeps, options.tolerance);
+  const trismooth::MeanRatioOptions& mean_ratio = options.mean_ratio;
+  return options.method == Method::mean_ratio
+             ? fmt::format("{}, size weight {}, power {}, target {}", text, mean_ratio.size_weight, mean_ratio.power,
+                           to_string(mean_ratio.target))
+             : text;
 }
 
 /// What a property draws for a mesh: the same for the same seed.
@@ -50,8 +56,17 @@ inline test_meshes::Random draws_for(const RandomMesh& mesh) {
   return test_meshes::Random(trismooth::splitmix64(mesh.seed));
 }
 
-/// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep limit
-/// and tolerance drawn at random, until it answers something; answers that, and the options.
+/// What steers the mean-ratio method: often the defaults.
+inline trismooth::MeanRatioOptions any_mean_ratio(test_meshes::Random& random) {
+  if (random.below(2) == 0) {
+    return {};
+  }
+  return {random.below(3) * random.between(0, 2), random.below(9), static_cast<trismooth::TargetShape>(random.below(2))};
+}
+
+/// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep
+/// limit, tolerance and what steers the mean-ratio method drawn at random, until it answers something; answers that,
+/// and the options.
 template <class Check>
 std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const Check& check) {
   test_meshes::Random random = draws_for(mesh);
@@ -59,6 +74,9 @@ std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const 
     SmoothingOptions options = combination(mesh.seed * count + i);
     options.max_sweeps = random.below(6) == 0 ? 100 : 1 + random.below(12);
     options.tolerance = random.below(3) == 0 ? 1e-2 : 0;
+    if (options.method == Method::mean_ratio) {
+      options.mean_ratio = any_mean_ratio(random);
+    }
     const std::string wrong = check(options, random);
     if (!wrong.empty()) {
       return fmt::format("{} ({})", wrong, text_of(options));
