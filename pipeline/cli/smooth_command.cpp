@@ -44,7 +44,8 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
                   "needs fewer sweeps")
       ->group(group);
   add_parsed_option(command, "--untangle", alternatives<Untangle>(),
-                    "Before the sweeps, move vertices so that no triangle is inverted, where that can be done [on for mean-ratio, else off]",
+                    "Before the sweeps, move vertices so that no triangle is inverted, where that can be done [on for "
+                    "mean-ratio, else off]",
                     [&options](const std::string& text) { options.untangle = parse_choice<Untangle>(text); })
       ->group(group);
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")

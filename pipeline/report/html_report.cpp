@@ -272,6 +272,12 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
             {"tolerance", fmt::format("{}", chosen.tolerance)},
             {"time limit", optional_number(chosen.time_limit_seconds, " s")},
             {"quality target", chosen.target_quality ? fmt::format("{}", *chosen.target_quality) : "none"}};
+  if (chosen.method == Method::mean_ratio) {
+    const MeanRatioOptions& mean_ratio = chosen.mean_ratio;
+    rows.emplace_back("size weight", fmt::format("{}", mean_ratio.size_weight));
+    rows.emplace_back("power", mean_ratio.power > 0 ? fmt::format("{}", mean_ratio.power) : "by the mean shape");
+    rows.emplace_back("target", std::string(to_string(mean_ratio.target)));
+  }
   if (options.fixed_array) {
     rows.emplace_back("fixed by array", escape_html(*options.fixed_array));
   }

@@ -71,6 +71,8 @@ Json input_json(const InputSummary& input) {
 
 Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
   const SmoothingOptions& smoothing = options.smoothing;
+  const MeanRatioOptions& mean_ratio = smoothing.mean_ratio;
+  const bool is_mean_ratio = smoothing.method == Method::mean_ratio;
   const auto& written = options.written();
   Json annotated = Json::array();
   for (const Metric metric : options.annotated_metrics) {
@@ -93,6 +95,9 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"tolerance", number_json(smoothing.tolerance)},
           {"time_limit", number_json(smoothing.time_limit_seconds)},
           {"target_quality", number_json(smoothing.target_quality)},
+          {"size_weight", is_mean_ratio ? number_json(mean_ratio.size_weight) : Json(nullptr)},
+          {"power", is_mean_ratio && mean_ratio.power > 0 ? Json(mean_ratio.power) : Json(nullptr)},
+          {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
           {"region_array", options.region_arrays.empty() ? Json(nullptr) : Json(options.region_arrays.front())},
           {"region_arrays", options.region_arrays},
           {"fixed_array", text_or_null(options.fixed_array)},

@@ -23,7 +23,7 @@ REPORT_KEYS = {
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
               "fixed_ids_vertices", "held"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
-                "max_sweeps", "tolerance"},
+                "max_sweeps", "tolerance", "size_weight", "power", "target"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
                   "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
                   "guard_rounds", "untangling", "history"},

@@ -87,6 +87,23 @@ TEST_CASE("the report says what untangling did") {
   CHECK(page.find("4 after it, 3 in the result; 2 more have fixed vertices alone") != std::string::npos);
 }
 
+TEST_CASE("the report shows what steers the mean-ratio method where that ran, and else does not") {
+  auto options = sample::options();
+  CHECK_FALSE(parse(html_report(options, sample::result())).says("size weight"));
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  CHECK(parse(html_report(options, sample::result())).says("by the mean shape"));
+  options.smoothing.mean_ratio = {.size_weight = 0.375, .power = 7, .target = trismooth::TargetShape::input};
+  const std::string html = html_report(options, sample::result());
+  const Parsed page = parse(html);
+  REQUIRE(page.error.empty());
+  for (const char* words : {"size weight", "0.375", "power", "target", "input-shape"}) {
+    CAPTURE(words);
+    CHECK(page.says(words));
+  }
+  CHECK(html.find(">7</td>") != std::string::npos);
+  CHECK_FALSE(page.says("by the mean shape"));
+}
+
 TEST_CASE("the report of a check is well-formed and speaks of no smoothing") {
   auto options = sample::options();
   options.output.reset();

@@ -44,8 +44,9 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
         Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells", "unused", "named", "several"});
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
-  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
-                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard", "untangle"}) {
+  for (const char* key :
+       {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads", "max_sweeps",
+        "tolerance", "time_limit", "target_quality", "guard", "size_weight", "power", "target", "untangle"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
@@ -80,6 +81,28 @@ TEST_CASE("the JSON report says what untangling did") {
                                                   {"inverted_fixed", 2},
                                                   {"turned_components", 1}});
   CHECK(report["timings_ms"]["untangle"] == 10.5);
+}
+
+TEST_CASE("the JSON report has what steers the mean-ratio method, and null where another method ran") {
+  auto options = sample::options();
+  options.smoothing.mean_ratio = {.size_weight = 0.25, .power = 4, .target = trismooth::TargetShape::input};
+  const auto reported = [&] { return Json::parse(json_report(options, sample::result()))["options"]; };
+  const Json of_smart = reported();
+  for (const char* key : {"size_weight", "power", "target"}) {
+    CAPTURE(key);
+    CHECK(of_smart[key].is_null());
+  }
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  const Json chosen = reported();
+  CHECK(chosen["method"] == "mean-ratio");
+  CHECK(chosen["size_weight"] == 0.25);
+  CHECK(chosen["power"] == 4);
+  CHECK(chosen["target"] == "input-shape");
+  options.smoothing.mean_ratio = {};
+  const Json defaults = reported();
+  CHECK(defaults["size_weight"] == 1);
+  CHECK(defaults["power"].is_null());
+  CHECK(defaults["target"] == "uniform");
 }
 
 TEST_CASE("the JSON report holds the run's values") {
