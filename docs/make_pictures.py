@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws docs/images/before.svg and after.svg: a part of an example mesh, coloured by shape, before and after smoothing.
+"""Draws a part of an example mesh, coloured by shape, before and after smoothing: before.svg, after.svg (method smart) and
+mean_ratio.svg in docs/images; and how often which shape is there in the whole mesh: shape_histograms.svg.
 
     docs/make_pictures.py [PROGRAM]    PROGRAM is trismooth, by default that of build/release
 
@@ -98,15 +99,76 @@ def draw(mesh, title):
     return "\n".join(lines) + "\n"
 
 
+def text(x, y, words, size=12, anchor="middle", fill="#111"):
+    return f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}" fill="{fill}">{words}</text>'
+
+
+def panel(name, shapes, left, width):
+    """A histogram with a logarithmic axis: bars of 1/20, coloured as in the pictures."""
+    top, bottom, most = 34, 204, 4  # pixels; the axis ends at 10^most
+    unit = (bottom - top) / (most + 0.3)  # a decade; one element has a bar, too
+
+    def height(count):
+        return (math.log10(count) + 0.3) * unit if count > 0 else 0
+
+    lines = [text(left + width / 2, 20, name, 14)]
+    for decade in range(most + 1):
+        y = bottom - height(10 ** decade)
+        lines.append(f'<path stroke="#dde3e7" d="M{left} {y:.1f}h{width}"/>')
+        lines.append(text(left - 6, y + 4, 10 ** decade, 11, "end", "#5b6770"))
+    bins = 20
+    counts = [0] * bins
+    for value in shapes:
+        counts[min(int(max(value, 0) * bins), bins - 1)] += 1
+    for i, count in enumerate(counts):
+        if count > 0:
+            lines.append(f'<rect x="{left + i * width / bins + 0.5:.1f}" y="{bottom - height(count):.1f}" '
+                         f'width="{width / bins - 1:.1f}" height="{height(count):.1f}" '
+                         f'fill="{colour((i + 0.5) / bins)}" stroke="#5b6770" stroke-width=".6"/>')
+    lines.append(f'<path stroke="#5b6770" d="M{left} {bottom}h{width}"/>')
+    lines += [text(left + part * width, bottom + 16, f"{part:g}", 11, fill="#5b6770") for part in (0, 0.5, 1)]
+    ordered = sorted(shapes)
+    figures = (("smallest", ordered[0]), ("1 %", ordered[(len(ordered) + 99) // 100 - 1]),
+               ("mean", math.fsum(ordered) / len(ordered)))
+    for i, (figure, value) in enumerate(figures):
+        lines.append(text(left + (2 * i + 1) * width / 6, bottom + 38, figure, 11, fill="#5b6770"))
+        lines.append(text(left + (2 * i + 1) * width / 6, bottom + 54, f"{value:.3f}", 13))
+    return lines
+
+
+def draw_histograms(meshes, title):
+    width, gap, height = 250, 56, 270
+    size = f'{len(meshes) * (width + gap) + 12} {height}'
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" width="{size.split()[0]}" height="{height}" '
+        'font-family="sans-serif">',
+        f"<title>{title}</title>",
+        f'<rect width="{size.split()[0]}" height="{height}" fill="#ffffff"/>',
+    ]
+    for i, (name, (points, triangles, _)) in enumerate(meshes.items()):
+        shapes = [shape(*(points[v] for v in triangle)) for triangle in triangles]
+        lines += panel(name, shapes, gap + i * (width + gap), width)
+    lines.append("</svg>")
+    return "\n".join(lines) + "\n"
+
+
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/pipeline/trismooth"
     images = ROOT / "docs/images"
+    meshes = {"before": read_vtu(MESH)}
     with tempfile.TemporaryDirectory() as folder:
-        smoothed = pathlib.Path(folder) / MESH.name
-        subprocess.run([program, "smooth", "--quiet", MESH, smoothed], check=True)
-        for name, path in (("before", MESH), ("after", smoothed)):
-            title = f"Part of {MESH.name} {name} smoothing; colour: shape, from red (bad) to blue (equilateral)"
-            (images / f"{name}.svg").write_text(draw(read_vtu(path), title))
+        for method in ("smart", "mean-ratio"):
+            smoothed = pathlib.Path(folder) / f"{method}.vtu"
+            subprocess.run([program, "smooth", "--quiet", "--method", method, MESH, smoothed], check=True)
+            meshes[method] = read_vtu(smoothed)
+    names = {"before": ("before", "before smoothing"), "smart": ("after", "after smoothing"),
+             "mean-ratio": ("mean_ratio", "after smoothing by the method mean-ratio")}
+    for method, mesh in meshes.items():
+        name, when = names[method]
+        title = f"Part of {MESH.name} {when}; colour: shape, from red (bad) to blue (equilateral)"
+        (images / f"{name}.svg").write_text(draw(mesh, title))
+    title = f"Shapes of the triangles of {MESH.name}, numbers of triangles on a logarithmic axis"
+    (images / "shape_histograms.svg").write_text(draw_histograms(meshes, title))
 
 
 if __name__ == "__main__":
