@@ -277,12 +277,12 @@ class Untangler {
     for (const std::int32_t v : near) {
       listed_[v] = 1;
     }
-    std::size_t done = 0;
+    std::size_t expanded = 0;
     bool are_all = false;
     for (std::int64_t ring = 0; ring < rings && !are_all; ++ring) {
       const std::size_t end = near.size();
-      for (; done < end; ++done) {
-        for (const std::int32_t neighbour : rings_[near[done]]) {
+      for (; expanded < end; ++expanded) {
+        for (const std::int32_t neighbour : rings_[near[expanded]]) {
           if (rings_.is_free(neighbour) && listed_[neighbour] == 0) {
             listed_[neighbour] = 1;
             near.push_back(neighbour);

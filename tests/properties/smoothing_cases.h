@@ -61,7 +61,8 @@ inline trismooth::MeanRatioOptions any_mean_ratio(test_meshes::Random& random) {
   if (random.below(2) == 0) {
     return {};
   }
-  return {random.below(3) * random.between(0, 2), random.below(9), static_cast<trismooth::TargetShape>(random.below(2))};
+  return {random.below(3) * random.between(0, 2), random.below(9),
+          static_cast<trismooth::TargetShape>(random.below(2))};
 }
 
 /// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep
