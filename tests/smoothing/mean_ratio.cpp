@@ -560,6 +560,45 @@ TEMPLATE_TEST_CASE("what it aims at is what a plain computation finds, bit for b
   }
 }
 
+TEST_CASE("aimed at is the mean area of a vertex's triangles, of a fixed vertex those that may change, each once") {
+  for (const auto& [name, mesh] : test_meshes::zoo()) {
+    const auto frame = trismooth::local_frame(mesh.points);
+    std::vector<Point2<double>> local;
+    for (const auto p : mesh.points) {
+      local.push_back(frame.enter(p));
+    }
+    trismooth::Workers workers(2);
+    const auto found = trismooth::find_mesh_rings(local, mesh.triangles, {}, workers);
+    const auto rings = trismooth::pack_rings(found.rings, local, Form::swap, workers);
+    std::vector<Point2<double>> packed;
+    for (const std::int32_t v : rings.input_index) {
+      packed.push_back(local[v]);
+    }
+    std::optional<trismooth::HostTargets<double>> targets;
+    workers.run([&] { targets.emplace(packed, rings, MeanRatioOptions{}, workers); });
+    std::vector<Real> sums(mesh.points.size());
+    std::vector<int> counts(mesh.points.size());
+    for (const auto& t : mesh.triangles) {
+      if (std::ranges::any_of(t, [&](std::int32_t v) { return found.rings.is_free(v); })) {
+        const Real area =
+            naive::doubled_area(naive::widened(local[t[0]]), naive::widened(local[t[1]]), naive::widened(local[t[2]]));
+        for (const std::int32_t v : t) {
+          sums[v] += std::max(area, 0.0L);
+          ++counts[v];
+        }
+      }
+    }
+    for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
+      const std::int32_t input = rings.input_index[v];
+      CAPTURE(name, input);
+      if (sums[input] > 0) {
+        REQUIRE(1 / targets->view().inverse_areas[v] ==
+                Approx(static_cast<double>(sums[input] / counts[input])).epsilon(1e-9));
+      }
+    }
+  }
+}
+
 TEST_CASE("the larger means of areas, the looser the growth bound; never below the largest share there was") {
   const trismooth::MeanRatioMesh mesh{0.01, 1, 2, 4};
   CHECK(trismooth::growth_bound(5.0, 0.02, mesh) == 5.0);
