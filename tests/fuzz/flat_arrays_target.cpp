@@ -212,6 +212,7 @@ Holds choose_holds(InputBytes& input, std::size_t vertices, std::size_t triangle
 SmoothingOptions choose_options(InputBytes& input) {
   SmoothingOptions options;
   using trismooth::Method;
+  options.untangle = trismooth::Untangle::off;  // which the contract's naive smoothing does not know
   options.method = input.one_of({Method::smart, Method::mean_ratio, Method::laplacian, Method::weighted});
   options.form = input.one_of({trismooth::Form::swap, trismooth::Form::in_place});
   options.precision = input.one_of({trismooth::Precision::double_precision, trismooth::Precision::single_precision});

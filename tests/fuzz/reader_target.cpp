@@ -130,6 +130,7 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
 trismooth::SmoothingOptions choose_options(HashedChoices& choices) {
   trismooth::SmoothingOptions options;
   using trismooth::Method;
+  options.untangle = trismooth::Untangle::off;  // which the contract's naive smoothing does not know
   options.method = std::array{Method::smart, Method::mean_ratio, Method::laplacian, Method::weighted}[choices.below(4)];
   options.form = choices.flag() ? trismooth::Form::swap : trismooth::Form::in_place;
   options.precision = choices.flag() ? trismooth::Precision::single_precision : trismooth::Precision::double_precision;

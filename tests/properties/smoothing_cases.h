@@ -46,8 +46,8 @@ inline std::string text_of(const SmoothingOptions& options) {
                   to_string(options.precision), options.max_sweeps, options.tolerance);
   const trismooth::MeanRatioOptions& mean_ratio = options.mean_ratio;
   return options.method == Method::mean_ratio
-             ? fmt::format("{}, size weight {}, power {}, target {}", text, mean_ratio.size_weight, mean_ratio.power,
-                           to_string(mean_ratio.target))
+             ? fmt::format("{}, size weight {}, power {}, target {}{}", text, mean_ratio.size_weight, mean_ratio.power,
+                           to_string(mean_ratio.target), options.untangles() ? ", untangled" : "")
              : text;
 }
 
@@ -77,6 +77,7 @@ std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const 
     options.tolerance = random.below(3) == 0 ? 1e-2 : 0;
     if (options.method == Method::mean_ratio) {
       options.mean_ratio = any_mean_ratio(random);
+      options.untangle = static_cast<trismooth::Untangle>(random.below(2));
     }
     const std::string wrong = check(options, random);
     if (!wrong.empty()) {
