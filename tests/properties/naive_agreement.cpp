@@ -106,7 +106,6 @@ TEST_CASE(
   for_random_meshes(3000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) {
       options.guard = random.below(5) != 0;
-      options.untangle = trismooth::Untangle::off;
       options.record_min_shape = random.below(3) == 0;
       const Storage storage = fits_float32(mesh) && random.below(3) == 0 ? Storage::float32 : Storage::float64;
       const Run expected = options.precision == Precision::double_precision ? naive_run<double>(mesh, options, storage)
