@@ -150,11 +150,6 @@ struct EnumText<Untangle> {
       {{Untangle::off, "off"}, {Untangle::on, "on"}}};
 };
 
-/// What a method does about inverted triangles where nothing else is asked for.
-constexpr Untangle default_untangle(Method method) {
-  return method == Method::mean_ratio ? Untangle::on : Untangle::off;
-}
-
 /// Everything that steers a smoothing. The defaults are those of the command line.
 struct SmoothingOptions {
   Method method = Method::smart;
@@ -170,8 +165,8 @@ struct SmoothingOptions {
   /// worse than it was and worse than the worst of all elements around moved vertices was.
   bool guard = true;
   /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
-  /// pass where none is. Absent: default_untangle(method).
-  std::optional<Untangle> untangle{};
+  /// pass where none is.
+  Untangle untangle = Untangle::off;
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
@@ -191,7 +186,7 @@ struct SmoothingOptions {
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
 
   /// Whether inverted triangles are untangled before the sweeps.
-  [[nodiscard]] bool untangles() const { return untangle.value_or(default_untangle(method)) == Untangle::on; }
+  [[nodiscard]] bool untangles() const { return untangle == Untangle::on; }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
   /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident, Layout::soa with

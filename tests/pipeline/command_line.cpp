@@ -32,7 +32,7 @@ TEST_CASE("without options, smooth uses the documented defaults") {
   CHECK(options.smoothing.form == trismooth::Form::in_place);
   CHECK(options.smoothing.precision == trismooth::Precision::double_precision);
   CHECK(options.smoothing.guard);
-  CHECK_FALSE(options.smoothing.untangle);
+  CHECK(options.smoothing.untangle == trismooth::Untangle::off);
   CHECK(options.smoothing.max_sweeps == 1000);
   CHECK(options.smoothing.tolerance == 1e-6);
   CHECK_FALSE(options.smoothing.target_quality);

@@ -74,7 +74,7 @@ TEST_CASE("runs repeated, plans used again, flat arrays, and evaluating all give
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.record_min_shape = random.below(2) == 0;
       if (random.below(2) == 0) {
-        options.untangle.reset();
+        options.untangle = trismooth::Untangle::on;
       }
       const Run expected = run(mesh, options);
       const auto indices = mesh.mesh.indices();

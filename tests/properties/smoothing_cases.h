@@ -77,7 +77,6 @@ std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const 
     options.tolerance = random.below(3) == 0 ? 1e-2 : 0;
     if (options.method == Method::mean_ratio) {
       options.mean_ratio = any_mean_ratio(random);
-      options.untangle = trismooth::Untangle::off;  // what that promises is another thing
     }
     const std::string wrong = check(options, random);
     if (!wrong.empty()) {
