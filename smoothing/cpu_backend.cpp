@@ -101,7 +101,7 @@ class CpuSmoother final : public PreparedSmoother {
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
       const auto guard = [&](const std::vector<Point2<double>>& from) {
-        const GuardOutcome outcome = keep_never_worse(rings.view(), from, after, workers_);
+        GuardOutcome outcome = keep_never_worse(rings.view(), from, after, workers_);
         result.guard_rounds += outcome.rounds;
         for (const std::int32_t v : outcome.reverted) {
           result.reverted.push_back({rings_.input_index[v], stored(v)});

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "trismooth/base/point2.h"
 
@@ -25,7 +26,7 @@ struct RegularisedEnergy {
   double size_weight = 0;  ///< lambda
 
   /// Half the height that e stands for, and the like: what the coordinates of the corners come in by.
-  static constexpr double root3 = 1.7320508075688772;
+  static constexpr double root3 = std::numbers::sqrt3;
 
   /// A triangle in the coordinates of the energy.
   struct Shape {
