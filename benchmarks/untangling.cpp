@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -73,9 +74,7 @@ void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int measure(int argc, char** argv) {
   CLI::App app("The share of tangled meshes that is untangled");
   Settings settings;
   app.add_option("--vertices", settings.sizes, "sizes of the meshes");
@@ -114,4 +113,15 @@ int main(int argc, char** argv) {
     }
   }
   return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return measure(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "untangling: error: %s\n", error.what());
+    return 1;
+  }
 }

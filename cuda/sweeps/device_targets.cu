@@ -49,7 +49,7 @@ template <class T, class Rings>
 __global__ void __launch_bounds__(block_size)
     measure(Rings rings, PointArray<T> points, T* areas, T* shares, MeanRatioSums* sums, FixedVertexArea* fixed) {
   __shared__ MeanRatioSums of_block;
-  MeanRatioSums own;
+  MeanRatioSums own{};
   for (std::int64_t i = thread_index(); i < rings.size; i += static_cast<std::int64_t>(gridDim.x) * block_size) {
     const auto v = static_cast<std::int32_t>(i);
     const Point2<T> position = points.load(v);

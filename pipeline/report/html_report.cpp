@@ -202,8 +202,7 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
             end_of_range("mean", &MetricSummary::mean, false) +
             end_of_range("max", &MetricSummary::max, !metric.larger_is_better) +
             html_cell(percent_text(from.acceptable_fraction), "start", "acceptable %") +
-            html_cell(percent_text(to.acceptable_fraction)) + html_cell(std::string(judged), verdict_class(judged)) +
-            "</tr>\n";
+            html_cell(percent_text(to.acceptable_fraction)) + html_cell(judged, verdict_class(judged)) + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }

@@ -109,7 +109,7 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
       lines += labelled_line("", fmt::format("put back where they had made an element worse, in {}",
                                              counted(smoothing.guard_rounds, "round", "rounds")));
     }
-    lines += labelled_line("", std::string(describe(smoothing.stop_reason)));
+    lines += labelled_line("", describe(smoothing.stop_reason));
   }
   return lines;
 }

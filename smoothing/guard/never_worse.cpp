@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <utility>
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/base/workers.h"
@@ -162,9 +163,20 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<doub
 }
 
 void name_once(std::vector<RevertedVertex>& reverted) {
-  std::ranges::stable_sort(reverted, {}, &RevertedVertex::vertex);
-  const auto is_same = [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; };
-  reverted.erase(std::unique(reverted.begin(), reverted.end(), is_same), reverted.end());
+  // By vertex, and of one vertex the first first.
+  std::vector<std::pair<std::int32_t, std::size_t>> order;
+  order.reserve(reverted.size());
+  for (std::size_t i = 0; i < reverted.size(); ++i) {
+    order.emplace_back(reverted[i].vertex, i);
+  }
+  std::ranges::sort(order);
+  std::vector<RevertedVertex> once;
+  for (const auto& [vertex, i] : order) {
+    if (once.empty() || once.back().vertex != vertex) {
+      once.push_back(reverted[i]);
+    }
+  }
+  reverted = std::move(once);
 }
 
 }  // namespace trismooth

@@ -19,9 +19,9 @@ struct MeanRatioSums {
   static constexpr double area_unit = 0x1p-56;
   static constexpr double quotient_unit = 0x1p-28;
 
-  std::uint64_t areas = 0;      ///< doubled, of those that are positive
-  std::uint64_t quotients = 0;  ///< shape quotients, of those that are positive
-  std::uint64_t count = 0;
+  std::uint64_t areas;      ///< doubled, of those that are positive
+  std::uint64_t quotients;  ///< shape quotients, of those that are positive
+  std::uint64_t count;
 
   constexpr TRISMOOTH_HOST_DEVICE void add(const MeanRatioSums& other) {
     areas += other.areas;

@@ -83,7 +83,7 @@ class HostTargets {
   /// The first pass: leaves each vertex's mean area in inverse_areas_ and its largest share in largest_shares_.
   MeanRatioSums measure(std::span<const Point2<T>> points, const PackedRings& rings,
                         std::vector<FixedVertexArea>& fixed, Workers& workers) {
-    MeanRatioSums sums;
+    MeanRatioSums sums{};
     for_rings(points, rings, workers, [&](std::int32_t v, const auto& ring) {
       const MeanRatioRing<T> found = measure_for_mean_ratio(points[v], ring);
       add(sums.areas, found.sums.areas);
