@@ -24,7 +24,6 @@
 
 namespace mean_ratio_quality_test {
 
-using trismooth::Constraints;
 using trismooth::Method;
 using trismooth::Point2;
 using trismooth::Precision;

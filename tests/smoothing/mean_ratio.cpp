@@ -55,10 +55,12 @@ struct Scene {
   static std::int32_t number(int i) { return i + 1; }
 
   Move<T> visit(const MeanRatioStep<T>& step) const {
-    const MeanRatioTargets<T> targets{inverse_areas.data(), &largest_share, &scales,
-                                      reference.empty() ? nullptr : &reference[0].x};
-    return reference.empty() ? MeanRatio<T, false>(targets, step).update(0, position, *this)
-                             : MeanRatio<T, true>(targets, step).update(0, position, *this);
+    MeanRatioTargets<T> targets{inverse_areas.data(), &largest_share, &scales};
+    if (reference.empty()) {
+      return MeanRatio<T, false>(targets, step).update(0, position, *this);
+    }
+    targets.reference = &reference[0].x;
+    return MeanRatio<T, true>(targets, step).update(0, position, *this);
   }
 
   /// The same as its definition sees it.

@@ -169,8 +169,9 @@ TEST_CASE("a first stage in which nothing moves, or nothing beyond the tolerance
       }
     }
     for (std::int32_t v = 0; v < 81; ++v) {
+      const std::int32_t row = v / 9;
       const double i = v % 9;
-      const double j = v / 9;
+      const double j = row;
       mesh.points[static_cast<std::size_t>(v)] = {i + j / 2, j * std::sqrt(0.75)};
     }
     return mesh;
