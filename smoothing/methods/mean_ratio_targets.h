@@ -5,7 +5,6 @@
 
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/mean_ratio.h"
-#include "trismooth/smoothing/methods/smart_laplacian.h"
 
 /// What the mean-ratio method aims at, found from the mesh as it is before the first sweep: in two passes over the free
 /// vertices, of which the second needs sums over all of the first.

@@ -84,16 +84,25 @@ class HostTargets {
   MeanRatioSums measure(std::span<const Point2<T>> points, const PackedRings& rings,
                         std::vector<FixedVertexArea>& fixed, Workers& workers) {
     MeanRatioSums sums{};
-    for_rings(points, rings, workers, [&](std::int32_t v, const auto& ring) {
-      const MeanRatioRing<T> found = measure_for_mean_ratio(points[v], ring);
-      add(sums.areas, found.sums.areas);
-      add(sums.quotients, found.sums.quotients);
-      add(sums.count, found.sums.count);
-      inverse_areas_[v] = found.mean_area;
-      largest_shares_[v] = found.largest_share;
-      for_fixed_corners(points[v], ring, rings.free_count(), [&](std::int32_t u, double area, std::uint64_t /*times*/) {
-        raise(fixed[u - rings.free_count()].largest, std::bit_cast<std::uint64_t>(area));
-      });
+    const RingView view = rings.view();
+    workers.for_blocks(rings.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
+      RingGatherer<T> gatherer;
+      MeanRatioSums own{};  // threads meet once a block, not at every vertex
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        gatherer.with_ring(points, view[v], [&](const auto& ring) {
+          const MeanRatioRing<T> found = measure_for_mean_ratio(points[v], ring);
+          own.add(found.sums);
+          inverse_areas_[v] = found.mean_area;
+          largest_shares_[v] = found.largest_share;
+          for_fixed_corners(points[v], ring, rings.free_count(),
+                            [&](std::int32_t u, double area, std::uint64_t /*times*/) {
+                              raise(fixed[u - rings.free_count()].largest, std::bit_cast<std::uint64_t>(area));
+                            });
+        });
+      }
+      add(sums.areas, own.areas);
+      add(sums.quotients, own.quotients);
+      add(sums.count, own.count);
     });
     return sums;
   }
