@@ -1,6 +1,9 @@
 #include "trismooth/base/workers.h"
 
 #include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -15,6 +18,21 @@ namespace {
 
 int threads_for(int wanted) {
   return allowed_threads(checked_threads(wanted) > 0 ? wanted : tbb::this_task_arena::max_concurrency());
+}
+
+/// Runs work of TBB. It may want one thread more than start_worker_threads() has started, long after that: where one is
+/// about to fall asleep. If the mesh has taken what the system allowed by then, that is a lack of memory, and fewer
+/// threads help; TBB calls it a runtime error.
+template <class Work>
+void execute(tbb::task_arena& arena, const Work& work) {
+  try {
+    arena.execute(work);
+  } catch (const std::runtime_error& error) {
+    if (std::string_view(error.what()).starts_with("pthread_create")) {
+      throw std::bad_alloc();
+    }
+    throw;
+  }
 }
 
 }  // namespace
@@ -44,12 +62,12 @@ void Workers::start() {
 }
 
 void Workers::enter(const Callee<>& function) {
-  arena_->arena.execute([&] { function(); });
+  execute(arena_->arena, [&] { function(); });
 }
 
 void Workers::share_out(std::int64_t size, std::int64_t grain, const Callee<std::int64_t, std::int64_t>& body) {
   start();
-  arena_->arena.execute([&] {
+  execute(arena_->arena, [&] {
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, static_cast<std::size_t>(grain)),
                       [&](const auto& range) { body(range.begin(), range.end()); });
   });

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -49,6 +50,16 @@ TEST_CASE("one thread, or no more than the grain, is the calling thread in one p
     });
     CHECK(parts == 1);
   }
+}
+
+TEST_CASE("a thread refused when loops have long been running is a lack of memory, which callers know how to tell") {
+  Workers workers(2);
+  const auto refuse = [](std::int64_t begin, std::int64_t /*end*/) {
+    if (begin == 0) {
+      throw std::runtime_error("pthread_create has failed: Resource temporarily unavailable");  // TBB's words
+    }
+  };
+  CHECK_THROWS_AS(workers.for_blocks(1000, 1, refuse), std::bad_alloc);
 }
 
 TEST_CASE("the number of threads is the one asked for, or all for 0") {
