@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "trismooth/cuda/update/quotient_filter.cuh"
 #include "trismooth/cuda/update/reciprocals.cuh"
 #include "trismooth/cuda/update/register_ring.cuh"
@@ -9,24 +7,6 @@
 #include "trismooth/smoothing/methods/one_ring_update.h"
 
 namespace trismooth::cuda {
-
-/// What a vertex does, and the sum of its squared distances to its neighbours for the tally.
-template <class T>
-struct VertexMove {
-  Move<T> move;
-  T squares;
-};
-
-/// The update of a vertex with a ring of any kind and size, as the method is defined.
-template <class Update, class T, class Ring>
-__device__ __forceinline__ VertexMove<T> update_over(const Update& method, std::int32_t v, Point2<T> position,
-                                                     const Ring& ring) {
-  VertexMove<T> result{updated(method, v, position, ring), T(0)};
-  for (int i = 0; i < ring.size() && result.move.moved; ++i) {
-    result.squares += squared_length(ring[i] - position);
-  }
-  return result;
-}
 
 /// laplacian_position(), by the same operations in the same order.
 template <class T, int capacity>

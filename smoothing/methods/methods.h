@@ -18,6 +18,17 @@ struct MethodInUse {
   MeanRatioStep<T> step{};
 };
 
+/// visit_method() for mean-ratio.
+template <class T, class Function>
+decltype(auto) visit_mean_ratio(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step, Function&& function) {
+  if (targets.reference != nullptr) {
+    return step.is_last ? function(MeanRatio<T, true, true>(targets, step))
+                        : function(MeanRatio<T, true, false>(targets, step));
+  }
+  return step.is_last ? function(MeanRatio<T, false, true>(targets, step))
+                      : function(MeanRatio<T, false, false>(targets, step));
+}
+
 /// Calls `function` with the method's one-ring update.
 template <class T, class Function>
 decltype(auto) visit_method(const MethodInUse<T>& in_use, Function&& function) {
@@ -27,10 +38,7 @@ decltype(auto) visit_method(const MethodInUse<T>& in_use, Function&& function) {
     case Method::weighted:
       return std::forward<Function>(function)(WeightedLaplacian{});
     case Method::mean_ratio:
-      if (in_use.targets.reference != nullptr) {
-        return std::forward<Function>(function)(MeanRatio<T, true>(in_use.targets, in_use.step));
-      }
-      return std::forward<Function>(function)(MeanRatio<T, false>(in_use.targets, in_use.step));
+      return visit_mean_ratio(in_use.targets, in_use.step, std::forward<Function>(function));
     case Method::smart:
       break;
   }

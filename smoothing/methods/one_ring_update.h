@@ -60,6 +60,34 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> updated(const Update& method, std::int32
   }
 }
 
+/// What a vertex does, and where it moves the sum of its squared distances to its neighbours, by which the move is
+/// measured: added in ring order, from where it was.
+template <class T>
+struct VertexMove {
+  Move<T> move;
+  T squares;
+};
+
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> with_squares(const Move<T>& move, Point2<T> position, const Ring& ring) {
+  VertexMove<T> result{move, T(0)};
+  for (int i = 0; i < ring.size() && move.moved; ++i) {
+    result.squares += squared_length(ring[i] - position);
+  }
+  return result;
+}
+
+/// The update of vertex v with what measures it. A method that has come by that sum has a function vertex_move().
+template <class Update, class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> update_over(const Update& method, std::int32_t v, Point2<T> position,
+                                                          const Ring& ring) {
+  if constexpr (requires { method.vertex_move(v, position, ring); }) {
+    return method.vertex_move(v, position, ring);
+  } else {
+    return with_squares(updated(method, v, position, ring), position, ring);
+  }
+}
+
 /// The update of a vertex whose smallest shape quotient is stored, by the methods that have a use for it.
 template <class Update, class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(const Update& method, std::int32_t v, Point2<T> position,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/sweeps/sides_in_lanes.h"
 
 namespace trismooth {
 
@@ -18,6 +19,10 @@ struct FixedRing {
   static constexpr int size() { return Size; }
   constexpr Point2<T> operator[](int i) const { return positions[i]; }
   constexpr std::int32_t number(int i) const { return numbers[i]; }
+  template <class Fetch, class Make>
+  auto sides(const Fetch& fetch, const Make& make) const {
+    return SidesInLanes<T, Size, Fetch, Make>(fetch, make);
+  }
 };
 
 /// Those of a ring of any size, in memory that somebody else owns.

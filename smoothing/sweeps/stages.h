@@ -30,13 +30,13 @@ class Stages {
   /// Sweeps after which next() is to be asked; 0: it lasts to the stop.
   std::int64_t sweeps() const { return is_last_ ? 0 : sweeps_of_first; }
   /// Where no more vertices move than so many the stage is over. Other methods go on until nothing moves.
-  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 100 : 0; }
+  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 64 : 0; }
   /// What the mean-ratio method does now.
   template <class T>
   MeanRatioStep<T> step() const {
     // A step of Form A does not see what the neighbours do at the same time: it falls short of Newton's, for together
     // they would go too far.
-    const double relaxation = is_form_a_ ? 0.7 : (is_last_ ? 1.5 : 1.9);
+    const double relaxation = is_form_a_ ? 0.7 : (is_last_ ? 1.5 : 1.8);
     const double least_gain = has_far_to_go_ ? 1e-4 : 3e-4;
     return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_};
   }

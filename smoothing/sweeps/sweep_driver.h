@@ -157,18 +157,18 @@ class SweepDriver {
       // known.
       const std::int32_t following = next(v + 1);
       if (following < end) {
-        prefetch_ring(from, following);
+        prefetch_ring(method, from, following);
       }
       // No other thread touches this mark now.
       marked[v] = 0;
       const Point2<T> position = from[v];
       const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
-        const Move<T> move = updated(method, v, position, ring);
-        to[v] = move.position;
-        if (move.moved) {
-          tally.join(tally_of_move(position, move.position, ring, tolerance));
+        const VertexMove<T> result = update_over(method, v, position, ring);
+        to[v] = result.move.position;
+        if (result.move.moved) {
+          add_move(tally, length_of_move(position, result.move.position, ring.size(), result.squares), tolerance);
         }
-        return move.moved;
+        return result.move.moved;
       });
       ++tally.evaluated;
       if (moved) {
@@ -178,11 +178,17 @@ class SweepDriver {
     }
   }
 
-  /// Asks for the positions of a ring before they are needed: on large meshes waiting for them is a third of the time.
-  /// Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and stores nothing.
-  [[gnu::always_inline]] void prefetch_ring(std::span<const Point2<T>> points, std::int32_t v) const {
+  /// Asks for what is read of a ring's neighbours before they are needed: on large meshes waiting for them is a third
+  /// of the time. Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and
+  /// stores nothing.
+  template <class Update>
+  [[gnu::always_inline]] void prefetch_ring(const Update& method, std::span<const Point2<T>> points,
+                                            std::int32_t v) const {
     for (const std::int32_t neighbour : view_[v]) {
       __builtin_prefetch(&points[neighbour]);
+      if constexpr (requires { method.also_reads(neighbour); }) {
+        __builtin_prefetch(method.also_reads(neighbour));
+      }
     }
   }
 

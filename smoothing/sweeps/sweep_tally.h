@@ -39,8 +39,26 @@ constexpr TRISMOOTH_HOST_DEVICE MoveLength<T> length_of_move(Point2<T> from, Poi
   return {squared_length(to - from) * static_cast<T>(neighbours), sum};
 }
 
-/// The tally of one move, measured by the values that the update read. It is within the tolerance where
-/// move^2 * k <= tolerance^2 * sum |n_i - v|^2, in working precision.
+/// Whether a move may be longer, relative to its neighbourhood, than `longest_squared`: only then is its quotient
+/// divided. Exact: if the rounded moved / sum exceeds `longest_squared`, then moved > longest_squared * sum, and
+/// rounding the product cannot bring it above `moved`, which is a number itself.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE bool may_be_longer(const MoveLength<T>& length, T longest_squared) {
+  return length.moved >= longest_squared * length.sum;
+}
+
+/// Counts a move. It is within the tolerance where move^2 * k <= tolerance^2 * sum |n_i - v|^2, in working precision.
+template <class T, class Count>
+constexpr TRISMOOTH_HOST_DEVICE void add_move(SweepTally<T, Count>& tally, const MoveLength<T>& length, T tolerance) {
+  ++tally.moved;
+  tally.within_tolerance = tally.within_tolerance && length.is_within(tolerance);
+  if (may_be_longer(length, tally.max_relative_squared)) {
+    const T relative = length.relative_squared();
+    tally.max_relative_squared = relative > tally.max_relative_squared ? relative : tally.max_relative_squared;
+  }
+}
+
+/// The tally of one move, measured by the values that the update read.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE SweepTally<T> tally_of_move(Point2<T> from, Point2<T> to, const Ring& ring,
                                                             T tolerance) {
@@ -48,8 +66,9 @@ constexpr TRISMOOTH_HOST_DEVICE SweepTally<T> tally_of_move(Point2<T> from, Poin
   for (int i = 0; i < ring.size(); ++i) {
     sum += squared_length(ring[i] - from);
   }
-  const MoveLength<T> length = length_of_move(from, to, ring.size(), sum);
-  return {0, 1, length.is_within(tolerance), length.relative_squared()};
+  SweepTally<T> tally;
+  add_move(tally, length_of_move(from, to, ring.size(), sum), tolerance);
+  return tally;
 }
 
 }  // namespace trismooth

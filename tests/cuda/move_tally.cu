@@ -9,7 +9,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/cuda/runtime/launch.h"
-#include "trismooth/cuda/sweeps/move_tally.cuh"
+#include "trismooth/cuda/sweeps/thread_tally.cuh"
 #include "trismooth/smoothing/methods/one_ring_update.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 
@@ -105,8 +105,8 @@ __global__ void tally_sequences(TallyInput<T> input, cuda::ThreadTally<T>* talli
   for (int i = sequence * Moves::length; i < (sequence + 1) * Moves::length; ++i) {
     const Point2<T> from = input.points[input.numbers[i]];
     const RingView<T> ring{input.points + input.numbers[i] + 1, input.sizes[i]};
-    cuda::add_move(tally, length_of_move(from, input.to[i], ring.size(), sum_of_tally(from, ring)),
-                   input.tolerances[sequence]);
+    trismooth::add_move(tally, length_of_move(from, input.to[i], ring.size(), sum_of_tally(from, ring)),
+                        input.tolerances[sequence]);
   }
   tallies[sequence] = tally;
 }

@@ -68,9 +68,10 @@ __host__ __device__ Move<T> mean_ratio(const Case<T>& ring, int index) {
     reference[2 * i + 1] = i == 0 ? T(0) : ring.neighbours[i - 1].y;
   }
   const T largest_share = T(0.5) + static_cast<T>(index % 7);
-  return trismooth::MeanRatio<T, shaped>({inverse_areas, &largest_share, &scales, shaped ? reference : nullptr},
-                                         {T(1.5), T(3e-4), index % 2 == 0})
-      .update(0, ring.position, ring);
+  const trismooth::MeanRatioTargets<T> targets{inverse_areas, &largest_share, &scales, shaped ? reference : nullptr};
+  const trismooth::MeanRatioStep<T> step{T(1.5), T(3e-4), index % 2 == 0};
+  return step.is_last ? trismooth::MeanRatio<T, shaped, true>(targets, step).update(0, ring.position, ring)
+                      : trismooth::MeanRatio<T, shaped, false>(targets, step).update(0, ring.position, ring);
 }
 
 template <class T>

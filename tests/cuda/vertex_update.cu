@@ -36,13 +36,13 @@ constexpr int register_capacity = 12;
 
 /// By the method's own function.
 template <class Update, class T, class Ring>
-constexpr TRISMOOTH_HOST_DEVICE cuda::VertexMove<T> defined_update(Point2<T> position, const Ring& ring) {
+constexpr TRISMOOTH_HOST_DEVICE trismooth::VertexMove<T> defined_update(Point2<T> position, const Ring& ring) {
   return {Update::template update<T>(position, ring), sum_of_tally(position, ring)};
 }
 
 template <class Update, class T>
-std::vector<cuda::VertexMove<T>> defined_updates(const std::vector<Vertex<T>>& vertices) {
-  std::vector<cuda::VertexMove<T>> updates;
+std::vector<trismooth::VertexMove<T>> defined_updates(const std::vector<Vertex<T>>& vertices) {
+  std::vector<trismooth::VertexMove<T>> updates;
   for (const Vertex<T>& vertex : vertices) {
     updates.push_back(defined_update<Update>(vertex.position, vertex.ring()));
   }
@@ -83,7 +83,7 @@ struct Records {
 
 template <class T>
 struct Attempt {
-  cuda::VertexMove<T> result;
+  trismooth::VertexMove<T> result;
   int size;  ///< of the ring in registers
   bool decided;
 };
@@ -141,7 +141,7 @@ Decisions check_in_registers(const Vertices<T>& vertices) {
   try_in_registers<Update><<<cuda::blocks_for(vertex_count), cuda::block_size>>>(input, attempts.data());
   finish_launch();
 
-  const std::vector<cuda::VertexMove<T>> expected = defined_updates<Update>(vertices.all);
+  const std::vector<trismooth::VertexMove<T>> expected = defined_updates<Update>(vertices.all);
   Decisions decisions;
   Count wrong_size;
   Count wrong_move;
@@ -183,7 +183,7 @@ struct TeamInput {
 
 /// One vertex a team; every thread of it writes what it was told.
 template <class Update, class T>
-__global__ void evaluate_by_teams(TeamInput<T> input, cuda::VertexMove<T>* results) {
+__global__ void evaluate_by_teams(TeamInput<T> input, trismooth::VertexMove<T>* results) {
   const int thread = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const int i = thread / cuda::team_size;
   const bool active = i < input.count && input.active[i] != 0;
@@ -191,7 +191,7 @@ __global__ void evaluate_by_teams(TeamInput<T> input, cuda::VertexMove<T>* resul
   const int size = active ? input.sizes[own] : 0;
   const Point2<T> position = input.points[input.numbers[own]];
   const RingView<T> ring{input.points + input.numbers[own] + 1, size};
-  const cuda::VertexMove<T> result = cuda::evaluate_by_team<Update>(
+  const trismooth::VertexMove<T> result = cuda::evaluate_by_team<Update>(
       position, size, [&](int n) { return ring[n]; }, [&] { return defined_update<Update>(position, ring); });
   if (i < input.count) {
     results[thread] = result;
@@ -206,12 +206,12 @@ void check_by_teams(const Vertices<T>& vertices) {
   const SharedArray<std::int32_t> sizes(list.sizes);
   const SharedArray<std::uint8_t> active(vertices.active);
   constexpr int threads = vertex_count * cuda::team_size;
-  const SharedArray<cuda::VertexMove<T>> results(threads);
+  const SharedArray<trismooth::VertexMove<T>> results(threads);
   const TeamInput<T> input{vertex_count, numbers.data(), sizes.data(), active.data(), points.data()};
   evaluate_by_teams<Update><<<cuda::blocks_for(threads), cuda::block_size>>>(input, results.data());
   finish_launch();
 
-  const std::vector<cuda::VertexMove<T>> expected = defined_updates<Update>(vertices.all);
+  const std::vector<trismooth::VertexMove<T>> expected = defined_updates<Update>(vertices.all);
   Count idle_moves;
   Count wrong_move;
   Count wrong_sum;

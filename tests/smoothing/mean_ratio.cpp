@@ -1,5 +1,3 @@
-#include "trismooth/smoothing/methods/mean_ratio.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +10,7 @@
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/quality.h"
+#include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/smooth.h"
@@ -56,11 +55,11 @@ struct Scene {
 
   Move<T> visit(const MeanRatioStep<T>& step) const {
     MeanRatioTargets<T> targets{inverse_areas.data(), &largest_share, &scales};
-    if (reference.empty()) {
-      return MeanRatio<T, false>(targets, step).update(0, position, *this);
+    if (!reference.empty()) {
+      targets.reference = &reference[0].x;
     }
-    targets.reference = &reference[0].x;
-    return MeanRatio<T, true>(targets, step).update(0, position, *this);
+    return trismooth::visit_mean_ratio(targets, step,
+                                       [&](const auto& method) { return method.update(0, position, *this); });
   }
 
   /// The same as its definition sees it.

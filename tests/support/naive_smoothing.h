@@ -14,7 +14,7 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -207,10 +207,10 @@ class MeanRatioStages {
       : form_(form), free_count_(static_cast<double>(free_count)), is_last_(free_count == 0) {}
 
   bool is_last() const { return is_last_; }
-  bool is_few(std::int64_t moved) const { return is_last_ && static_cast<double>(moved) <= free_count_ / 100; }
+  bool is_few(std::int64_t moved) const { return is_last_ && static_cast<double>(moved) <= free_count_ / 64; }
   template <class T>
   trismooth::MeanRatioStep<T> step() const {
-    const double in_place = is_last_ ? 1.5 : 1.9;
+    const double in_place = is_last_ ? 1.5 : 1.8;
     return {static_cast<T>(form_ == Form::swap ? 0.7 : in_place), static_cast<T>(goes_far_ ? 1e-4 : 3e-4), is_last_};
   }
   /// Whether the stage ends with this sweep and another one begins.
@@ -250,10 +250,8 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
       return updated(method, position, ring);
     }
     const NumberedRing<T> numbered{ring, rings[v]};
-    const auto step = stages.template step<T>();
-    return aims.reference.empty()
-               ? trismooth::MeanRatio<T, false>(aims.view(), step).update(v, position, numbered).position
-               : trismooth::MeanRatio<T, true>(aims.view(), step).update(v, position, numbered).position;
+    return trismooth::visit_mean_ratio(aims.view(), stages.template step<T>(),
+                                       [&](const auto& step) { return step.update(v, position, numbered).position; });
   };
   std::vector<Ring<T>> last_read(points.size());
   Outcome outcome;

@@ -2,7 +2,7 @@
 #include <type_traits>
 
 #include "trismooth/cuda/primitives/warp_list.cuh"
-#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/dependent_launch.cuh"
 #include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
@@ -140,6 +140,7 @@ template <bool marks, class Update, class T, class Slot>
 __global__ void __launch_bounds__(threads, blocks_at_once<T>)
     sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
+  wait_for_launch_before();
   if (!is_due(*state, marks, rules)) {
     return;
   }
@@ -159,6 +160,7 @@ template <bool marks, class Update, class T, class Slot>
 __global__ void __launch_bounds__(threads_from_memory, blocks_from_memory)
     sweep_batch_from_memory(Update method, GridMesh<T, Slot> mesh, LoopRules rules, std::int32_t begin,
                             std::int32_t end, bool is_last, LoopState* state, SweepSums* sums) {
+  wait_for_launch_before();
   if (!is_due(*state, marks, rules)) {
     return;
   }
@@ -189,34 +191,35 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
   const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
   std::int32_t launches = 0;
   // launch(begin, end, is_last) makes the sweep of a batch.
-  const auto launch_sweep = [&](const auto& launch) {
-    for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-      launch(batches[batch], batches[batch + 1], batch + 2 == batches.size());
-      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-      ++launches;
+  const auto launch_sweeps = [&](std::int32_t count, const auto& launch) {
+    for (std::int32_t sweep = 0; sweep < count; ++sweep) {
+      for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
+        launch(batches[batch], batches[batch + 1], batch + 2 == batches.size());
+        ++launches;
+      }
     }
   };
   visit_method(method, [&]<class Update>(const Update& update) {
-    const auto launch_with = [&](auto marks) {
-      launch_sweep([&](std::int32_t begin, std::int32_t end, bool is_last) {
-        if constexpr (has_register_update<Update, T>) {
-          const auto count = static_cast<std::int32_t>(blocks_for(end - begin, threads));
-          const std::int32_t run_bits = count < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-          sweep_batch<marks(), Update, T, Slot>
-              <<<static_cast<unsigned>(std::min(count, most_blocks)), threads, 0, stream>>>(
-                  update, mesh, rules, Pieces{begin, end, run_bits}, is_last, state, sums);
-        } else {
-          sweep_batch_from_memory<marks(), Update, T, Slot>
-              <<<blocks_for(end - begin, threads_from_memory), threads_from_memory, 0, stream>>>(
-                  update, mesh, rules, begin, end, is_last, state, sums);
-        }
-      });
+    const auto launch_with = [&](auto marks, std::int32_t count) {
+      if constexpr (has_register_update<Update, T>) {
+        DependentLaunch kernel(&sweep_batch<marks(), Update, T, Slot>, stream);
+        launch_sweeps(count, [&](std::int32_t begin, std::int32_t end, bool is_last) {
+          const auto blocks = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+          const std::int32_t run_bits = blocks < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+          kernel(static_cast<unsigned>(std::min(blocks, most_blocks)), threads, update, mesh, rules,
+                 Pieces{begin, end, run_bits}, is_last, state, sums);
+        });
+      } else {
+        DependentLaunch kernel(&sweep_batch_from_memory<marks(), Update, T, Slot>, stream);
+        launch_sweeps(count, [&](std::int32_t begin, std::int32_t end, bool is_last) {
+          kernel(blocks_for(end - begin, threads_from_memory), threads_from_memory, update, mesh, rules, begin, end,
+                 is_last, state, sums);
+        });
+      }
     };
-    for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-      launch_with(std::false_type{});
-    }
+    launch_with(std::false_type{}, sweeps);
     if (!rules.evaluates_all) {
-      launch_with(std::true_type{});
+      launch_with(std::true_type{}, 1);
     }
   });
   return launches;

@@ -5,7 +5,7 @@
 #include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
-#include "trismooth/cuda/sweeps/move_tally.cuh"
+#include "trismooth/cuda/sweeps/thread_tally.cuh"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"

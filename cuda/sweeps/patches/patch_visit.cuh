@@ -5,7 +5,7 @@
 
 #include "trismooth/cuda/packing/patch_memory.cuh"
 #include "trismooth/cuda/primitives/warp_list.cuh"
-#include "trismooth/cuda/sweeps/move_tally.cuh"
+#include "trismooth/cuda/sweeps/thread_tally.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
 

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <type_traits>
+
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/ring_sides.h"
+
+/// The energy that the mean-ratio method makes smaller. Here T is a number, and V one or several: T itself, or lanes of
+/// it in a register, for as many triangles at once.
+namespace trismooth {
+
+/// The share that a triangle has in the error of an interpolated gradient, but for the solution's curvature: its area
+/// times the square of its size (Ciarlet's estimate). `doubled_area` and the sum of the squared edge lengths.
+template <class V>
+constexpr TRISMOOTH_HOST_DEVICE V share_of_error(V doubled_area, V squares) {
+  return doubled_area * squares;
+}
+
+/// The weights of a triangle's squared edges in the mean ratio to a reference triangle, whose cotangents they are
+/// (times sqrt(3), so that they are 1 where it is equilateral).
+template <class V>
+struct EdgeWeights {
+  V a;
+  V b;
+  V c;
+};
+
+/// Where all shapes aimed at are equilateral.
+template <class V>
+struct NoEdgeWeights {};
+
+/// One side of a ring, and so one triangle of its vertex: what does not change where the vertex moves.
+template <class V, bool shaped>
+struct RingSide {
+  Point2<V> from;
+  Point2<V> to;
+  V inverse_area;  ///< 1 / (twice the area that is aimed at)
+  std::conditional_t<shaped, EdgeWeights<V>, NoEdgeWeights<V>> weights;
+
+  template <class Other>
+  using With = RingSide<Other, shaped>;
+
+  /// A side with sides(i) in lane i; join(number) makes V of number(0), number(1), ...
+  template <class Sides, class Join>
+  static RingSide of(const Sides& sides, const Join& join) {
+    RingSide result{{join([&](int i) { return sides(i).from.x; }), join([&](int i) { return sides(i).from.y; })},
+                    {join([&](int i) { return sides(i).to.x; }), join([&](int i) { return sides(i).to.y; })},
+                    join([&](int i) { return sides(i).inverse_area; }),
+                    {}};
+    if constexpr (shaped) {
+      result.weights = {join([&](int i) { return sides(i).weights.a; }),
+                        join([&](int i) { return sides(i).weights.b; }),
+                        join([&](int i) { return sides(i).weights.c; })};
+    }
+    return result;
+  }
+};
+
+/// The triangle of a side, seen from the vertex.
+template <class V>
+struct SideTriangle {
+  Point2<V> c;  ///< the side
+  V doubled_area;
+  V squares;  ///< of the edges, weighted by the shape that is aimed at
+  V pull_x;   ///< of the vertex on that sum: minus half its derivative
+  V pull_y;
+  V stiffness;  ///< half its second derivative
+  V share;      ///< share_of_error()
+  V inverse_area;
+  V spoke;  ///< the squared distance to the first end of the side
+};
+
+/// That of a vertex at `position`.
+template <class T, class V, bool shaped>
+constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V> triangle_of(Point2<T> position, const RingSide<V, shaped>& side) {
+  const Point2<V> a{side.from.x - position.x, side.from.y - position.y};
+  const Point2<V> b{side.to.x - position.x, side.to.y - position.y};
+  const Point2<V> c = side.to - side.from;
+  const V area = cross(a, b);
+  const V spoke = squared_length(a);
+  const V squares = spoke + squared_length(b) + squared_length(c);
+  const V share = share_of_error(area, squares);
+  if constexpr (shaped) {
+    const EdgeWeights<V>& w = side.weights;
+    return {c,
+            area,
+            w.a * spoke + w.b * squared_length(b) + w.c * squared_length(c),
+            w.a * a.x + w.b * b.x,
+            w.a * a.y + w.b * b.y,
+            w.a + w.b,
+            share,
+            side.inverse_area,
+            spoke};
+  } else {
+    return {c, area, squares, a.x + b.x, a.y + b.y, V{} + T(2), share, side.inverse_area, spoke};
+  }
+}
+
+/// The energy of a triangle:
+///
+///     alpha^-p + p lambda / 3 (tau + 1 / tau),     tau = area / (area aimed at)
+///
+/// `fixed_power`: p where the code is for this one alone; 0: it is what `power` says.
+template <class T, int fixed_power>
+struct MeanRatioEnergy {
+  int power;      ///< p
+  T size_weight;  ///< lambda / 3
+
+  /// The energy.
+  template <class V>
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideTriangle<V>& t) const {
+    const Terms<V> terms(t);
+    return {{of(terms, power_below(terms.ratio))}, t.doubled_area, t.share};
+  }
+
+  /// The energy, the derivatives x, y, xx, xy, yy of it divided by p, and the triangle's spoke.
+  template <class V>
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 7> expansion(const SideTriangle<V>& t) const {
+    const Terms<V> terms(t);
+    // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
+    const V area_x = -t.c.y * terms.inverse;
+    const V area_y = t.c.x * terms.inverse;
+    const V scale = T(2 / shape_constant) * terms.inverse;
+    const V ratio_x = -scale * t.pull_x - terms.ratio * area_x;
+    const V ratio_y = -scale * t.pull_y - terms.ratio * area_y;
+    const V curvature = scale * t.stiffness;
+    const V size_first = size_weight * (terms.tau - terms.inverse_tau);
+    const V size_second = T(2) * size_weight * terms.inverse_tau;
+    // The second derivatives of 1 / alpha less the curvature, and of lambda / 3 (tau + 1 / tau). Products of x and y
+    // first: a mesh turned by a right angle has the same bits.
+    const V ratio_xx = T(-2) * (ratio_x * area_x);
+    const V ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
+    const V ratio_yy = T(-2) * (ratio_y * area_y);
+    const V size_xx = size_second * (area_x * area_x);
+    const V size_xy = size_second * (area_x * area_y);
+    const V size_yy = size_second * (area_y * area_y);
+    if constexpr (fixed_power == 1) {
+      return {{of(terms, power_below(terms.ratio)), ratio_x + size_first * area_x, ratio_y + size_first * area_y,
+               curvature + ratio_xx + size_xx, ratio_xy + size_xy, curvature + ratio_yy + size_yy, t.spoke},
+              t.doubled_area,
+              t.share};
+    } else {
+      const Power<V> below = power_below(terms.ratio);
+      const V first = below.value;
+      const V second = below.slope;
+      return {{of(terms, below), first * ratio_x + size_first * area_x, first * ratio_y + size_first * area_y,
+               first * (curvature + ratio_xx) + second * (ratio_x * ratio_x) + size_xx,
+               first * ratio_xy + second * (ratio_x * ratio_y) + size_xy,
+               first * (curvature + ratio_yy) + second * (ratio_y * ratio_y) + size_yy, t.spoke},
+              t.doubled_area,
+              t.share};
+    }
+  }
+
+ private:
+  template <class V>
+  struct Terms {
+    V tau;
+    V inverse_tau;
+    V inverse;  ///< 1 / (twice the area)
+    V ratio;    ///< 1 / alpha
+
+    constexpr TRISMOOTH_HOST_DEVICE explicit Terms(const SideTriangle<V>& t)
+        : tau(t.doubled_area * t.inverse_area),
+          inverse_tau(T(1) / tau),  // the only division
+          inverse(inverse_tau * t.inverse_area),
+          ratio(T(1 / shape_constant) * t.squares * inverse) {}
+  };
+
+  /// ratio^(power - 1) and its derivative by the ratio.
+  template <class V>
+  struct Power {
+    V value;
+    V slope;
+  };
+  template <class V>
+  constexpr TRISMOOTH_HOST_DEVICE Power<V> power_below(V ratio) const {
+    Power<V> result{V{} + T(1), V{}};
+    for (int i = 1; i < power && fixed_power != 1; ++i) {
+      result.slope = result.slope * ratio + result.value;
+      result.value = result.value * ratio;
+    }
+    return result;
+  }
+
+  template <class V>
+  constexpr TRISMOOTH_HOST_DEVICE V of(const Terms<V>& terms, const Power<V>& below) const {
+    const V sizes = size_weight * (terms.tau + terms.inverse_tau);
+    if constexpr (fixed_power == 1) {
+      return terms.ratio + sizes;
+    } else {
+      return below.value * terms.ratio + static_cast<T>(power) * sizes;
+    }
+  }
+};
+
+}  // namespace trismooth
