@@ -71,7 +71,7 @@ class RingSmoother final : public PreparedSmoother {
     const Stopwatch watch;
     smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
     if (options.untangles()) {
-      untangling_.emplace(mesh, triangles, options);
+      untangling_.emplace(mesh.fixed, triangles, options);
     }
     if (options.measures_shape() || options.untangles()) {
       fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/triangle_topology.h"
@@ -21,6 +22,7 @@
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/topology/device_topology.h"
+#include "trismooth/smoothing/rings/fixed_triangles.h"
 
 namespace trismooth::cuda {
 
@@ -87,27 +89,37 @@ class Plan::Implementation {
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
     const double preparing_ms = watch.milliseconds();
-    // Where triangles without a free vertex are inverted, the host counts them.
-    const bool is_tangled =
-        options_.untangles() && (fixed_quotient <= 0 || smoother_->is_tangled(stored, extent_.frame()));
+    const bool is_tangled = options_.untangles() && smoother_->is_tangled(stored, extent_.frame());
     SmoothingResult result =
         is_tangled ? untangle(stored, storage) : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
     if (options_.untangles() && !is_tangled) {
-      result.untangling = UntanglingResult{};
+      result.untangling = UntanglingResult{.inverted_fixed = fixed_quotient > 0 ? 0 : inverted_fixed(stored)};
     }
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
   }
 
+  std::vector<Triangle> triangles() {
+    static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
+    return download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
+  }
+
+  /// Triangles without a free vertex that are inverted or degenerate: the host counts them.
+  std::int64_t inverted_fixed(const Point2<double>* stored) {
+    const std::vector<Point2<double>> points = download(context_, stored, static_cast<std::size_t>(vertex_count_));
+    const std::vector<std::uint8_t> held = fixed();
+    const LocalFrame frame = local_frame_of_cells(points, held);
+    const std::vector<std::uint8_t> reversed =
+        download(context_, topology_.reversed(), static_cast<std::size_t>(triangle_count_));
+    return FixedTriangles(triangles(), reversed, held).inverted([&](std::int32_t v) { return frame.enter(points[v]); });
+  }
+
   /// Takes the mesh to the host and back.
   SmoothingResult untangle(Point2<double>* stored, Storage storage) {
     const auto vertices = static_cast<std::size_t>(vertex_count_);
     std::vector<Point2<double>> points = download(context_, static_cast<const Point2<double>*>(stored), vertices);
-    static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
-    const std::vector<Triangle> triangles =
-        download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
-    SmoothingResult result = untangle_on_host(fixed(), triangles, options_, points, storage);
+    SmoothingResult result = HostUntangling(fixed(), triangles(), options_).smooth(points, storage);
     TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(stored, points.data(), vertices * sizeof(Point2<double>),
                                          cudaMemcpyHostToDevice, context_.stream()));
     context_.synchronize();

@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth::cuda {
 
@@ -21,31 +21,24 @@ SmoothingOptions on_host(SmoothingOptions options) {
 
 }  // namespace
 
-HostUntangling::HostUntangling(MeshRings mesh, std::span<const Triangle> triangles, const SmoothingOptions& options)
-    : mesh_(std::move(mesh)), triangles_(triangles.begin(), triangles.end()), options_(on_host(options)) {}
+HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles,
+                               const SmoothingOptions& options)
+    : fixed_(std::move(fixed)), triangles_(triangles.begin(), triangles.end()), options_(on_host(options)) {}
 
 SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage) {
+  const LocalFrame frame = local_frame_of_cells(points, fixed_);
   if (smoother_ == nullptr) {
-    const std::vector<Point2<double>> input(points.begin(), points.end());
-    const LocalPoints local = entered(local_frame_of_cells(input, mesh_.fixed), input);
-    smoother_ = cpu_backend().prepare(mesh_, triangles_, local.points, options_);
+    const LocalPoints local = entered(frame, points);
+    Workers workers(options_.threads);
+    Constraints constraints;
+    constraints.fixed = fixed_;
+    MeshRings mesh = find_mesh_rings(local.points, triangles_, constraints, workers);
+    mesh.fixed = fixed_;  // with the reasons
+    smoother_ = cpu_backend().prepare(mesh, triangles_, local.points, options_);
   }
-  SmoothingResult result = smoother_->smooth(points, storage, std::nullopt);
+  SmoothingResult result = smoother_->smooth(points, storage, frame);
   result.backend_note = "the mesh has inverted triangles, which the CPU untangles";
   return result;
-}
-
-SmoothingResult untangle_on_host(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles,
-                                 const SmoothingOptions& options, std::span<Point2<double>> points, Storage storage) {
-  Workers workers(options.threads);
-  const std::vector<Point2<double>> input(points.begin(), points.end());
-  const LocalPoints local = entered(local_frame_of_cells(input, fixed), input);
-  const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(points.size()), triangles, workers);
-  MeshRings mesh;
-  mesh.fixed = std::move(fixed);
-  mesh.reversed = orient(topology, triangles, local.points).reversed;
-  mesh.rings = one_rings(topology, triangles, mesh.reversed, mesh.fixed, workers);
-  return HostUntangling(std::move(mesh), triangles, options).smooth(points, storage);
 }
 
 }  // namespace trismooth::cuda

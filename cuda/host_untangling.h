@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
-#include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth::cuda {
 
@@ -18,21 +18,17 @@ namespace trismooth::cuda {
 /// device would. Meshes are hardly ever tangled, and what is worth a device is then over on the host soon.
 class HostUntangling {
  public:
-  /// Copies what it needs. Costs little until smooth() is called.
-  HostUntangling(MeshRings mesh, std::span<const Triangle> triangles, const SmoothingOptions& options);
+  /// `fixed`: as MeshRings::fixed. Copies what it needs; all else waits for smooth().
+  HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options);
 
-  /// As PreparedSmoother::smooth(), without a frame.
+  /// As PreparedSmoother::smooth(), without a frame. The first points orient the mesh.
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage);
 
  private:
-  MeshRings mesh_;
+  std::vector<std::uint8_t> fixed_;
   std::vector<Triangle> triangles_;
   SmoothingOptions options_;
   std::unique_ptr<PreparedSmoother> smoother_;
 };
-
-/// The same for a mesh whose rings are not known on the host. `fixed`: as MeshRings::fixed.
-SmoothingResult untangle_on_host(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles,
-                                 const SmoothingOptions& options, std::span<Point2<double>> points, Storage storage);
 
 }  // namespace trismooth::cuda

@@ -225,12 +225,19 @@ class Run {
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
     }
-    const LocalFrame input_frame = local_.frame;
+    const LocalPoints input = entered(local_.frame, input_points);
+    const std::vector<std::uint8_t> input_reversed = found_.reversed;
     enter_frame();
-    hash_coordinates(input_points, smoothing);
+    if (smoothing.untangling) {
+      for (std::size_t t = 0; t < smoothing.untangling->turned.size(); ++t) {
+        found_.reversed[t] ^= smoothing.untangling->turned[t];
+      }
+    }
+    hash_coordinates(smoothing);
     {
       const Stopwatch watch;
-      result_.size_change = size_change(view(entered(input_frame, input_points)), view(), options_.smoothing.threads);
+      const TriangleView before{input.points, mesh_.triangles, input_reversed, input.frame.exponent};
+      result_.size_change = size_change(before, view(), options_.smoothing.threads);
       result_.timings_ms.check_after += watch.milliseconds();
     }
     result_.timings_ms.topology += smoothing.timings.prepare;
@@ -242,7 +249,7 @@ class Run {
     result_.smoothing = std::move(smoothing);
   }
 
-  void hash_coordinates(const std::vector<Point2<double>>& input_points, const SmoothingResult& smoothing) {
+  void hash_coordinates(const SmoothingResult& smoothing) {
     result_.coordinates_hash = result_.unguarded_hash = coordinates_hash(document_.points);
     if (smoothing.reverted.empty()) {
       return;
@@ -250,7 +257,7 @@ class Run {
     std::vector<double> unguarded = document_.points;
     for (const auto& [vertex, position] : smoothing.reverted) {
       Eigen::Map<Eigen::Vector3d> point(unguarded.data() + 3 * static_cast<std::size_t>(vertex));
-      const Eigen::Vector3d moved = mesh_.plane.moved(point, input_points[static_cast<std::size_t>(vertex)], position);
+      const Eigen::Vector3d moved = mesh_.plane.moved(point, mesh_.points[static_cast<std::size_t>(vertex)], position);
       point = rounded_to(storage_of(document_), moved);
     }
     result_.unguarded_hash = coordinates_hash(unguarded);

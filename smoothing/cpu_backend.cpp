@@ -100,26 +100,28 @@ class CpuSmoother final : public PreparedSmoother {
     std::vector<Point2<double>> after = before;
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
-      const auto guard = [&](const std::vector<Point2<double>>& from) {
-        GuardOutcome outcome = keep_never_worse(rings.view(), from, after, workers_);
+      const auto list = [&](const GuardOutcome& outcome) {
         result.guard_rounds += outcome.rounds;
         for (const std::int32_t v : outcome.reverted) {
           result.reverted.push_back({rings_.input_index[v], stored(v)});
         }
-        return outcome;
       };
       if (!start.empty()) {
         // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
         // far takes others along.
         std::vector<Point2<double>> untangled = before;
         for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = frame.enter(stored_from(start, v)); });
-        for (const std::int32_t v : guard(untangled).reverted) {
+        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_);
+        list(outcome);
+        for (const std::int32_t v : outcome.reverted) {
           working[v] = start[v];
         }
       }
-      guard(before);
-      name_once(result.reverted);
-      result.reverted_vertices = std::ssize(result.reverted);
+      if (turned) {
+        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
+      } else {
+        list(keep_never_worse(rings.view(), before, after, workers_));
+      }
     }
     std::atomic<std::int64_t> moved{0};
     workers_.for_blocks(rings_.free_count(), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -133,38 +135,53 @@ class CpuSmoother final : public PreparedSmoother {
       moved.fetch_add(moved_here, std::memory_order_relaxed);
     });
     result.moved_vertices = moved;
+    name_reverted(result, points);
     if (result.untangling) {
-      result.untangling->inverted_after = inverted_triangles(rings.view(), after, workers_);
-      result.untangling->inverted_fixed = fixed_triangles.inverted(input);
+      count_inverted(turned ? turned->components : TurnedComponents{}, after, input, *result.untangling);
     }
     result.timings.commit = watch.lap();
   }
 
-  /// A mesh of which components have been turned over.
+  /// The mesh with components turned over.
   struct Turned {
+    TurnedComponents components;
     PackedRings rings;
     FixedTriangles fixed_triangles;
   };
+
+  FixedTriangles fixed_triangles(const TurnedComponents& turned) const {
+    return {triangles_, turned_over(reversed_, turned), fixed_};
+  }
+
+  Turned turn(TurnedComponents components) const {
+    Turned turned{std::move(components), rings_, {}};
+    turned.rings.neighbours = turned_neighbours(rings_.view(), triangles_, turned.components);
+    turned.fixed_triangles = fixed_triangles(turned.components);
+    return turned;
+  }
+
+  /// What is inverted at `after`, where the guard has left those components turned over.
+  template <class Input>
+  void count_inverted(const TurnedComponents& turned, std::span<const Point2<double>> after, const Input& input,
+                      UntanglingResult& result) {
+    result.inverted_after = inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
+    result.inverted_fixed = (turned.any() ? fixed_triangles(turned) : fixed_triangles_).inverted(input);
+    result.turned_components = turned.count;
+    result.turned = turned.triangles;
+  }
 
   /// Untangles `before` into `working`. Returns the mesh to go on with where it had to be turned over.
   template <class T>
   std::optional<Turned> untangle_into(std::vector<Point2<T>>& working, const std::vector<Point2<double>>& before,
                                       SmoothingResult& result) {
     std::vector<Point2<double>> untangled = before;
-    const MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
-    result.untangling = {.inverted_before = done.outcome.inverted_before,
-                         .inverted_untangled = done.outcome.inverted_after,
-                         .turned_components = done.turned_components};
-    if (done.outcome.inverted_before == 0) {
+    MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
+    result.untangling = {.inverted_before = done.inverted_before, .inverted_untangled = done.inverted_after};
+    if (done.inverted_before == 0) {
       return std::nullopt;
     }
     for_vertices(rings_.free_count(), [&](std::int32_t v) { working[v] = narrow<T>(untangled[v]); });
-    if (done.turned.empty()) {
-      return std::nullopt;
-    }
-    Turned turned{rings_, FixedTriangles(triangles_, done.reversed, fixed_)};
-    turn_rings(turned.rings.offsets, done.turned, turned.rings.neighbours);
-    return turned;
+    return done.turned.any() ? std::optional(turn(std::move(done.turned))) : std::nullopt;
   }
 
   template <class T>

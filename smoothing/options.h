@@ -61,7 +61,11 @@ enum class Precision : std::uint8_t {
 };
 
 /// Whether free vertices around inverted triangles are moved apart before the sweeps.
-enum class Untangle : std::uint8_t { off, on };
+enum class Untangle : std::uint8_t {
+  automatic,  ///< with Method::mean_ratio, whose energy needs valid triangles
+  off,
+  on,
+};
 
 /// Which vertices a sweep evaluates. The result is the same bit for bit. The CUDA executions single_block and cdp
 /// evaluate all, as the paper does, whatever is asked for.
@@ -146,8 +150,8 @@ struct MeanRatioOptions {
 template <>
 struct EnumText<Untangle> {
   static constexpr std::string_view what = "setting of untangling";
-  static constexpr std::array<std::pair<Untangle, std::string_view>, 2> texts{
-      {{Untangle::off, "off"}, {Untangle::on, "on"}}};
+  static constexpr std::array<std::pair<Untangle, std::string_view>, 3> texts{
+      {{Untangle::automatic, "auto"}, {Untangle::off, "off"}, {Untangle::on, "on"}}};
 };
 
 /// Everything that steers a smoothing. The defaults are those of the command line.
@@ -165,8 +169,8 @@ struct SmoothingOptions {
   /// worse than it was and worse than the worst of all elements around moved vertices was.
   bool guard = true;
   /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
-  /// pass where none is.
-  Untangle untangle = Untangle::off;
+  /// pass where none is. `automatic`: with Method::mean_ratio.
+  Untangle untangle = Untangle::automatic;
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
@@ -186,7 +190,9 @@ struct SmoothingOptions {
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
 
   /// Whether inverted triangles are untangled before the sweeps.
-  [[nodiscard]] bool untangles() const { return untangle == Untangle::on; }
+  [[nodiscard]] bool untangles() const {
+    return untangle == Untangle::on || (untangle == Untangle::automatic && method == Method::mean_ratio);
+  }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
   /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident, Layout::soa with

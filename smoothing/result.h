@@ -44,7 +44,9 @@ struct SweepRecord {
   double min_shape = std::numeric_limits<double>::quiet_NaN();  ///< after the sweep; NaN where it was not asked for
 };
 
-/// A vertex that the guard took back, and where the sweeps had moved it to.
+/// A vertex that the guard took back, and where it had been moved to: by the sweeps, or by the untangling before them.
+/// The guard takes it back to its place in the input, or where a mesh has been untangled to where that left it, if this
+/// is enough.
 struct RevertedVertex {
   std::int32_t vertex = 0;    ///< its number
   Point2<double> position{};  ///< in the caller's coordinates
@@ -67,8 +69,10 @@ struct UntanglingResult {
   std::int64_t inverted_after = 0;      ///< with a free vertex, in the result
   std::int64_t inverted_fixed = 0;      ///< without a free vertex: nothing can mend them
   /// Components whose free vertices were so tangled that the wrong triangles were in the majority: they have been
-  /// turned over, and count as inverted what they were before that.
+  /// turned over, so that what was valid in them is inverted and the other way round. `inverted_before` counts what it
+  /// was before that.
   std::int32_t turned_components = 0;
+  std::vector<std::uint8_t> turned{};  ///< one byte a triangle, 1 where it is of these components; empty: there is none
 };
 
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.

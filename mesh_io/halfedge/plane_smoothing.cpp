@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "trismooth/base/stopwatch.h"
-#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/guard/never_worse.h"
-#include "trismooth/smoothing/untangle/untangle.h"
+#include "trismooth/smoothing/untangle/untangle_mesh.h"
 
 namespace trismooth {
 
@@ -23,24 +21,13 @@ bool is_finite(Point2<double> point) {
   return std::isfinite(point.x) && std::isfinite(point.y);
 }
 
-/// The rings in the orientation that the smoothed mesh has, where untangling has turned it over.
-OneRings turned_rings(const MeshRings& mesh, std::span<const Triangle> triangles, const LocalPoints& local,
-                      const std::vector<Point2<double>>& moved, const SmoothingOptions& options) {
-  Workers workers(options.threads);
-  std::vector<Point2<double>> now;
-  for (const Point2<double> point : moved) {
-    now.push_back(local.frame.enter(point));
-  }
-  const auto topology = connect_triangles(static_cast<std::int32_t>(moved.size()), triangles, workers);
-  return one_rings(topology, triangles, orient(topology, triangles, now).reversed, mesh.fixed, workers);
-}
-
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
-void guard_in_space(const OneRings& rings, const Plane& plane, std::span<double> xyz,
-                    std::vector<Point2<double>>& points, const LocalPoints& local,
+void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+                    std::span<double> xyz, std::vector<Point2<double>>& points, const LocalPoints& local,
                     const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
                     SmoothingResult& result) {
   const Stopwatch watch;
+  const RingView rings = mesh.rings.view();
   std::vector<Eigen::Vector3d> stored(points.size());
   const std::vector<Point2<double>>& before = local.points;
   std::vector<Point2<double>> after = before;
@@ -56,19 +43,22 @@ void guard_in_space(const OneRings& rings, const Plane& plane, std::span<double>
       after[v] = local.frame.enter(place);
     }
   }
+  Workers workers(options.threads);
+  TurnedComponents turned;
+  if (result.untangling) {
+    turned = {result.untangling->turned_components, std::move(result.untangling->turned)};
+  }
   if (options.guard) {
-    Workers workers(options.threads);
-    const GuardOutcome outcome = keep_never_worse(rings.view(), before, after, workers);
+    const GuardOutcome outcome = keep_never_worse(rings, triangles, mesh.reversed, turned, before, after, workers);
     result.guard_rounds += outcome.rounds;
     for (const std::int32_t v : outcome.reverted) {
       result.reverted.push_back({v, moved[v]});
     }
-    name_once(result.reverted);
-    result.reverted_vertices = std::ssize(result.reverted);
   }
   if (result.untangling) {
-    Workers workers(options.threads);
-    result.untangling->inverted_after = inverted_triangles(rings.view(), after, workers);
+    result.untangling->inverted_after = inverted_triangles(rings, triangles, turned, after, workers);
+    result.untangling->turned_components = turned.count;
+    result.untangling->turned = std::move(turned.triangles);
   }
   result.moved_vertices = 0;
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -77,6 +67,9 @@ void guard_in_space(const OneRings& rings, const Plane& plane, std::span<double>
       points[v] = plane.project(stored[v]);
       ++result.moved_vertices;
     }
+  }
+  if (options.guard) {
+    name_reverted(result, points);
   }
   result.timings.commit += watch.milliseconds();
 }
@@ -93,9 +86,7 @@ SmoothingResult smooth_in_plane(const MeshRings& mesh, std::span<const Triangle>
   if (!plane.aligned) {
     std::vector<Point2<double>> moved = points;
     SmoothingResult result = smoother->smooth(moved, Storage::float64, local.frame);
-    const bool is_turned = result.untangling && result.untangling->turned_components > 0;
-    guard_in_space(is_turned ? turned_rings(mesh, triangles, local, moved, options) : mesh.rings, plane, xyz, points,
-                   local, moved, storage, options, result);
+    guard_in_space(mesh, triangles, plane, xyz, points, local, moved, storage, options, result);
     return result;
   }
   SmoothingResult result = smoother->smooth(points, storage, local.frame);

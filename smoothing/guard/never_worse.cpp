@@ -162,21 +162,14 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<doub
   return Guard(rings, before, after, workers).run();
 }
 
-void name_once(std::vector<RevertedVertex>& reverted) {
+void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {
   // By vertex, and of one vertex the first first.
-  std::vector<std::pair<std::int32_t, std::size_t>> order;
-  order.reserve(reverted.size());
-  for (std::size_t i = 0; i < reverted.size(); ++i) {
-    order.emplace_back(reverted[i].vertex, i);
-  }
-  std::ranges::sort(order);
-  std::vector<RevertedVertex> once;
-  for (const auto& [vertex, i] : order) {
-    if (once.empty() || once.back().vertex != vertex) {
-      once.push_back(reverted[i]);
-    }
-  }
-  reverted = std::move(once);
+  std::ranges::stable_sort(result.reverted, {}, &RevertedVertex::vertex);
+  const auto same = std::unique(result.reverted.begin(), result.reverted.end(),
+                                [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; });
+  result.reverted.erase(same, result.reverted.end());
+  std::erase_if(result.reverted, [&](const RevertedVertex& one) { return one.position == points[one.vertex]; });
+  result.reverted_vertices = std::ssize(result.reverted);
 }
 
 }  // namespace trismooth

@@ -31,8 +31,8 @@ struct GuardOutcome {
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers);
 
-/// Sorts what several guards took back by vertex. Who went back more than once is named once, with where the first
-/// found it.
-void name_once(std::vector<RevertedVertex>& reverted);
+/// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
+/// the first found it; who is there again, at `points`, is not.
+void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points);
 
 }  // namespace trismooth

@@ -113,10 +113,11 @@ struct RegularisedEnergy {
     result.by_e = {(by_q.x + by_p.x) / root3, (by_q.y + by_p.y) / root3};
     result.by_t = {(by_q.x - by_p.x) / root3, (by_q.y - by_p.y) / root3};
     const double third = scale / 3;
-    const double pp[3] = {across_p + (a - across_p) * unit_p.x * unit_p.x, (a - across_p) * unit_p.x * unit_p.y,
-                          across_p + (a - across_p) * unit_p.y * unit_p.y};
-    const double qq[3] = {across_q + (c - across_q) * unit_q.x * unit_q.x, (c - across_q) * unit_q.x * unit_q.y,
-                          across_q + (c - across_q) * unit_q.y * unit_q.y};
+    // Products of x and y first: a triangle that is turned by a right angle has the same bits.
+    const double pp[3] = {across_p + (a - across_p) * (unit_p.x * unit_p.x), (a - across_p) * (unit_p.x * unit_p.y),
+                          across_p + (a - across_p) * (unit_p.y * unit_p.y)};
+    const double qq[3] = {across_q + (c - across_q) * (unit_q.x * unit_q.x), (c - across_q) * (unit_q.x * unit_q.y),
+                          across_q + (c - across_q) * (unit_q.y * unit_q.y)};
     const double pq[4] = {b * unit_p.x * unit_q.x, b * unit_p.x * unit_q.y, b * unit_p.y * unit_q.x,
                           b * unit_p.y * unit_q.y};
     const double mixed[3] = {2 * pq[0], pq[1] + pq[2], 2 * pq[3]};
@@ -136,7 +137,7 @@ struct RegularisedEnergy {
  private:
   static Point2<double> unit(Point2<double> v) {
     const double length = std::sqrt(squared_length(v));
-    return length > 0 ? Point2<double>{v.x / length, v.y / length} : Point2<double>{1, 0};
+    return length > 0 ? Point2<double>{v.x / length, v.y / length} : Point2<double>{0, 0};
   }
 
   /// The four eigenvalues are brought up to a small part of the largest.

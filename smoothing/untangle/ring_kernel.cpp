@@ -5,6 +5,30 @@
 
 namespace trismooth {
 
+namespace {
+
+/// How often the first edge that has a length is turned by a right angle from the direction of x: to within one.
+std::ptrdiff_t quarter_turns(std::span<const Point2<double>> ring) {
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const Point2<double> along = ring[i + 1] - ring[i];
+    if (along.x > 0 && along.y >= 0) {
+      return 0;
+    }
+    if (along.x <= 0 && along.y > 0) {
+      return 1;
+    }
+    if (along.x < 0) {
+      return 2;
+    }
+    if (along.y < 0) {
+      return 3;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
 std::optional<Point2<double>> kernel_centre(std::span<const Point2<double>> ring,
                                             std::vector<Point2<double>>& scratch) {
   Point2<double> low = ring.front();
@@ -15,6 +39,8 @@ std::optional<Point2<double>> kernel_centre(std::span<const Point2<double>> ring
   }
   // The kernel is the bounding box cut by the line of every edge.
   std::vector<Point2<double>> kernel{low, {high.x, low.y}, high, {low.x, high.y}};
+  // A ring that is turned by a right angle has the same corners in the same order: their sum is rounded alike.
+  std::rotate(kernel.begin(), kernel.begin() + quarter_turns(ring), kernel.end());
   for (std::size_t i = 0; i < ring.size() && !kernel.empty(); ++i) {
     const Point2<double> from = ring[i];
     const Point2<double> along = ring[i + 1 == ring.size() ? 0 : i + 1] - from;

@@ -6,35 +6,60 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/one_rings.h"
-#include "trismooth/smoothing/untangle/untangle.h"
 
 namespace trismooth {
 
 class Workers;
 
+/// Components of a mesh that are turned over: what is counter-clockwise in them is not what it was in the input.
+struct TurnedComponents {
+  std::int32_t count = 0;
+  std::vector<std::uint8_t> triangles{};  ///< one byte a triangle, 1 where it is of such a component; empty: none is
+
+  bool any() const { return count > 0; }
+};
+
+/// `reversed` (as MeshRings::reversed) where those components have been turned over.
+std::vector<std::uint8_t> turned_over(std::span<const std::uint8_t> reversed, const TurnedComponents& turned);
+
+/// The neighbours of `rings` where those components have been turned over: clockwise is counter-clockwise there, and
+/// the neighbour that is first stays so. `triangles`: of the mesh, in the input's numbering.
+std::vector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
+                                            const TurnedComponents& turned);
+
+/// inverted_triangles() where those components of the input have been turned over.
+std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle> triangles,
+                                const TurnedComponents& turned, std::span<const Point2<double>> points,
+                                Workers& workers);
+
 /// What untangle_mesh() did.
 struct MeshUntangling {
-  UntangleOutcome outcome;
-  std::int32_t turned_components = 0;
-  /// Where a component was turned over: per vertex of the rings, 1 where its ring must be so, too (turn_rings()).
-  std::vector<std::uint8_t> turned;
-  std::vector<std::uint8_t> reversed;  ///< likewise: what the mesh's flags are now
+  std::int64_t inverted_before = 0;  ///< as UntangleOutcome, in the orientation that the input has
+  std::int64_t inverted_after = 0;   ///< likewise, where components have been turned over in the one that they have now
+  TurnedComponents turned;
 };
 
 /// untangle(), and what it cannot know: in a mesh that is tangled through and through, half of the triangles are
 /// inverted, and so the majority that orients a component may be the wrong one. Where a component's triangles have a
-/// negative area in all, which no position of its free vertices changes, it is turned over first. That is kept where it
-/// leaves fewer inverted triangles, and the majority is for it afterwards.
+/// negative area in all, which no position of its free vertices changes, it is turned over and untangled afresh. That
+/// is kept where it leaves fewer inverted triangles, and nothing is worse than in the input (keep_never_worse() below).
 ///
-/// `rings`, `points`: as untangle() has them. `triangles` and `reversed` (as MeshRings::reversed): of the mesh, in the
-/// input's numbering.
+/// `rings`, `points`: as untangle() has them, the rings as the input is oriented. `triangles` and `reversed` (as
+/// MeshRings::reversed): of the mesh, in the input's numbering.
 MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> triangles,
                              std::span<const std::uint8_t> reversed, std::span<Point2<double>> points,
                              Workers& workers);
 
-/// Turns rings over: clockwise becomes counter-clockwise, and the neighbour that is first stays so.
-void turn_rings(std::span<const std::int64_t> offsets, std::span<const std::uint8_t> turned,
-                std::span<std::int32_t> neighbours);
+/// The never-worse guard of a mesh in which components have been turned over. Each of these is judged by itself: its
+/// triangles as the input orients them before, and as they are turned now. If one of them offends, or most of them are
+/// inverted, all vertices of the component go back, and it is taken out of `turned`. The rest of the mesh is judged as
+/// by keep_never_worse() in guard/never_worse.h. `rings`: however they are turned. Complexity: that of
+/// keep_never_worse(), and where there are turned components that of matching the mesh's sides.
+GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
+                              std::span<const std::uint8_t> reversed, TurnedComponents& turned,
+                              std::span<const Point2<double>> before, std::span<Point2<double>> after,
+                              Workers& workers);
 
 }  // namespace trismooth

@@ -130,11 +130,12 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
 trismooth::SmoothingOptions choose_options(HashedChoices& choices) {
   trismooth::SmoothingOptions options;
   using trismooth::Method;
-  options.untangle = trismooth::Untangle::off;  // which the contract's naive smoothing does not know
   options.method = std::array{Method::smart, Method::mean_ratio, Method::laplacian, Method::weighted}[choices.below(4)];
   options.form = choices.flag() ? trismooth::Form::swap : trismooth::Form::in_place;
   options.precision = choices.flag() ? trismooth::Precision::single_precision : trismooth::Precision::double_precision;
-  options.guard = choices.below(8) != 0;
+  const std::size_t guard = choices.below(32);
+  options.guard = guard % 8 != 0;
+  options.untangle = guard / 8 == 1 ? trismooth::Untangle::on : trismooth::Untangle::off;
   options.max_sweeps = 1 + static_cast<std::int64_t>(choices.below(4));
   options.threads = 1;
   return options;

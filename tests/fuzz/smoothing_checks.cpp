@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -209,8 +210,11 @@ void require_never_worse(const Smoothing& smoothing) {
           "says " + std::to_string(result.moved_vertices) + " vertices moved, found " + std::to_string(moved));
   require(result.reverted_vertices == static_cast<std::int64_t>(result.reverted.size()), "miscounts reverted vertices");
   require(result.sweeps == static_cast<std::int64_t>(result.history.size()), "history is not that of all sweeps");
+  const std::optional<trismooth::UntanglingResult>& untangling = result.untangling;
   for (const auto& [vertex, position] : result.reverted) {
-    require(same_bits(before[static_cast<std::size_t>(vertex)], after[static_cast<std::size_t>(vertex)]),
+    const Point2<double> now = after[static_cast<std::size_t>(vertex)];
+    const bool is_untangled = untangling && untangling->inverted_before > 0;  // then it may be back from the sweeps
+    require(same_bits(before[static_cast<std::size_t>(vertex)], now) || (is_untangled && !(now == position)),
             "vertex " + std::to_string(vertex) + " went back to where it was not");
   }
   if (!smoothing.options.guard) {
@@ -224,8 +228,10 @@ void require_never_worse(const Smoothing& smoothing) {
     return !same_bits(before[static_cast<std::size_t>(v)], after[static_cast<std::size_t>(v)]);
   };
   const auto quotients = [&](std::size_t t) {
-    const Triangle corners = counter_clockwise(triangles[t], topology.reversed[t]);
-    return std::pair(naive::element_quotient(local_before, corners), naive::element_quotient(local_after, corners));
+    const bool is_turned = untangling && !untangling->turned.empty() && untangling->turned[t] != 0;
+    const auto reversed = static_cast<std::uint8_t>(topology.reversed[t] ^ (is_turned ? 1 : 0));
+    return std::pair(naive::element_quotient(local_before, counter_clockwise(triangles[t], topology.reversed[t])),
+                     naive::element_quotient(local_after, counter_clockwise(triangles[t], reversed)));
   };
   double threshold = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < triangles.size(); ++t) {

@@ -32,7 +32,7 @@ TEST_CASE("without options, smooth uses the documented defaults") {
   CHECK(options.smoothing.form == trismooth::Form::in_place);
   CHECK(options.smoothing.precision == trismooth::Precision::double_precision);
   CHECK(options.smoothing.guard);
-  CHECK(options.smoothing.untangle == trismooth::Untangle::off);
+  CHECK(options.smoothing.untangle == trismooth::Untangle::automatic);
   CHECK(options.smoothing.max_sweeps == 1000);
   CHECK(options.smoothing.tolerance == 1e-6);
   CHECK_FALSE(options.smoothing.target_quality);
@@ -159,7 +159,7 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--order", "x"}, "valid are colour, unordered"},
       {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are halfedge, device"},
       {{"smooth", "a.off", "b.off", "--guard", "x"}, "valid are on, off"},
-      {{"smooth", "a.off", "b.off", "--untangle", "x"}, "valid are off, on"},
+      {{"smooth", "a.off", "b.off", "--untangle", "x"}, "valid are auto, off, on"},
       {{"smooth", "a.off", "b.off", "--precision", "x"}, "valid are double, single"},
       {{"smooth", "a.off", "b.off", "--max-sweeps", "-1"}, "--max-sweeps"},
       {{"smooth", "a.off", "b.off", "--max-sweeps", "10x"}, "'10x'"},

@@ -298,3 +298,26 @@ TEST_CASE("arrays of float are smoothed to the bits of a file of float32") {
   }
   CHECK(trismooth::read_mesh(*options.output).points == expected);
 }
+
+TEST_CASE("a mesh that was turned over is reported as it is turned now") {
+  // The inside is mirrored, so most triangles are inverted and taken for the others.
+  test_meshes::Mesh mesh = test_meshes::jittered_grid(11, 11, 0.2, 3);
+  for (auto& [x, y] : mesh.points) {
+    x = x > 0 && x < 1 && y > 0 && y < 1 ? 1 - x : x;
+  }
+  const Files files(mesh);
+  PipelineOptions options = files.options();
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  const PipelineResult result = trismooth::run_pipeline(options);
+  REQUIRE(result.smoothing);
+  REQUIRE(result.smoothing->untangling);
+  CHECK(result.smoothing->untangling->turned_components == 1);
+  CHECK(result.before.inverted > 0);
+  REQUIRE(result.after);
+  CHECK(result.after->inverted == 0);
+  CHECK(result.after->metrics[0].min > 0);
+
+  PipelineOptions again;
+  again.input = *options.output;
+  CHECK(trismooth::run_pipeline(again).before.metrics[0].min == result.after->metrics[0].min);
+}

@@ -166,6 +166,7 @@ Connectivity connectivity_of(const RandomMesh& mesh) {
 
   const std::vector<double> xy = mesh.mesh.xy();
   const Units units(xy);
+  found.component.resize(found.elements.size());
   std::set<std::size_t> left;
   for (std::size_t t = 0; t < found.elements.size(); ++t) {
     left.insert(left.end(), t);
@@ -184,6 +185,7 @@ Connectivity connectivity_of(const RandomMesh& mesh) {
       first = first == 0 ? sign : first;
       is_held = is_held || std::ranges::any_of(element, [&](std::int32_t v) { return found.fixed[v]; });
       is_free = is_free || std::ranges::any_of(element, [&](std::int32_t v) { return !found.fixed[v]; });
+      found.component[t] = *component.begin();
       left.erase(t);
     }
     found.is_tied = found.is_tied || (balance == 0 && is_free);
@@ -197,6 +199,66 @@ Connectivity connectivity_of(const RandomMesh& mesh) {
   }
   return found;
 }
+
+namespace {
+
+/// The elements as they are turned now, after the result has turned components over; or what is wrong with that.
+std::string elements_now(const Connectivity& connectivity, const Run& run, std::vector<Triangle>& elements) {
+  elements = connectivity.elements;
+  if (!run.result.untangling || run.result.untangling->turned.empty()) {
+    const bool is_none = !run.result.untangling || run.result.untangling->turned_components == 0;
+    return is_none ? std::string() : "it does not say which components are turned over";
+  }
+  const std::vector<std::uint8_t>& turned = run.result.untangling->turned;
+  const Units units(run.xy);
+  std::map<std::size_t, int> balance;
+  for (std::size_t t = 0; t < elements.size(); ++t) {
+    const std::size_t component = connectivity.component[t];
+    if (turned.size() != elements.size() || turned[t] != turned[component]) {
+      return fmt::format("element {} is turned over, or not, by itself", t);
+    }
+    if (turned[t] != 0) {
+      std::swap(elements[t][1], elements[t][2]);
+      const auto sign = alpha<double>(units, run.xy, elements[t]);
+      balance[component] += (sign > 0 ? 1 : 0) - (sign < 0 ? 1 : 0);
+    }
+  }
+  for (const auto& [component, sum] : balance) {
+    if (sum <= 0) {
+      return fmt::format("the component of element {} is turned over the wrong way", component);
+    }
+  }
+  const auto count = static_cast<std::int32_t>(balance.size());
+  return run.result.untangling->turned_components == count
+             ? std::string()
+             : fmt::format("{} components are turned over, not {}", count, run.result.untangling->turned_components);
+}
+
+/// What is wrong with what the result says of untangling.
+std::string miscount(const Connectivity& connectivity, const std::vector<Triangle>& elements, const Run& run,
+                     std::span<const double> before) {
+  if (!run.result.untangling) {
+    return {};
+  }
+  const auto count = [&](const std::vector<Triangle>& of, std::span<const double> xy, bool is_free) {
+    const Units units(before);
+    return std::ranges::count_if(of, [&](const Triangle& t) {
+      return is_free != std::ranges::all_of(t, [&](std::int32_t v) { return connectivity.fixed[v]; }) &&
+             !(alpha<double>(units, xy, t) > 0);
+    });
+  };
+  const trismooth::UntanglingResult& told = *run.result.untangling;
+  const std::int64_t was = count(connectivity.elements, before, true);
+  const std::int64_t is = count(elements, run.xy, true);
+  const std::int64_t fixed = count(elements, before, false);
+  if (told.inverted_before != was || told.inverted_after != is || told.inverted_fixed != fixed) {
+    return fmt::format("{} elements were inverted, {} are, and {} of fixed vertices, not {}, {}, and {}", was, is,
+                       fixed, told.inverted_before, told.inverted_after, told.inverted_fixed);
+  }
+  return {};
+}
+
+}  // namespace
 
 std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, const Run& run, bool guard) {
   const std::vector<double> before = mesh.mesh.xy();
@@ -224,7 +286,7 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
       return fmt::format("vertex {} did not move, but its bits have changed", v);
     }
     moved += moves ? 1 : 0;
-    reverted += is_elsewhere(unguarded, v) && !moves ? 1 : 0;
+    reverted += unguarded[2 * v] != after[2 * v] || unguarded[2 * v + 1] != after[2 * v + 1] ? 1 : 0;
     free += connectivity.fixed[v] ? 0 : 1;
   }
   if (run.result.moved_vertices != moved || run.result.reverted_vertices != reverted ||
@@ -236,6 +298,13 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
     return {};
   }
 
+  std::vector<Triangle> now;
+  if (const std::string wrong = elements_now(connectivity, run, now); !wrong.empty()) {
+    return wrong;
+  }
+  if (const std::string wrong = miscount(connectivity, now, run, before); !wrong.empty()) {
+    return wrong;
+  }
   const Units units(before);
   double threshold = std::numeric_limits<double>::infinity();
   for (const Triangle& t : connectivity.elements) {
@@ -243,9 +312,10 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
       threshold = std::min(threshold, alpha<double>(units, before, t));
     }
   }
-  for (const Triangle& t : connectivity.elements) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Triangle& t = connectivity.elements[i];
     const auto was = alpha<double>(units, before, t);
-    const auto is = alpha<double>(units, after, t);
+    const auto is = alpha<double>(units, after, now[i]);
     if ((was > 0 && !(is > 0)) || !(is >= was || is >= threshold)) {
       return fmt::format("the element {} {} {} got worse, from {} to {}, with {} the worst touched", t[0], t[1], t[2],
                          was, is, threshold);
@@ -253,7 +323,7 @@ std::string breach(const RandomMesh& mesh, const Connectivity& connectivity, con
     // The same with more digits: a few roundings of a number below 1 / 3 are left.
     constexpr double rounding = 1e-15;
     const auto truly_was = alpha<long double>(units, before, t);
-    const auto truly_is = alpha<long double>(units, after, t);
+    const auto truly_is = alpha<long double>(units, after, now[i]);
     if (truly_is < truly_was - rounding && truly_is < static_cast<long double>(threshold) - rounding) {
       return fmt::format("the element {} {} {} truly got worse, from {} to {}", t[0], t[1], t[2],
                          static_cast<double>(truly_was), static_cast<double>(truly_is));

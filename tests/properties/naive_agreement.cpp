@@ -105,12 +105,22 @@ TEST_CASE(
     "sweep") {
   for_random_meshes(3000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) {
+      options.untangle = trismooth::Untangle::off;  // which the naive implementation does not know
       options.guard = random.below(5) != 0;
       options.record_min_shape = random.below(3) == 0;
       const Storage storage = fits_float32(mesh) && random.below(3) == 0 ? Storage::float32 : Storage::float64;
       const Run expected = options.precision == Precision::double_precision ? naive_run<double>(mesh, options, storage)
                                                                             : naive_run<float>(mesh, options, storage);
-      const Run found = run(mesh, options, storage);
+      Run found = run(mesh, options, storage);
+      if (random.below(2) == 0) {
+        // Where nothing is inverted, untangling changes no bit.
+        options.untangle = trismooth::Untangle::on;
+        const Run with_untangling = run(mesh, options, storage);
+        if (with_untangling.result.untangling->inverted_before == 0) {
+          found = with_untangling;
+          found.result.untangling.reset();
+        }
+      }
       for (std::size_t i = 0; i < expected.result.history.size() && i < found.result.history.size(); ++i) {
         if (found.result.history[i].evaluated != expected.result.history[i].evaluated) {
           return fmt::format("sweep {} evaluated {} vertices instead of {}", i + 1, found.result.history[i].evaluated,

@@ -1,6 +1,7 @@
 #include "properties/smoothing_cases.h"
 
 #include <cmath>
+#include <optional>
 
 namespace properties {
 
@@ -8,6 +9,13 @@ namespace {
 
 bool same_number(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+std::string text_of(const std::optional<trismooth::UntanglingResult>& untangling) {
+  return untangling ? fmt::format("{} inverted, {} untangled, {} in the end, {} of fixed vertices, {} turned over",
+                                  untangling->inverted_before, untangling->inverted_untangled,
+                                  untangling->inverted_after, untangling->inverted_fixed, untangling->turned_components)
+                    : "nothing";
 }
 
 }  // namespace
@@ -39,6 +47,9 @@ std::string difference(const Run& found, const Run& expected) {
       return fmt::format("reverted vertex {} is {} instead of {}, or was elsewhere", i, a.reverted[i].vertex,
                          b.reverted[i].vertex);
     }
+  }
+  if (text_of(a.untangling) != text_of(b.untangling)) {
+    return fmt::format("untangling: {} instead of {}", text_of(a.untangling), text_of(b.untangling));
   }
   return difference(found.xy, expected.xy);
 }

@@ -41,13 +41,13 @@ inline SmoothingOptions combination(std::uint64_t index) {
 }
 
 inline std::string text_of(const SmoothingOptions& options) {
-  const std::string text =
-      fmt::format("{}, form {}, {}, {} sweeps, tolerance {}", to_string(options.method), to_string(options.form),
-                  to_string(options.precision), options.max_sweeps, options.tolerance);
+  const std::string text = fmt::format("{}, form {}, {}, {} sweeps, tolerance {}{}", to_string(options.method),
+                                       to_string(options.form), to_string(options.precision), options.max_sweeps,
+                                       options.tolerance, options.untangles() ? ", untangled" : "");
   const trismooth::MeanRatioOptions& mean_ratio = options.mean_ratio;
   return options.method == Method::mean_ratio
-             ? fmt::format("{}, size weight {}, power {}, target {}{}", text, mean_ratio.size_weight, mean_ratio.power,
-                           to_string(mean_ratio.target), options.untangles() ? ", untangled" : "")
+             ? fmt::format("{}, size weight {}, power {}, target {}", text, mean_ratio.size_weight, mean_ratio.power,
+                           to_string(mean_ratio.target))
              : text;
 }
 
@@ -66,8 +66,8 @@ inline trismooth::MeanRatioOptions any_mean_ratio(test_meshes::Random& random) {
 }
 
 /// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep
-/// limit, tolerance and what steers the mean-ratio method drawn at random, until it answers something; answers that,
-/// and the options.
+/// limit, tolerance, untangling and what steers the mean-ratio method drawn at random, until it answers something;
+/// answers that, and the options.
 template <class Check>
 std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const Check& check) {
   test_meshes::Random random = draws_for(mesh);
@@ -78,6 +78,7 @@ std::string for_some_options(const RandomMesh& mesh, std::uint64_t count, const 
     if (options.method == Method::mean_ratio) {
       options.mean_ratio = any_mean_ratio(random);
     }
+    options.untangle = static_cast<trismooth::Untangle>(random.below(3));
     const std::string wrong = check(options, random);
     if (!wrong.empty()) {
       return fmt::format("{} ({})", wrong, text_of(options));

@@ -50,9 +50,6 @@ TEST_CASE("a mesh scaled by a power of two is smoothed to the same bits, scaled"
   std::int64_t looked_at = 0;
   for_random_meshes(3000, [&](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
-      if (random.below(2) == 0) {
-        options.untangle = trismooth::Untangle::on;
-      }
       const Run expected = run(mesh, options);
       for (const int power : {-300, 300, random.below(600) - 300}) {
         ++looked_at;
@@ -140,6 +137,7 @@ TEST_CASE("a mesh shifted by any exact translation is smoothed to the same coord
     }
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.precision = Precision::double_precision;
+      options.untangle = trismooth::Untangle::off;  // it magnifies rounding, too
       options.max_sweeps = 1 + random.below(3);
       options.tolerance = 0;
       options.guard = random.below(2) == 0;

@@ -80,6 +80,19 @@ TEST_CASE("the defaults are those of the contract and valid") {
   CHECK_FALSE(options.untangles());
 }
 
+TEST_CASE("untangling is for mean-ratio alone where it is not asked for nor ruled out") {
+  for (const auto& [method, name] : trismooth::EnumText<trismooth::Method>::texts) {
+    CAPTURE(name);
+    SmoothingOptions options;
+    options.method = method;
+    CHECK(options.untangles() == (method == trismooth::Method::mean_ratio));
+    options.untangle = trismooth::Untangle::on;
+    CHECK(options.untangles());
+    options.untangle = trismooth::Untangle::off;
+    CHECK_FALSE(options.untangles());
+  }
+}
+
 TEST_CASE("numbers out of range are refused, and the message names the option") {
   CHECK(complaint([](auto& o) { o.max_sweeps = -1; }).find("sweep limit") != std::string::npos);
   CHECK(complaint([](auto& o) { o.max_sweeps = 0; }).empty());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "trismooth/quality/triangle_quality.h"
 
@@ -151,5 +152,35 @@ TEST_CASE("the least energy is that of an equilateral triangle of its size") {
   CHECK(found.value == Approx(2 + 0.5 * 2));
   for (const double slope : gradient_of(found)) {
     CHECK(slope == Approx(0).margin(1e-9));
+  }
+}
+
+TEST_CASE("a triangle that is turned by a right angle has the same derivatives, turned, to the last bit") {
+  test_meshes::Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const RegularisedEnergy energy{random.between(0.01, 1), random.between(0, 1)};
+    std::array<Point2<double>, 3> z{};
+    for (Point2<double>& p : z) {
+      p.x = i % 5 == 0 ? random.below(3) : random.between(-1, 1);
+      p.y = i % 5 == 0 ? random.below(3) : random.between(-1, 1);
+    }
+    const auto of = [&] { return energy.derivatives(RegularisedEnergy::shape_of(z[0], z[1], z[2], 0.7), 0.7); };
+    const auto expected = of();
+    for (Point2<double>& p : z) {
+      p = {-p.y, p.x};
+    }
+    const auto found = of();
+    REQUIRE(found.value == expected.value);
+    REQUIRE(found.by_e == Point2<double>{-expected.by_e.y, expected.by_e.x});
+    REQUIRE(found.by_t == Point2<double>{-expected.by_t.y, expected.by_t.x});
+    for (const auto& [turned, straight] : {std::pair{found.ee, expected.ee}, std::pair{found.tt, expected.tt}}) {
+      REQUIRE(turned[0] == straight[2]);
+      REQUIRE(turned[1] == -straight[1]);
+      REQUIRE(turned[2] == straight[0]);
+    }
+    REQUIRE(found.et[0] == expected.et[3]);
+    REQUIRE(found.et[1] == -expected.et[2]);
+    REQUIRE(found.et[2] == -expected.et[1]);
+    REQUIRE(found.et[3] == expected.et[0]);
   }
 }

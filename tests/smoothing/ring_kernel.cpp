@@ -65,3 +65,32 @@ TEST_CASE("a ring that goes round clockwise has no kernel") {
   CHECK(kernel_centre(Ring{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, scratch) == Point2<double>{0.5, 0.5});
   CHECK_FALSE(kernel_centre(Ring{{0, 0}, {0, 1}, {1, 1}, {1, 0}}, scratch));
 }
+
+TEST_CASE("a ring that is turned by right angles has the same centre, turned, to the last bit") {
+  test_meshes::Random random(2);
+  std::vector<Point2<double>> scratch;
+  int with_kernel = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Ring ring = random_ring(random);
+    if (i % 3 == 0) {
+      ring[1] = ring[0];  // an edge without a direction
+    }
+    if (i % 4 == 0) {
+      ring[2] = {ring[2].x, ring[1].y};  // and one along an axis
+    }
+    auto expected = kernel_centre(ring, scratch);
+    for (int turns = 0; turns < 3; ++turns) {
+      for (Point2<double>& p : ring) {
+        p = {-p.y, p.x};
+      }
+      const auto found = kernel_centre(ring, scratch);
+      REQUIRE(found.has_value() == expected.has_value());
+      if (found) {
+        expected = Point2<double>{-expected->y, expected->x};
+        REQUIRE(*found == *expected);
+        ++with_kernel;
+      }
+    }
+  }
+  CHECK(with_kernel > 1000);
+}
