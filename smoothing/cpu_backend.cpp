@@ -16,6 +16,7 @@
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/sweep_driver.h"
+#include "trismooth/smoothing/untangle/untangle.h"
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
 
 namespace trismooth {
@@ -164,7 +165,10 @@ class CpuSmoother final : public PreparedSmoother {
   template <class Input>
   void count_inverted(const TurnedComponents& turned, std::span<const Point2<double>> after, const Input& input,
                       UntanglingResult& result) {
-    result.inverted_after = inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
+    // The guard lets nothing that was valid become inverted.
+    result.inverted_after = options_.guard && result.inverted_before == 0
+                                ? 0
+                                : inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
     result.inverted_fixed = (turned.any() ? fixed_triangles(turned) : fixed_triangles_).inverted(input);
     result.turned_components = turned.count;
     result.turned = turned.triangles;
@@ -174,12 +178,13 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   std::optional<Turned> untangle_into(std::vector<Point2<T>>& working, const std::vector<Point2<double>>& before,
                                       SmoothingResult& result) {
+    result.untangling.emplace();
+    if (inverted_triangles(rings_.view(), before, workers_) == 0) {
+      return std::nullopt;
+    }
     std::vector<Point2<double>> untangled = before;
     MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
     result.untangling = {.inverted_before = done.inverted_before, .inverted_untangled = done.inverted_after};
-    if (done.inverted_before == 0) {
-      return std::nullopt;
-    }
     for_vertices(rings_.free_count(), [&](std::int32_t v) { working[v] = narrow<T>(untangled[v]); });
     return done.turned.any() ? std::optional(turn(std::move(done.turned))) : std::nullopt;
   }

@@ -55,7 +55,7 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
       result.reverted.push_back({v, moved[v]});
     }
   }
-  if (result.untangling) {
+  if (result.untangling && !(options.guard && result.untangling->inverted_before == 0)) {
     result.untangling->inverted_after = inverted_triangles(rings, triangles, turned, after, workers);
     result.untangling->turned_components = turned.count;
     result.untangling->turned = std::move(turned.triangles);

@@ -240,9 +240,6 @@ std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle>
 MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> triangles,
                              std::span<const std::uint8_t> reversed, std::span<Point2<double>> points,
                              Workers& workers) {
-  if (inverted_triangles(rings, points, workers) == 0) {
-    return {};
-  }
   const std::vector<Point2<double>> input(points.begin(), points.end());
   const UntangleOutcome outcome = untangle(rings, points, workers);
   MeshUntangling result{outcome.inverted_before, outcome.inverted_after, {}};
