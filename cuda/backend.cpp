@@ -67,11 +67,13 @@ class RingSmoother final : public PreparedSmoother {
       : copier_(context_, options.threads),
         stored_(context_, with_room_for(mesh.rings, options, local.size())),
         frame_(context_, 1),
-        fixed_(mesh.fixed) {
+        fixed_(mesh.fixed),
+        is_guarded_(options.guard) {
     const Stopwatch watch;
     smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
     if (options.untangles()) {
       untangling_.emplace(mesh.fixed, triangles, options);
+      reversed_ = mesh.reversed;
     }
     if (options.measures_shape() || options.untangles()) {
       fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
@@ -92,10 +94,10 @@ class RingSmoother final : public PreparedSmoother {
       return is_tangled ? SmoothingResult{} : smoother_->smooth(stored_.data(), frame_.data(), storage, fixed_quotient);
     });
     if (is_tangled) {
-      result = untangling_->smooth(points, storage);
+      result = untangling_->smooth(points, storage, frame);
     } else if (untangling_) {
-      result.untangling = UntanglingResult{
-          .inverted_fixed = fixed_triangles_.inverted([&](std::int32_t v) { return frame.enter(points[v]); })};
+      result.untangling =
+          fixed_quotient > 0 && is_guarded_ ? UntanglingResult{} : untangling_->not_tangled(reversed_, points, frame);
     }
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
@@ -116,7 +118,9 @@ class RingSmoother final : public PreparedSmoother {
   DeviceBuffer<LocalFrame> frame_;
   std::vector<std::uint8_t> fixed_;           ///< as MeshRings::fixed
   FixedTriangles fixed_triangles_;            ///< where they are asked for
-  std::optional<HostUntangling> untangling_;  ///< likewise
+  std::optional<HostUntangling> untangling_;  ///< where the mesh may have to be untangled
+  std::vector<std::uint8_t> reversed_;        ///< likewise; as MeshRings::reversed
+  bool is_guarded_;
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;  ///< until a call has reported it
 };

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/triangle_topology.h"
@@ -22,7 +21,6 @@
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/topology/device_topology.h"
-#include "trismooth/smoothing/rings/fixed_triangles.h"
 
 namespace trismooth::cuda {
 
@@ -93,33 +91,33 @@ class Plan::Implementation {
     SmoothingResult result =
         is_tangled ? untangle(stored, storage) : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
     if (options_.untangles() && !is_tangled) {
-      result.untangling = UntanglingResult{.inverted_fixed = fixed_quotient > 0 ? 0 : inverted_fixed(stored)};
+      result.untangling = fixed_quotient > 0 && options_.guard ? UntanglingResult{} : not_tangled(stored);
     }
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
   }
 
-  std::vector<Triangle> triangles() {
+  /// The host's part of the work.
+  HostUntangling host_untangling() {
     static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
-    return download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
+    const std::vector<Triangle> triangles =
+        download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
+    return {fixed(), triangles, options_};
   }
 
-  /// Triangles without a free vertex that are inverted or degenerate: the host counts them.
-  std::int64_t inverted_fixed(const Point2<double>* stored) {
-    const std::vector<Point2<double>> points = download(context_, stored, static_cast<std::size_t>(vertex_count_));
-    const std::vector<std::uint8_t> held = fixed();
-    const LocalFrame frame = local_frame_of_cells(points, held);
-    const std::vector<std::uint8_t> reversed =
-        download(context_, topology_.reversed(), static_cast<std::size_t>(triangle_count_));
-    return FixedTriangles(triangles(), reversed, held).inverted([&](std::int32_t v) { return frame.enter(points[v]); });
+  /// Counts what is inverted all the same: triangles without a free vertex, or those that no guard has watched.
+  UntanglingResult not_tangled(const Point2<double>* stored) {
+    const auto points = download(context_, stored, static_cast<std::size_t>(vertex_count_));
+    const auto reversed = download(context_, topology_.reversed(), static_cast<std::size_t>(triangle_count_));
+    return host_untangling().not_tangled(reversed, points, download(context_, extent_.frame()));
   }
 
   /// Takes the mesh to the host and back.
   SmoothingResult untangle(Point2<double>* stored, Storage storage) {
     const auto vertices = static_cast<std::size_t>(vertex_count_);
     std::vector<Point2<double>> points = download(context_, static_cast<const Point2<double>*>(stored), vertices);
-    SmoothingResult result = HostUntangling(fixed(), triangles(), options_).smooth(points, storage);
+    SmoothingResult result = host_untangling().smooth(points, storage, download(context_, extent_.frame()));
     TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(stored, points.data(), vertices * sizeof(Point2<double>),
                                          cudaMemcpyHostToDevice, context_.stream()));
     context_.synchronize();

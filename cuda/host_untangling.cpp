@@ -1,9 +1,11 @@
 #include "trismooth/cuda/host_untangling.h"
 
+#include <cstddef>
 #include <utility>
 
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
@@ -25,8 +27,7 @@ HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const 
                                const SmoothingOptions& options)
     : fixed_(std::move(fixed)), triangles_(triangles.begin(), triangles.end()), options_(on_host(options)) {}
 
-SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage) {
-  const LocalFrame frame = local_frame_of_cells(points, fixed_);
+SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame) {
   if (smoother_ == nullptr) {
     const LocalPoints local = entered(frame, points);
     Workers workers(options_.threads);
@@ -38,6 +39,19 @@ SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage
   }
   SmoothingResult result = smoother_->smooth(points, storage, frame);
   result.backend_note = "the mesh has inverted triangles, which the CPU untangles";
+  return result;
+}
+
+UntanglingResult HostUntangling::not_tangled(std::span<const std::uint8_t> reversed,
+                                             std::span<const Point2<double>> points, const LocalFrame& frame) const {
+  UntanglingResult result;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto [a, b, c] = canonical_corners(triangles_[t], reversed[t] != 0);
+    if (!(shape_quotient(frame.enter(points[a]), frame.enter(points[b]), frame.enter(points[c])) > 0)) {
+      const bool is_fixed = fixed_[a] != 0 && fixed_[b] != 0 && fixed_[c] != 0;
+      ++(is_fixed ? result.inverted_fixed : result.inverted_after);
+    }
+  }
   return result;
 }
 

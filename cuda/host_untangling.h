@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/triangle_view.h"
@@ -21,8 +22,13 @@ class HostUntangling {
   /// `fixed`: as MeshRings::fixed. Copies what it needs; all else waits for smooth().
   HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options);
 
-  /// As PreparedSmoother::smooth(), without a frame. The first points orient the mesh.
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage);
+  /// As PreparedSmoother::smooth(). The first points orient the mesh.
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame);
+
+  /// What is to be told of a mesh that was not tangled, with its points as a device has left them. `reversed`: as
+  /// MeshRings::reversed; `frame`: that of the input. Complexity: linear.
+  UntanglingResult not_tangled(std::span<const std::uint8_t> reversed, std::span<const Point2<double>> points,
+                               const LocalFrame& frame) const;
 
  private:
   std::vector<std::uint8_t> fixed_;

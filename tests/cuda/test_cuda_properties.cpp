@@ -48,6 +48,9 @@ void choose_any(const std::vector<DeviceWay>& ways, SmoothingOptions& options, R
 
 /// What every backend has to do alike beside method, form, precision, sweep limit and tolerance.
 void draw_the_rest(SmoothingOptions& options, Random& random) {
+  if (random.below(4) != 0) {
+    options.untangle = trismooth::Untangle::off;  // tangled meshes go to the host
+  }
   options.guard = random.below(5) != 0;
   options.record_min_shape = random.below(4) == 0;
   options.evaluation = random.below(4) == 0 ? Evaluation::all : Evaluation::changed;
@@ -223,6 +226,7 @@ TEST_CASE("in no fixed order random meshes are smoothed by the contract all the 
     return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
       options.backend = &cuda::backend();
       options.form = Form::in_place;
+      options.untangle = trismooth::Untangle::off;  // tangled meshes would go to the host
       options.order = Order::unordered;
       choose_any(paper_ways(), options, random);
       const std::string wrong = breach(mesh, connectivity, run(mesh, options), true);
