@@ -237,8 +237,8 @@ std::string elements_now(const Connectivity& connectivity, const Run& run, std::
 /// What is wrong with what the result says of untangling.
 std::string miscount(const Connectivity& connectivity, const std::vector<Triangle>& elements, const Run& run,
                      std::span<const double> before) {
-  if (!run.result.untangling) {
-    return {};
+  if (!run.result.untangling || !keeps_digits(before) || !keeps_digits(run.xy)) {
+    return {};  // nothing to tell, or another frame may lose other digits
   }
   const auto count = [&](const std::vector<Triangle>& of, std::span<const double> xy, bool is_free) {
     const Units units(before);
