@@ -13,6 +13,7 @@
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/size_change.h"
+#include "trismooth/quality/size_fit.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"

@@ -84,6 +84,7 @@ class RingSmoother final : public PreparedSmoother {
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& known_frame) override {
+    smoother_->read_sizes(fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     const double fixed_quotient =
         fixed_triangles_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });

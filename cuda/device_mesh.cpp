@@ -86,6 +86,9 @@ class Plan::Implementation {
     const Stopwatch watch;
     double fixed_quotient = std::numeric_limits<double>::infinity();
     prepare(stored, fixed_quotient);
+    if (options_.aims_at_sizes()) {
+      smoother_->read_sizes(fixed());
+    }
     const double preparing_ms = watch.milliseconds();
     const bool is_tangled = options_.untangles() && smoother_->is_tangled(stored, extent_.frame());
     SmoothingResult result =

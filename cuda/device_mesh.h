@@ -27,7 +27,8 @@ struct DeviceMesh {
 class Plan {
  public:
   /// `mesh.triangles` must stay as they are for as long as the plan lives; the constraints are read now. The stream
-  /// stays the caller's and outlives the plan. `options.backend` and `options.topology` mean nothing here.
+  /// stays the caller's and outlives the plan. `options.backend` and `options.topology` mean nothing here;
+  /// `options.mean_ratio.target_lengths` are in memory of the host, here as elsewhere.
   /// Throws MeshError for triangles that are no mesh, std::invalid_argument for options or constraints that do not fit,
   /// DeviceError where there is no device, its memory does not suffice, or a call fails.
   /// Before anything runs: std::invalid_argument, which names the array, for a null pointer, one that is not aligned to

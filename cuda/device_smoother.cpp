@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/guard/guard.h"
@@ -19,6 +21,8 @@
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 
 namespace trismooth::cuda {
@@ -105,6 +109,13 @@ class SweepDriver final : public DeviceSmoother {
     return from_falling_key(host_record_.sums.front().min_quotient) < surely_positive;
   }
 
+  void read_sizes(std::span<const std::uint8_t> fixed) override {
+    const std::vector<double> sizes = inverse_sizes(options_, fixed);
+    if (engine_ && !sizes.empty()) {
+      with_engine([&](auto& engine) { engine.set_sizes(order_, sizes); });
+    }
+  }
+
   SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                          double fixed_quotient) override {
     SmoothingResult result;
@@ -119,7 +130,15 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
+    Ending ending{{order_.input_index.data(),
+                   before_.data(),
+                   {},
+                   {},
+                   &record_.data()->state,
+                   false,
+                   frame,
+                   storage,
+                   highest_threshold(options_)},
                   stored};
     enter(ending, result);
     run(fixed_quotient, ending, result);

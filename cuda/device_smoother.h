@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
@@ -22,6 +24,10 @@ class DeviceSmoother {
   /// Whether a triangle with a free vertex is inverted or degenerate, or so near to it that only the host can tell.
   /// Arguments as those of smooth(). Waits for the device.
   virtual bool is_tangled(const Point2<double>* stored, const LocalFrame* frame) = 0;
+
+  /// Reads the sizes that the options ask for, if they do: before every smooth(), and where they fit. Throws
+  /// std::invalid_argument as said at MeanRatioOptions::target_lengths. `fixed`: as MeshRings::fixed.
+  virtual void read_sizes(std::span<const std::uint8_t> fixed) = 0;
 
   /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, guard.
   /// They are finite, and nothing is untangled. `frame`: their local frame, on the device. `fixed_quotient`: see

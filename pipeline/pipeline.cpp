@@ -18,12 +18,14 @@
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/input/size_array.h"
 #include "trismooth/quality/coarse_boundary.h"
 #include "trismooth/quality/precision_loss.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 namespace trismooth {
 
@@ -43,7 +45,8 @@ std::int64_t count_different(std::vector<std::int32_t> numbers) {
 /// One run over one file. The stages are called in their order; each fills its part of the result.
 class Run {
  public:
-  explicit Run(const PipelineOptions& options) : options_(options), workers_(options.smoothing.threads) {}
+  explicit Run(const PipelineOptions& options)
+      : options_(options), smoothing_(options.smoothing), workers_(options.smoothing.threads) {}
 
   PipelineResult run() {
     const Stopwatch watch;
@@ -104,7 +107,8 @@ class Run {
     mesh_ = planar_mesh(document_, options_.input);
     std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
     enter_frame();
-    regions_ = find_regions(document_, mesh_, options_.region_arrays);
+    find_sizes();
+    regions_ = find_regions(document_, mesh_, options_.region_arrays, result_.input.size_array);
     result_.notes.insert(result_.notes.begin(), regions_.notes.begin(), regions_.notes.end());
     const FixedArray named = find_fixed_array(document_, options_.fixed_array);
     const std::vector<std::int32_t> ids =
@@ -136,6 +140,14 @@ class Run {
     input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
     input.fixed_ids_vertices = count_different(ids);
     input.held = count_held(found_.fixed);
+  }
+
+  void find_sizes() {
+    if (options_.size_array && smoothing_.method == Method::mean_ratio) {
+      sizes_ = find_size_array(document_, mesh_, *options_.size_array);
+      result_.input.size_array = sizes_.array;
+      smoothing_.mean_ratio.target_lengths = sizes_.lengths;
+    }
   }
 
   MeshRings find_rings(const Constraints& constraints) {
@@ -220,7 +232,7 @@ class Run {
     }
     const std::vector<Point2<double>> input_points = mesh_.points;
     SmoothingResult smoothing = smooth_in_plane(found_, mesh_.triangles, mesh_.plane, document_.points, mesh_.points,
-                                                local_, storage_of(document_), options_.smoothing);
+                                                local_, storage_of(document_), smoothing_);
     smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
@@ -234,12 +246,7 @@ class Run {
       }
     }
     hash_coordinates(smoothing);
-    {
-      const Stopwatch watch;
-      const TriangleView before{input.points, mesh_.triangles, input_reversed, input.frame.exponent};
-      result_.size_change = size_change(before, view(), options_.smoothing.threads);
-      result_.timings_ms.check_after += watch.milliseconds();
-    }
+    compare_sizes({input.points, mesh_.triangles, input_reversed, input.frame.exponent});
     result_.timings_ms.topology += smoothing.timings.prepare;
     result_.timings_ms.transfer_in = smoothing.timings.transfer_in;
     result_.timings_ms.untangle = smoothing.timings.untangle;
@@ -247,6 +254,18 @@ class Run {
     result_.timings_ms.transfer_out = smoothing.timings.transfer_out;
     result_.timings_ms.guard = smoothing.timings.commit;
     result_.smoothing = std::move(smoothing);
+  }
+
+  void compare_sizes(const TriangleView& before) {
+    const Stopwatch watch;
+    const int threads = options_.smoothing.threads;
+    result_.size_change = size_change(before, view(), threads);
+    if (smoothing_.aims_at_sizes()) {
+      const std::vector<double> asked = inverse_sizes(smoothing_, found_.fixed);
+      result_.size_fit_before = size_fit(before, asked, found_.fixed, threads);
+      result_.size_fit_after = size_fit(view(), asked, found_.fixed, threads);
+    }
+    result_.timings_ms.check_after += watch.milliseconds();
   }
 
   void hash_coordinates(const SmoothingResult& smoothing) {
@@ -316,11 +335,13 @@ class Run {
   }
 
   const PipelineOptions& options_;
+  SmoothingOptions smoothing_;  ///< with the sizes of the file, where it is asked for them
   Workers workers_;
   PipelineResult result_;
   MeshDocument document_;
   PlanarMesh mesh_;
   LocalPoints local_;  ///< mesh_.points in their local frame: those of the input, after the smoothing of the result
+  SizeArray sizes_;
   Regions regions_;
   MeshRings found_;
   std::vector<double> input_points_;       ///< for annotations of a smoothing

@@ -15,6 +15,7 @@
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/size_change.h"
+#include "trismooth/quality/size_fit.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 
@@ -42,7 +43,10 @@ struct PipelineOptions {
   std::vector<std::string> region_arrays;          ///< cell arrays; empty: those that give regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
-  bool annotate = false;                           ///< add arrays to the output, named `trismooth:...`
+  /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
+  /// smoothing.mean_ratio.target_lengths.
+  std::optional<std::string> size_array;
+  bool annotate = false;  ///< add arrays to the output, named `trismooth:...`
   /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
   std::optional<std::filesystem::path> annotated;
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
@@ -74,6 +78,7 @@ struct InputSummary {
   std::vector<RegionArray> region_arrays;  ///< the cell arrays that were obeyed, in the file's order
   std::string fixed_array;                 ///< the point array that was obeyed, or empty
   std::int64_t fixed_array_vertices = 0;   ///< where it is not zero
+  std::string size_array;                  ///< the array that sizes were taken from, or empty
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them
@@ -92,6 +97,8 @@ struct PipelineResult {
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;   ///< likewise
   std::optional<SizeChange> size_change;      ///< likewise
+  std::optional<SizeFit> size_fit_before;     ///< to the sizes asked for; absent where none were
+  std::optional<SizeFit> size_fit_after;      ///< likewise
   std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
   std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed

@@ -15,6 +15,7 @@
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/sweep_driver.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
@@ -44,6 +45,7 @@ class CpuSmoother final : public PreparedSmoother {
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& known_frame) override {
+    inverse_sizes_ = inverse_sizes(options_, fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     SmoothingResult result;
     result.backend = "cpu";
@@ -85,7 +87,8 @@ class CpuSmoother final : public PreparedSmoother {
     const PackedRings& rings = turned ? turned->rings : rings_;
     const FixedTriangles& fixed_triangles = turned ? turned->fixed_triangles : fixed_triangles_;
     const auto input = [&](std::int32_t v) { return frame.enter(points[v]); };
-    SweepDriver<T>(rings, options_, workers_).run(working, fixed_triangles.smallest_quotient(input), result);
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_)
+        .run(working, fixed_triangles.smallest_quotient(input), result);
     result.timings.smooth += watch.lap();
 
     // Where each vertex would be stored, and what that is in the local frame.
@@ -101,6 +104,7 @@ class CpuSmoother final : public PreparedSmoother {
     std::vector<Point2<double>> after = before;
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
+      const double highest = highest_threshold(options_);
       const auto list = [&](const GuardOutcome& outcome) {
         result.guard_rounds += outcome.rounds;
         for (const std::int32_t v : outcome.reverted) {
@@ -112,16 +116,17 @@ class CpuSmoother final : public PreparedSmoother {
         // far takes others along.
         std::vector<Point2<double>> untangled = before;
         for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = frame.enter(stored_from(start, v)); });
-        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_);
+        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_, highest);
         list(outcome);
         for (const std::int32_t v : outcome.reverted) {
           working[v] = start[v];
         }
       }
       if (turned) {
-        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
+        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_,
+                              highest));
       } else {
-        list(keep_never_worse(rings.view(), before, after, workers_));
+        list(keep_never_worse(rings.view(), before, after, workers_, highest));
       }
     }
     std::atomic<std::int64_t> moved{0};
@@ -210,6 +215,7 @@ class CpuSmoother final : public PreparedSmoother {
   FixedTriangles fixed_triangles_;      ///< where they are asked for
   std::vector<Triangle> triangles_;     ///< of the mesh, where it may have to be untangled
   std::vector<std::uint8_t> reversed_;  ///< as MeshRings::reversed, likewise
+  std::vector<double> inverse_sizes_;   ///< that are asked for, in a call; empty: none
   double prepare_ms_ = 0;               ///< until a call has reported it
 };
 

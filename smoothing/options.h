@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "trismooth/base/array_view.h"
 #include "trismooth/base/enum_text.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/smoothing/result.h"
@@ -77,7 +78,7 @@ enum class Evaluation : std::uint8_t {
 /// The shapes that the mean-ratio method aims at.
 enum class TargetShape : std::uint8_t {
   uniform,  ///< equilateral
-  input,    ///< each triangle keeps the shape that it has: for layers that are flat on purpose
+  input,    ///< as flat as the edges nearby are in the input: for layers that are flat on purpose
 };
 
 /// What a progress callback answers.
@@ -138,13 +139,19 @@ struct EnumText<TargetShape> {
 
 /// What steers Method::mean_ratio alone.
 struct MeanRatioOptions {
-  /// How much the sizes of triangles count beside their shapes, from 0. It is multiplied by the fifth power of
-  /// the mesh's mean shape: the sizes of a distorted mesh say little.
+  /// How much the sizes of triangles count beside their shapes, from 0. Without target_lengths it is multiplied by the
+  /// fifth power of the mesh's mean shape: the sizes of a distorted mesh say little.
   double size_weight = 1;
   /// The power of 1 / shape in the energy, up to 8: the higher, the more the worst triangles count. 0: 3 where the
   /// mesh's mean shape is 0.8 or more, else 2.
   int power = 0;
   TargetShape target = TargetShape::uniform;
+  /// The sizes to aim at in place of those that the mesh has: for every vertex the edge length wanted around it, in any
+  /// unit, since with so many triangles only their relations can be met. Lengths beyond a millionth of the largest
+  /// count as that; those of vertices in no triangle do not count. Empty: none. The caller owns the numbers and keeps
+  /// them for as long as the options are used, by a plan, too; they are read in every smooth(), which throws
+  /// std::invalid_argument where they are not as many as vertices, or one is not a positive number.
+  ArrayView<double> target_lengths{};
 };
 
 template <>
@@ -192,6 +199,11 @@ struct SmoothingOptions {
   /// Whether inverted triangles are untangled before the sweeps.
   [[nodiscard]] bool untangles() const {
     return untangle == Untangle::on || (untangle == Untangle::automatic && method == Method::mean_ratio);
+  }
+
+  /// Whether sizes are asked for, and heard.
+  [[nodiscard]] bool aims_at_sizes() const {
+    return method == Method::mean_ratio && !mean_ratio.target_lengths.empty();
   }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for

@@ -15,7 +15,8 @@
 namespace trismooth {
 
 /// A mesh whose connectivity is analysed once and whose coordinates are smoothed as often as they change (moving
-/// meshes). Owns copies of all it needs; the caller's arrays may go. Can be moved; what was moved from can be assigned
+/// meshes). Owns copies of all it needs; the caller's arrays may go, but for options.mean_ratio.target_lengths, which
+/// smooth() reads. Can be moved; what was moved from can be assigned
 /// to and destroyed, its smooth() throws std::logic_error. One thread at a time may use a plan; several plans may be
 /// used at the same time. With a backend that runs on a device: from threads that have the same device current.
 class [[nodiscard]] SmoothingPlan {
@@ -37,7 +38,8 @@ class [[nodiscard]] SmoothingPlan {
   /// rounded to `storage`, or to float where the points are. The mesh lies in the plane of x and y: a third number of a
   /// point is its height, which stays as it is and must be the same for all vertices that cells use, to within 1e-6
   /// of their extent. The first call also orders the mesh in memory; a later one repeats that only if the majority
-  /// orientation of a component has changed. Throws std::invalid_argument for a wrong number of points, MeshError for a
+  /// orientation of a component has changed. Throws std::invalid_argument for a wrong number of points and for target
+  /// lengths that do not fit, MeshError for a
   /// coordinate that is not finite and for heights that differ, DeviceError; the points are untouched then. Complexity:
   /// linear in each sweep and never more than the vertices whose neighbourhood changed; n log n in the first call.
   SmoothingResult smooth(const PointView& points, Storage storage = Storage::float64);

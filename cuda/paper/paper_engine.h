@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "trismooth/cuda/packing/packed_rings.h"
@@ -47,6 +48,9 @@ class PaperEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {points_, points_}; }
+  void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
+    targets_.set_sizes(order, inverse_sizes);
+  }
   void begin() {
     mesh_.initiate(*context_, points_);
     targets_.find(rings(), points_);

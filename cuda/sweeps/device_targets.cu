@@ -19,12 +19,21 @@ __device__ void add(std::uint64_t& sum, std::uint64_t value) {
   atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(value));
 }
 
+__device__ void raise(std::uint64_t& largest, std::uint64_t value) {
+  atomicMax(reinterpret_cast<unsigned long long*>(&largest), static_cast<unsigned long long>(value));
+}
+
 /// Adds up over the block. All its threads call it.
-__device__ void add_in_block(MeanRatioSums own, MeanRatioSums& block, MeanRatioSums& all) {
+__device__ void add_in_block(MeanRatioSums own, bool has_sizes, MeanRatioSums& block, MeanRatioSums& all) {
   for (int distance = 16; distance > 0; distance /= 2) {
     own.areas += __shfl_xor_sync(0xffffffffU, own.areas, distance);
     own.quotients += __shfl_xor_sync(0xffffffffU, own.quotients, distance);
     own.count += __shfl_xor_sync(0xffffffffU, own.count, distance);
+    if (has_sizes) {
+      own.sizes += __shfl_xor_sync(0xffffffffU, own.sizes, distance);
+      own.size_remainders += __shfl_xor_sync(0xffffffffU, own.size_remainders, distance);
+      own.worst_quotient = max(own.worst_quotient, __shfl_xor_sync(0xffffffffU, own.worst_quotient, distance));
+    }
   }
   if (threadIdx.x == 0) {
     block = MeanRatioSums{};
@@ -34,6 +43,11 @@ __device__ void add_in_block(MeanRatioSums own, MeanRatioSums& block, MeanRatioS
     add(sums.areas, part.areas);
     add(sums.quotients, part.quotients);
     add(sums.count, part.count);
+    if (has_sizes) {
+      add(sums.sizes, part.sizes);
+      add(sums.size_remainders, part.size_remainders);
+      raise(sums.worst_quotient, part.worst_quotient);
+    }
   };
   if (threadIdx.x % 32 == 0) {
     add_to(block, own);
@@ -44,10 +58,11 @@ __device__ void add_in_block(MeanRatioSums own, MeanRatioSums& block, MeanRatioS
   }
 }
 
-/// The first pass: leaves each vertex's mean area in `areas`.
+/// The first pass: leaves each vertex's mean area in `areas`. `inverse_sizes`: null where no sizes are asked for.
 template <class T, class Rings>
 __global__ void __launch_bounds__(block_size)
-    measure(Rings rings, PointArray<T> points, T* areas, T* shares, MeanRatioSums* sums, FixedVertexArea* fixed) {
+    measure(Rings rings, PointArray<T> points, const T* inverse_sizes, T* areas, T* shares, MeanRatioSums* sums,
+            FixedVertexArea* fixed) {
   __shared__ MeanRatioSums of_block;
   MeanRatioSums own{};
   for (std::int64_t i = thread_index(); i < rings.size; i += static_cast<std::int64_t>(gridDim.x) * block_size) {
@@ -58,12 +73,15 @@ __global__ void __launch_bounds__(block_size)
     own.add(found.sums);
     areas[v] = found.mean_area;
     shares[v] = found.largest_share;
+    if (inverse_sizes != nullptr) {
+      add_sizes(v, position, inverse_sizes, ring, own);
+      continue;
+    }
     for_fixed_corners(position, ring, rings.size, [&](std::int32_t u, double area, std::uint64_t /*times*/) {
-      atomicMax(reinterpret_cast<unsigned long long*>(&fixed[u - rings.size].largest),
-                static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(area)));
+      raise(fixed[u - rings.size].largest, std::bit_cast<std::uint64_t>(area));
     });
   }
-  add_in_block(own, of_block, *sums);
+  add_in_block(own, inverse_sizes != nullptr, of_block, *sums);
 }
 
 /// The second pass: what the free vertices aim at, and the sums around fixed ones.
@@ -72,7 +90,8 @@ struct FinishFree {
   Rings rings;
   PointArray<T> points;
   const MeanRatioSums* sums;
-  MeanRatioOptions options;
+  double size_weight;
+  int power;
   T* areas;
   T* shares;
   MeanRatioScales<T>* scales;
@@ -80,7 +99,7 @@ struct FinishFree {
 
   __device__ void operator()(std::uint32_t i) const {
     const auto v = static_cast<std::int32_t>(i);
-    const MeanRatioMesh mesh = MeanRatioMesh::of(*sums, options.size_weight, options.power);
+    const MeanRatioMesh mesh = MeanRatioMesh::of(*sums, size_weight, power);
     for_fixed_corners(points.load(v), ring_in_memory(points, rings, v), rings.size,
                       [&](std::int32_t u, double area, std::uint64_t times) {
                         FixedVertexArea& around = fixed[u - rings.size];
@@ -90,21 +109,82 @@ struct FinishFree {
     shares[v] = growth_bound(shares[v], areas[v], mesh);
     areas[v] = inverse_target_area(areas[v], mesh);
     if (v == 0) {
-      *scales = {static_cast<T>(mesh.size_weight), mesh.power};
+      *scales = scales_of<T>(mesh);
     }
   }
+};
+
+/// The second pass where sizes are asked for, over all vertices.
+template <class T>
+struct AimAtSizes {
+  std::int32_t free_count;
+  const MeanRatioSums* sums;
+  double size_weight;
+  int power;
+  const T* inverse_sizes;
+  T* areas;
+  T* shares;
+  MeanRatioScales<T>* scales;
+
+  __device__ void operator()(std::uint32_t i) const {
+    const auto v = static_cast<std::int32_t>(i);
+    const MeanRatioMesh mesh = MeanRatioMesh::of(*sums, size_weight, power, true);
+    areas[v] = inverse_asked_area(inverse_sizes[v], mesh);
+    if (v < free_count) {
+      shares[v] = growth_bound(shares[v], T(1) / areas[v], mesh);
+    }
+    if (v == 0) {
+      *scales = scales_of<T>(mesh);
+    }
+  }
+};
+
+/// The edges around a free vertex, and then their means over its neighbourhood.
+template <class T, class Rings>
+struct FindEdges {
+  Rings rings;
+  PointArray<T> points;
+  EdgeTensor<T>* around;
+
+  __device__ void operator()(std::uint32_t i) const {
+    const auto v = static_cast<std::int32_t>(i);
+    around[v] = edges_around(points.load(v), ring_in_memory(points, rings, v));
+  }
+};
+template <class T, class Rings>
+struct AverageEdges {
+  Rings rings;
+  PointArray<T> points;
+  const EdgeTensor<T>* around;
+  EdgeTensor<T>* edges;
+
+  __device__ void operator()(std::uint32_t i) const {
+    const auto v = static_cast<std::int32_t>(i);
+    edges[v] = edges_nearby(v, around, ring_in_memory(points, rings, v));
+  }
+};
+
+/// inverse_sizes[v] = the size of packed vertex v.
+template <class T>
+struct PackSizes {
+  const double* of_input;
+  const std::int32_t* input_index;
+  T* inverse_sizes;
+
+  __device__ void operator()(std::uint32_t v) const { inverse_sizes[v] = static_cast<T>(of_input[input_index[v]]); }
 };
 
 /// The last pass, over the fixed vertices; `areas` are theirs.
 template <class T>
 struct FinishFixed {
   const MeanRatioSums* sums;
-  MeanRatioOptions options;
+  double size_weight;
+  int power;
   const FixedVertexArea* fixed;
   T* areas;
 
   __device__ void operator()(std::uint32_t i) const {
-    const MeanRatioMesh mesh = MeanRatioMesh::of(*sums, options.size_weight, options.power);
+    const MeanRatioMesh mesh = MeanRatioMesh::of(*sums, size_weight, power);
     areas[i] = inverse_target_area(static_cast<T>(fixed[i].mean()), mesh);
   }
 };
@@ -114,7 +194,7 @@ struct FinishFixed {
 template <class T>
 DeviceTargets<T>::DeviceTargets(Context& context, std::int32_t vertex_count, std::int32_t free_count,
                                 const SmoothingOptions& options)
-    : context_(&context), options_(options.mean_ratio) {
+    : context_(&context), size_weight_(options.mean_ratio.size_weight), power_(options.mean_ratio.power) {
   if (options.method != Method::mean_ratio) {
     return;
   }
@@ -122,9 +202,17 @@ DeviceTargets<T>::DeviceTargets(Context& context, std::int32_t vertex_count, std
   largest_shares_ = DeviceBuffer<T>(context, static_cast<std::size_t>(free_count));
   scales_ = DeviceBuffer<MeanRatioScales<T>>(context, 1);
   sums_ = DeviceBuffer<MeanRatioSums>(context, 1);
-  fixed_ = DeviceBuffer<FixedVertexArea>(context, static_cast<std::size_t>(vertex_count - free_count));
-  if (options_.target == TargetShape::input) {
-    reference_ = DeviceBuffer<PointRecord<T>>(context, static_cast<std::size_t>(vertex_count));
+  if (options.aims_at_sizes()) {
+    inverse_sizes_ = DeviceBuffer<T>(context, static_cast<std::size_t>(vertex_count));
+  } else {
+    fixed_ = DeviceBuffer<FixedVertexArea>(context, static_cast<std::size_t>(vertex_count - free_count));
+  }
+  if (options.mean_ratio.target == TargetShape::input) {
+    around_ = DeviceBuffer<EdgeTensor<T>>(context, static_cast<std::size_t>(vertex_count));
+    edges_ = DeviceBuffer<EdgeTensor<T>>(context, static_cast<std::size_t>(vertex_count));
+    // Those of fixed vertices stay zeros.
+    around_.fill_bytes(0);
+    edges_.fill_bytes(0);
   }
 }
 
@@ -136,9 +224,19 @@ std::size_t DeviceTargets<T>::bytes(std::int64_t vertex_count, std::int64_t free
   }
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const auto free_vertices = static_cast<std::size_t>(free_count);
-  const std::size_t reference =
-      options.mean_ratio.target == TargetShape::input ? vertices * sizeof(PointRecord<T>) : std::size_t{0};
-  return (vertices + free_vertices) * sizeof(T) + (vertices - free_vertices) * sizeof(FixedVertexArea) + reference;
+  const std::size_t edges =
+      options.mean_ratio.target == TargetShape::input ? 2 * vertices * sizeof(EdgeTensor<T>) : std::size_t{0};
+  // Sizes that are asked for are there as the host has them, too, until they are packed.
+  const std::size_t sizes = options.aims_at_sizes() ? vertices * (sizeof(T) + sizeof(double))
+                                                    : (vertices - free_vertices) * sizeof(FixedVertexArea);
+  return (vertices + free_vertices) * sizeof(T) + sizes + edges;
+}
+
+template <class T>
+void DeviceTargets<T>::set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
+  const DeviceBuffer<double> of_input(*context_, inverse_sizes);
+  for_each(*context_, static_cast<std::uint32_t>(inverse_sizes_.size()),
+           PackSizes<T>{of_input.data(), order.input_index.data(), inverse_sizes_.data()});
 }
 
 template <class T>
@@ -149,21 +247,28 @@ void DeviceTargets<T>::find(const Rings& rings, const PointArray<T>& points) {
   }
   sums_.fill_bytes(0);
   fixed_.fill_bytes(0);
+  const T* const sizes = inverse_sizes_.data();
   T* const areas = inverse_areas_.data();
   T* const shares = largest_shares_.data();
   const MeanRatioSums* const sums = sums_.data();
   FixedVertexArea* const fixed = fixed_.data();
   const auto kernel = &measure<T, Rings>;
   kernel<<<std::min(blocks_for(rings.size), most_blocks), block_size, 0, context_->stream()>>>(
-      rings, points, areas, shares, sums_.data(), fixed);
+      rings, points, sizes, areas, shares, sums_.data(), fixed);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-  for_each(*context_, static_cast<std::uint32_t>(rings.size),
-           FinishFree<T, Rings>{rings, points, sums, options_, areas, shares, scales_.data(), fixed});
-  for_each(*context_, static_cast<std::uint32_t>(fixed_.size()),
-           FinishFixed<T>{sums, options_, fixed, areas + rings.size});
-  if (reference_.size() > 0) {
-    TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(reference_.data(), points.points, reference_.size() * sizeof(PointRecord<T>),
-                                         cudaMemcpyDeviceToDevice, context_->stream()));
+  if (sizes != nullptr) {
+    for_each(*context_, static_cast<std::uint32_t>(inverse_sizes_.size()),
+             AimAtSizes<T>{rings.size, sums, size_weight_, power_, sizes, areas, shares, scales_.data()});
+  } else {
+    for_each(*context_, static_cast<std::uint32_t>(rings.size),
+             FinishFree<T, Rings>{rings, points, sums, size_weight_, power_, areas, shares, scales_.data(), fixed});
+    for_each(*context_, static_cast<std::uint32_t>(fixed_.size()),
+             FinishFixed<T>{sums, size_weight_, power_, fixed, areas + rings.size});
+  }
+  if (edges_.size() > 0) {
+    for_each(*context_, static_cast<std::uint32_t>(rings.size), FindEdges<T, Rings>{rings, points, around_.data()});
+    for_each(*context_, static_cast<std::uint32_t>(rings.size),
+             AverageEdges<T, Rings>{rings, points, around_.data(), edges_.data()});
   }
 }
 

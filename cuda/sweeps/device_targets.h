@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
@@ -20,25 +22,30 @@ class DeviceTargets {
   /// The device memory that it takes.
   static std::size_t bytes(std::int64_t vertex_count, std::int64_t free_count, const SmoothingOptions& options);
 
+  /// The sizes that are asked for, as HostTargets takes them: before find(), where the options say that they are.
+  void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes);
+
   /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`: RingsView
   /// or SlottedRingsView.
   template <class Rings>
   void find(const Rings& rings, const PointArray<T>& points);
 
   MeanRatioTargets<T> view() const {
-    return {inverse_areas_.data(), largest_shares_.data(), scales_.data(),
-            reference_.size() > 0 ? &reference_.data()->x : nullptr};
+    return {inverse_areas_.data(), largest_shares_.data(), scales_.data(), edges_.data()};
   }
 
  private:
   Context* context_;
-  MeanRatioOptions options_;
+  double size_weight_;
+  int power_;
   DeviceBuffer<T> inverse_areas_;   ///< one a vertex
   DeviceBuffer<T> largest_shares_;  ///< one a free vertex
   DeviceBuffer<MeanRatioScales<T>> scales_;
   DeviceBuffer<MeanRatioSums> sums_;
-  DeviceBuffer<FixedVertexArea> fixed_;  ///< one a fixed vertex
-  DeviceBuffer<PointRecord<T>> reference_;
+  DeviceBuffer<FixedVertexArea> fixed_;  ///< one a fixed vertex, where no sizes are asked for
+  DeviceBuffer<T> inverse_sizes_;        ///< one a vertex, where they are
+  DeviceBuffer<EdgeTensor<T>> around_;   ///< edges around each vertex, where shapes are to be kept
+  DeviceBuffer<EdgeTensor<T>> edges_;    ///< MeanRatioTargets::edges, likewise
 };
 
 }  // namespace trismooth::cuda

@@ -55,11 +55,17 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
       ->group(group);
 }
 
-void add_mean_ratio_options(CLI::App& command, MeanRatioOptions& options) {
+void add_mean_ratio_options(CLI::App& command, PipelineOptions& pipeline) {
+  MeanRatioOptions& options = pipeline.smoothing.mean_ratio;
   const char* const group = "Method mean-ratio";
   add_parsed_option(command, "--size-weight", "X",
                     "How much the sizes of triangles count beside their shapes; 0: not at all [1]",
                     [&options](const std::string& text) { options.size_weight = parse_finite(text); })
+      ->group(group);
+  add_parsed_option(command, "--size-array", "NAME",
+                    "Array of the sizes to aim at, in place of those that triangles have: edge lengths at points, or "
+                    "areas of cells; only their relations count [none]",
+                    [&pipeline](const std::string& text) { pipeline.size_array = text; })
       ->group(group);
   add_parsed_option(
       command, "--power", "P",
@@ -68,7 +74,7 @@ void add_mean_ratio_options(CLI::App& command, MeanRatioOptions& options) {
       [&options](const std::string& text) { options.power = static_cast<int>(parse_integer(text, 1, 8)); })
       ->group(group);
   add_enum_option(command, "--target", options.target,
-                  "Shapes to aim at; input-shape: each triangle keeps its own, for layers that are flat on purpose")
+                  "Shapes to aim at; input-shape: as flat as the edges nearby are, for layers that are flat on purpose")
       ->group(group);
 }
 
@@ -137,7 +143,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
                     [&options](const std::string& text) { options.output = text; })
       ->required();
   add_algorithm_options(command, *settings);
-  add_mean_ratio_options(command, options.smoothing.mean_ratio);
+  add_mean_ratio_options(command, options);
   add_stop_options(command, options.smoothing);
   add_mesh_options(command, settings->run);
   add_device_options(command, *settings);

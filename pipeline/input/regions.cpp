@@ -78,9 +78,9 @@ class RegionFinder {
     return take();
   }
 
-  Regions by_document() {
+  Regions by_document(std::string_view sizes) {
     for (const Candidate& candidate : candidates_) {
-      if (!is_annotation(candidate.array.name)) {
+      if (!is_annotation(candidate.array.name) && (sizes.empty() || candidate.array.name != sizes)) {
         judge(candidate);
       }
     }
@@ -217,7 +217,8 @@ class RegionFinder {
 
 }  // namespace
 
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names) {
+Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names,
+                     std::string_view sizes) {
   if (std::ranges::find(names, no_region_arrays) != names.end()) {
     if (names.size() > 1) {
       throw std::invalid_argument("--region-array none switches regions off; it cannot be given with other arrays");
@@ -225,7 +226,7 @@ Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::
     return {};
   }
   RegionFinder finder(document, mesh);
-  return names.empty() ? finder.by_document() : finder.by_names(names);
+  return names.empty() ? finder.by_document(sizes) : finder.by_names(names);
 }
 
 }  // namespace trismooth

@@ -25,8 +25,8 @@ struct Regions {
 /// In place of names of arrays: no array gives regions.
 inline constexpr std::string_view no_region_arrays = "none";
 
-/// The regions by the cell arrays `names`, or, where that is empty, by those that the document has. `names` may be
-/// no_region_arrays alone.
+/// The regions by the cell arrays `names`, or, where that is empty, by those that the document has, but for `sizes`,
+/// which the user wants for another purpose. `names` may be no_region_arrays alone.
 ///
 /// Of the document's arrays every one of one component and two values or more counts that
 /// - has a name under which programs write regions (region_names.h) and changes across at most half of the inner edges,
@@ -37,6 +37,7 @@ inline constexpr std::string_view no_region_arrays = "none";
 ///
 /// Throws std::invalid_argument where `names` names no cell array of the document, or one of several components; the
 /// message lists those there are. Complexity: linear, and n log n where values change from triangle to triangle.
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names = {});
+Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names = {},
+                     std::string_view sizes = {});
 
 }  // namespace trismooth

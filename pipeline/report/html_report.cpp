@@ -144,6 +144,13 @@ std::string cards(const PipelineResult& result) {
   if (result.size_change && result.size_change->triangles > 0) {
     html += size_card(*result.size_change);
   }
+  if (result.size_fit_before && result.size_fit_after) {
+    html += card("Sizes off those asked for",
+                 change(result, fmt::format("{:.3g}", result.size_fit_before->rms_log_ratio),
+                        fmt::format("{:.3g}", result.size_fit_after->rms_log_ratio)),
+                 "by array " + escape_html(input.size_array) +
+                     "; root mean square of the logarithm of the area by that asked for");
+  }
   html += card("Time", duration_text(result.timings_ms.total),
                result.smoothing ? duration_text(result.timings_ms.smooth) + " in sweeps" : "in all");
   return "<div class=\"cards\">\n" + html + "</div>\n";
@@ -276,6 +283,9 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
     rows.emplace_back("size weight", fmt::format("{}", mean_ratio.size_weight));
     rows.emplace_back("power", mean_ratio.power > 0 ? fmt::format("{}", mean_ratio.power) : "by the mean shape");
     rows.emplace_back("target", std::string(to_string(mean_ratio.target)));
+    if (options.size_array) {
+      rows.emplace_back("sizes by array", escape_html(*options.size_array));
+    }
   }
   if (options.fixed_array) {
     rows.emplace_back("fixed by array", escape_html(*options.fixed_array));

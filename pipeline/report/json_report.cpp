@@ -98,6 +98,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"size_weight", is_mean_ratio ? number_json(mean_ratio.size_weight) : Json(nullptr)},
           {"power", is_mean_ratio && mean_ratio.power > 0 ? Json(mean_ratio.power) : Json(nullptr)},
           {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
+          {"size_array", is_mean_ratio ? text_or_null(options.size_array) : Json(nullptr)},
           {"region_array", options.region_arrays.empty() ? Json(nullptr) : Json(options.region_arrays.front())},
           {"region_arrays", options.region_arrays},
           {"fixed_array", text_or_null(options.fixed_array)},
@@ -205,6 +206,17 @@ Json size_change_json(const SizeChange& change) {
           {"ratio_p99", number_json(change.ratio_p99)}};
 }
 
+Json size_fit_json(const PipelineResult& result) {
+  if (!result.size_fit_before || !result.size_fit_after) {
+    return nullptr;
+  }
+  const auto side = [](const SizeFit& fit) {
+    return Json{
+        {"triangles", fit.triangles}, {"left_out", fit.left_out}, {"rms_log_ratio", number_json(fit.rms_log_ratio)}};
+  };
+  return {{"before", side(*result.size_fit_before)}, {"after", side(*result.size_fit_after)}};
+}
+
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
@@ -226,6 +238,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"before", quality_json(result.before, result.region_names, result.regions_before)},
       {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
       {"size_change", result.size_change ? size_change_json(*result.size_change) : Json(nullptr)},
+      {"size_fit", size_fit_json(result)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

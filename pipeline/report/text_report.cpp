@@ -132,6 +132,16 @@ std::string sizes_line(const PipelineResult& result) {
   return labelled_line("sizes:", text);
 }
 
+/// How far sizes are from those asked for; nothing where none are, or no vertex moved.
+std::string size_fit_line(const PipelineResult& result) {
+  if (!result.size_fit_before || !result.size_fit_after || result.smoothing->moved_vertices == 0) {
+    return {};
+  }
+  return labelled_line(
+      "", fmt::format("off those of the array '{}': rms ln(A/A*) {:.3g} before, {:.3g} now", result.input.size_array,
+                      result.size_fit_before->rms_log_ratio, result.size_fit_after->rms_log_ratio));
+}
+
 std::string inverted_line(const PipelineResult& result) {
   const std::int64_t before = result.before.inverted;
   const std::int64_t now = result.after ? result.after->inverted : before;
@@ -213,6 +223,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += method_lines(options.smoothing, result, detail);
     text += result_lines(result, detail);
     text += sizes_line(result);
+    text += size_fit_line(result);
   }
   const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
   text += '\n' +

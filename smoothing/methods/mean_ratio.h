@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "trismooth/smoothing/methods/mean_ratio_energy.h"
@@ -14,6 +15,8 @@ template <class T>
 struct MeanRatioScales {
   T size_weight = 0;  ///< lambda / 3
   int power = 2;      ///< of the inverse mean ratio, in the last stage
+  /// No move may leave a triangle with a shape quotient as small as this.
+  T least_quotient = 0;
 };
 
 /// What it knows of the mesh as it was before the first sweep (see mean_ratio_targets.h), by packed vertex. Somebody
@@ -25,8 +28,9 @@ struct MeanRatioTargets {
   /// The growth bound: the largest share_of_error() that a move may give a triangle around a free vertex.
   const T* largest_shares = nullptr;
   const MeanRatioScales<T>* scales = nullptr;
-  /// x and y of every vertex where triangles have the shapes to be aimed at; null: all are equilateral.
-  const T* reference = nullptr;
+  /// The sum over the edges around every vertex, whose shape is to be kept; all zeros where nothing is known of it.
+  /// Null: equilateral.
+  const EdgeTensor<T>* edges = nullptr;
 };
 
 /// What the method does in a stage of the smoothing.
@@ -46,8 +50,8 @@ struct MeanRatioStep {
 /// smaller, every triangle positive, and none has grown beyond the growth bound. Where a triangle of the ring is
 /// inverted or degenerate there is no energy; the smart Laplacian rule moves the vertex then.
 ///
-/// Only + - * / in a fixed order: the same bits everywhere. `shaped`: with reference shapes, else alpha is the shape.
-/// `is_last`: in the last stage; before, the power is 1.
+/// Only + - * / and square roots in a fixed order: the same bits everywhere. `shaped`: with a metric of its own for
+/// each triangle, else alpha is the shape. `is_last`: in the last stage; before, the power is 1.
 template <class T, bool shaped, bool is_last>
 class MeanRatio {
  public:
@@ -64,7 +68,8 @@ class MeanRatio {
   constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> vertex_move(std::int32_t v, Point2<T> position,
                                                             const Ring& ring) const {
     const MeanRatioScales<T> scales = *targets_.scales;
-    const MeanRatioEnergy<T, is_last ? 0 : 1> energy{is_last ? scales.power : 1, scales.size_weight};
+    const MeanRatioEnergy<T, is_last ? 0 : 1> energy{is_last ? scales.power : 1, scales.size_weight,
+                                                     scales.least_quotient};
     const T own = targets_.inverse_areas[v];
     const T largest = targets_.largest_shares[v];
     const auto sides = sides_of(
@@ -73,7 +78,7 @@ class MeanRatio {
 
     const auto at =
         sides.template totals<T, 7>([&](const auto& of) { return energy.expansion(triangle_of(position, of)); });
-    if (!(at.smallest_area > T(0))) {
+    if (!(at.smallest_margin > T(0))) {
       return with_squares(SmartLaplacian::update(position, ring), position, ring);
     }
     const auto [value, x, y, xx, xy, yy, squares] = at.sums;
@@ -90,7 +95,7 @@ class MeanRatio {
       const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
       const auto after =
           sides.template totals<T, 1>([&](const auto& of) { return energy.value(triangle_of(target, of)); });
-      if (after.smallest_area > T(0) && after.sums[0] < value &&
+      if (after.smallest_margin > T(0) && after.sums[0] < value &&
           !(after.largest_share > largest && grows_beyond(largest, position, target, ring))) {
         return {move_to(position, target), squares};
       }
@@ -123,27 +128,23 @@ class MeanRatio {
     RingSide<T, shaped> result{
         from.position, to.position, T(1) / T(3) * (own + from.inverse_area + to.inverse_area), {}};
     if constexpr (shaped) {
-      result.weights = reference_weights(v, from.number, to.number);
+      result.metric = metric(v, from.number, to.number);
     }
     return result;
   }
 
-  constexpr TRISMOOTH_HOST_DEVICE Point2<T> reference(std::int32_t v) const {
-    const T* const xy = targets_.reference + 2 * static_cast<std::int64_t>(v);
-    return {xy[0], xy[1]};
-  }
-  /// 1 where the reference triangle is inverted or degenerate.
-  constexpr TRISMOOTH_HOST_DEVICE EdgeWeights<T> reference_weights(std::int32_t v, std::int32_t na,
-                                                                   std::int32_t nb) const {
-    const Point2<T> a = reference(na) - reference(v);
-    const Point2<T> b = reference(nb) - reference(v);
-    const Point2<T> c = b - a;
-    const T area = cross(a, b);
-    if (!(area > T(0))) {
-      return {1, 1, 1};
+  /// The metric to be aimed at in a triangle, of determinant 1: that of the edges around its free corners; Euclid's
+  /// where nothing is known of these.
+  constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> metric(std::int32_t v, std::int32_t na, std::int32_t nb) const {
+    EdgeTensor<T> edges = targets_.edges[v];
+    edges.add(targets_.edges[na]);
+    edges.add(targets_.edges[nb]);
+    const T determinant = edges.xx * edges.yy - edges.xy * edges.xy;
+    if (!(determinant > T(0))) {
+      return {T(1), T(0), T(1)};
     }
-    const T scale = T(shape_constant / 2) / area;
-    return {scale * (b.x * c.x + b.y * c.y), scale * -(a.x * c.x + a.y * c.y), scale * (a.x * b.x + a.y * b.y)};
+    const T scale = T(1) / std::sqrt(determinant);
+    return {scale * edges.yy, -scale * edges.xy, scale * edges.xx};
   }
 
   /// Whether a triangle whose share is above the bound would get a larger one than it has.

@@ -16,26 +16,44 @@ constexpr TRISMOOTH_HOST_DEVICE V share_of_error(V doubled_area, V squares) {
   return doubled_area * squares;
 }
 
-/// The weights of a triangle's squared edges in the mean ratio to a reference triangle, whose cotangents they are
-/// (times sqrt(3), so that they are 1 where it is equilateral).
+/// A symmetric tensor. The sum of e e^T over edges e says how long these are, and in which direction: a triangle is as
+/// flat as they are, and lies as they do, where it is equilateral in the metric that is the inverse of that sum.
 template <class V>
-struct EdgeWeights {
-  V a;
-  V b;
-  V c;
+struct EdgeTensor {
+  V xx = {};
+  V xy = {};
+  V yy = {};
+
+  constexpr TRISMOOTH_HOST_DEVICE void add(const EdgeTensor& other) {
+    xx += other.xx;
+    xy += other.xy;
+    yy += other.yy;
+  }
+  constexpr TRISMOOTH_HOST_DEVICE void add(Point2<V> edge) {
+    xx += edge.x * edge.x;
+    xy += edge.x * edge.y;
+    yy += edge.y * edge.y;
+  }
 };
 
-/// Where all shapes aimed at are equilateral.
+/// The squared length of e where the tensor is the metric.
 template <class V>
-struct NoEdgeWeights {};
+constexpr TRISMOOTH_HOST_DEVICE V squared_length_in(const EdgeTensor<V>& metric, Point2<V> e) {
+  return (metric.xx * (e.x * e.x) + metric.yy * (e.y * e.y)) + (metric.xy + metric.xy) * (e.x * e.y);
+}
 
-/// One side of a ring, and so one triangle of its vertex: what does not change where the vertex moves.
+/// The metric where shapes aimed at are equilateral.
+template <class V>
+struct EuclideanMetric {};
+
+/// One side of a ring, and so one triangle of its vertex: what does not change where the vertex moves. `shaped`: the
+/// shape that is aimed at is not equilateral.
 template <class V, bool shaped>
 struct RingSide {
   Point2<V> from;
   Point2<V> to;
-  V inverse_area;  ///< 1 / (twice the area that is aimed at)
-  std::conditional_t<shaped, EdgeWeights<V>, NoEdgeWeights<V>> weights;
+  V inverse_area;                                                        ///< 1 / (twice the area that is aimed at)
+  std::conditional_t<shaped, EdgeTensor<V>, EuclideanMetric<V>> metric;  ///< in which shapes count, of determinant 1
 
   template <class Other>
   using With = RingSide<Other, shaped>;
@@ -48,51 +66,54 @@ struct RingSide {
                     join([&](int i) { return sides(i).inverse_area; }),
                     {}};
     if constexpr (shaped) {
-      result.weights = {join([&](int i) { return sides(i).weights.a; }),
-                        join([&](int i) { return sides(i).weights.b; }),
-                        join([&](int i) { return sides(i).weights.c; })};
+      result.metric = {join([&](int i) { return sides(i).metric.xx; }), join([&](int i) { return sides(i).metric.xy; }),
+                       join([&](int i) { return sides(i).metric.yy; })};
     }
     return result;
   }
 };
 
 /// The triangle of a side, seen from the vertex.
-template <class V>
+template <class V, bool shaped>
 struct SideTriangle {
   Point2<V> c;  ///< the side
   V doubled_area;
-  V squares;  ///< of the edges, weighted by the shape that is aimed at
-  V pull_x;   ///< of the vertex on that sum: minus half its derivative
+  V squares;    ///< the sum of the squared edge lengths
+  V in_metric;  ///< the same in the metric of the side
+  V pull_x;     ///< of the vertex on that: minus half its derivative
   V pull_y;
-  V stiffness;  ///< half its second derivative
-  V share;      ///< share_of_error()
-  V inverse_area;
-  V spoke;  ///< the squared distance to the first end of the side
+  EdgeTensor<V> stiffness;  ///< half its second derivative
+  V inverse_area;           ///< of the side
+  V spoke;                  ///< the squared distance to the first end of the side
+
+  constexpr TRISMOOTH_HOST_DEVICE V share() const { return share_of_error(doubled_area, squares); }
 };
 
 /// That of a vertex at `position`.
 template <class T, class V, bool shaped>
-constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V> triangle_of(Point2<T> position, const RingSide<V, shaped>& side) {
+constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, shaped> triangle_of(Point2<T> position,
+                                                                    const RingSide<V, shaped>& side) {
   const Point2<V> a{side.from.x - position.x, side.from.y - position.y};
   const Point2<V> b{side.to.x - position.x, side.to.y - position.y};
   const Point2<V> c = side.to - side.from;
+  const Point2<V> pull{a.x + b.x, a.y + b.y};
   const V area = cross(a, b);
   const V spoke = squared_length(a);
   const V squares = spoke + squared_length(b) + squared_length(c);
-  const V share = share_of_error(area, squares);
   if constexpr (shaped) {
-    const EdgeWeights<V>& w = side.weights;
+    const EdgeTensor<V>& metric = side.metric;
     return {c,
             area,
-            w.a * spoke + w.b * squared_length(b) + w.c * squared_length(c),
-            w.a * a.x + w.b * b.x,
-            w.a * a.y + w.b * b.y,
-            w.a + w.b,
-            share,
+            squares,
+            squared_length_in(metric, a) + squared_length_in(metric, b) + squared_length_in(metric, c),
+            metric.xx * pull.x + metric.xy * pull.y,
+            metric.xy * pull.x + metric.yy * pull.y,
+            {metric.xx + metric.xx, metric.xy + metric.xy, metric.yy + metric.yy},
             side.inverse_area,
             spoke};
   } else {
-    return {c, area, squares, a.x + b.x, a.y + b.y, V{} + T(2), share, side.inverse_area, spoke};
+    const V two = V{} + T(2);
+    return {c, area, squares, squares, pull.x, pull.y, {two, V{}, two}, side.inverse_area, spoke};
   }
 }
 
@@ -105,17 +126,19 @@ template <class T, int fixed_power>
 struct MeanRatioEnergy {
   int power;      ///< p
   T size_weight;  ///< lambda / 3
+  /// A triangle whose shape quotient is as small as this is as bad as one that is inverted.
+  T least_quotient;
 
   /// The energy.
-  template <class V>
-  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideTriangle<V>& t) const {
+  template <class V, bool shaped>
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideTriangle<V, shaped>& t) const {
     const Terms<V> terms(t);
-    return {{of(terms, power_below(terms.ratio))}, t.doubled_area, t.share};
+    return {{of(terms, power_below(terms.ratio))}, t.doubled_area - least_quotient * t.squares, t.share()};
   }
 
   /// The energy, the derivatives x, y, xx, xy, yy of it divided by p, and the triangle's spoke.
-  template <class V>
-  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 7> expansion(const SideTriangle<V>& t) const {
+  template <class V, bool shaped>
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 7> expansion(const SideTriangle<V, shaped>& t) const {
     const Terms<V> terms(t);
     // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
     const V area_x = -t.c.y * terms.inverse;
@@ -123,32 +146,34 @@ struct MeanRatioEnergy {
     const V scale = T(2 / shape_constant) * terms.inverse;
     const V ratio_x = -scale * t.pull_x - terms.ratio * area_x;
     const V ratio_y = -scale * t.pull_y - terms.ratio * area_y;
-    const V curvature = scale * t.stiffness;
     const V size_first = size_weight * (terms.tau - terms.inverse_tau);
     const V size_second = T(2) * size_weight * terms.inverse_tau;
-    // The second derivatives of 1 / alpha less the curvature, and of lambda / 3 (tau + 1 / tau). Products of x and y
-    // first: a mesh turned by a right angle has the same bits.
-    const V ratio_xx = T(-2) * (ratio_x * area_x);
-    const V ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
-    const V ratio_yy = T(-2) * (ratio_y * area_y);
+    // Their second derivatives, and those of lambda / 3 (tau + 1 / tau). Products of x and y first: a mesh turned by a
+    // right angle has the same bits.
+    const V ratio_xx = scale * t.stiffness.xx - T(2) * (ratio_x * area_x);
+    const V ratio_yy = scale * t.stiffness.yy - T(2) * (ratio_y * area_y);
+    V ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
+    if constexpr (shaped) {
+      ratio_xy += scale * t.stiffness.xy;
+    }
     const V size_xx = size_second * (area_x * area_x);
     const V size_xy = size_second * (area_x * area_y);
     const V size_yy = size_second * (area_y * area_y);
     if constexpr (fixed_power == 1) {
       return {{of(terms, power_below(terms.ratio)), ratio_x + size_first * area_x, ratio_y + size_first * area_y,
-               curvature + ratio_xx + size_xx, ratio_xy + size_xy, curvature + ratio_yy + size_yy, t.spoke},
+               ratio_xx + size_xx, ratio_xy + size_xy, ratio_yy + size_yy, t.spoke},
               t.doubled_area,
-              t.share};
+              t.share()};
     } else {
       const Power<V> below = power_below(terms.ratio);
       const V first = below.value;
       const V second = below.slope;
       return {{of(terms, below), first * ratio_x + size_first * area_x, first * ratio_y + size_first * area_y,
-               first * (curvature + ratio_xx) + second * (ratio_x * ratio_x) + size_xx,
+               first * ratio_xx + second * (ratio_x * ratio_x) + size_xx,
                first * ratio_xy + second * (ratio_x * ratio_y) + size_xy,
-               first * (curvature + ratio_yy) + second * (ratio_y * ratio_y) + size_yy, t.spoke},
+               first * ratio_yy + second * (ratio_y * ratio_y) + size_yy, t.spoke},
               t.doubled_area,
-              t.share};
+              t.share()};
     }
   }
 
@@ -160,11 +185,12 @@ struct MeanRatioEnergy {
     V inverse;  ///< 1 / (twice the area)
     V ratio;    ///< 1 / alpha
 
-    constexpr TRISMOOTH_HOST_DEVICE explicit Terms(const SideTriangle<V>& t)
+    template <bool shaped>
+    constexpr TRISMOOTH_HOST_DEVICE explicit Terms(const SideTriangle<V, shaped>& t)
         : tau(t.doubled_area * t.inverse_area),
           inverse_tau(T(1) / tau),  // the only division
           inverse(inverse_tau * t.inverse_area),
-          ratio(T(1 / shape_constant) * t.squares * inverse) {}
+          ratio(T(1 / shape_constant) * t.in_metric * inverse) {}
   };
 
   /// ratio^(power - 1) and its derivative by the ratio.

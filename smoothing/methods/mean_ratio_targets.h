@@ -21,12 +21,40 @@ struct MeanRatioSums {
   std::uint64_t areas;      ///< doubled, of those that are positive
   std::uint64_t quotients;  ///< shape quotients, of those that are positive
   std::uint64_t count;
+  /// Areas asked for (see relative_sizes.h), in two parts, where sizes are.
+  std::uint64_t sizes;
+  std::uint64_t size_remainders;
+  std::uint64_t
+      worst_quotient;  ///< the smallest there, where sizes are asked for: as key_of(), which grows as it falls
 
   constexpr TRISMOOTH_HOST_DEVICE void add(const MeanRatioSums& other) {
     areas += other.areas;
     quotients += other.quotients;
     count += other.count;
+    sizes += other.sizes;
+    size_remainders += other.size_remainders;
+    worst_quotient = worst_quotient > other.worst_quotient ? worst_quotient : other.worst_quotient;
   }
+  static constexpr TRISMOOTH_HOST_DEVICE std::uint64_t key_of(double quotient) {
+    return ~std::bit_cast<std::uint64_t>(quotient > 0 ? quotient : 0.0);
+  }
+  constexpr TRISMOOTH_HOST_DEVICE double least_quotient() const { return std::bit_cast<double>(~worst_quotient); }
+
+  /// Adds an area asked for, which is above 0 and at most 4.
+  constexpr TRISMOOTH_HOST_DEVICE void add_size(double area) {
+    const double units = area * (1 / size_unit);
+    const auto whole = static_cast<std::uint64_t>(units);
+    sizes += whole;
+    size_remainders += static_cast<std::uint64_t>((units - static_cast<double>(whole)) * (1 / remainder_unit));
+  }
+  constexpr TRISMOOTH_HOST_DEVICE double sum_of_sizes() const {
+    return (static_cast<double>(sizes) + static_cast<double>(size_remainders) * remainder_unit) * size_unit;
+  }
+
+ private:
+  /// There are up to 2^31 corners: sums of that many do not overflow.
+  static constexpr double size_unit = 0x1p-30;
+  static constexpr double remainder_unit = 0x1p-32;  ///< of a unit
 };
 
 /// What one vertex adds to the sums, and what it keeps: twice the mean area of its triangles (0 where none is positive)
@@ -64,27 +92,92 @@ constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T
   return result;
 }
 
+/// The edges of the triangles around a free vertex, each as often as it is in one, in the mesh as it is before the
+/// first sweep. Triangles that are not positive do not count.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> edges_around(Point2<T> position, const Ring& ring) {
+  EdgeTensor<T> edges;
+  Point2<T> last = ring[ring.size() - 1] - position;
+  for (int i = 0; i < ring.size(); ++i) {
+    const Point2<T> next = ring[i] - position;
+    if (cross(last, next) > T(0)) {
+      edges.add(last);
+      edges.add(next);
+      edges.add(next - last);
+    }
+    last = next;
+  }
+  return edges;
+}
+
+/// The mean of these over a free vertex and its neighbours, but for a factor. Those of fixed vertices are zeros.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> edges_nearby(std::int32_t v, const EdgeTensor<T>* around,
+                                                           const Ring& ring) {
+  EdgeTensor<T> edges = around[v];
+  for (int i = 0; i < ring.size(); ++i) {
+    edges.add(around[ring.number(i)]);
+  }
+  return edges;
+}
+
+/// What one vertex adds to the sums beside that, where sizes are asked for. `inverse_sizes`: see relative_sizes.h, by
+/// packed vertex.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE void add_sizes(std::int32_t v, Point2<T> position, const T* inverse_sizes,
+                                               const Ring& ring, MeanRatioSums& sums) {
+  const T own = inverse_sizes[v];
+  T last = inverse_sizes[ring.number(ring.size() - 1)];
+  for (int i = 0; i < ring.size(); ++i) {
+    const T next = inverse_sizes[ring.number(i)];
+    sums.add_size(static_cast<double>(T(3) / (own + last + next)));
+    last = next;
+  }
+  const std::uint64_t worst = MeanRatioSums::key_of(static_cast<double>(worst_quotient(position, ring)));
+  sums.worst_quotient = sums.worst_quotient > worst ? sums.worst_quotient : worst;
+}
+
 /// What all vertices have in common.
 struct MeanRatioMesh {
   double mean_area;    ///< doubled
   double size_weight;  ///< MeanRatioScales::size_weight
   int power;           ///< MeanRatioScales::power
   double allowance;    ///< a triangle may always become so many times as large as the mean of those around it
+  /// Sizes asked for, times this, are 1 / (twice the area): all triangles together have the area that there is.
+  double size_scale = 1;
+  double least_quotient = 0;  ///< MeanRatioScales::least_quotient
 
   /// How large triangles of a mesh are tells what its maker wanted, the more the better they are shaped; where they are
   /// distorted their areas are accidents. So the weight of the sizes goes with the fifth power of the mean shape, and
   /// what the growth bound allows with its inverse. A mesh of good triangles affords a higher power, which sees to the
   /// worst of them; where most are bad, it would make the others worse. (Found by experiment: docs/mean_ratio.md.)
-  static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight, int power) {
+  ///
+  /// Sizes that the user asks for are intended: they have their weight as it is, and the room that they need. For them
+  /// shapes may get worse, but none worse than the worst was, which the never-worse guard would take back.
+  static constexpr TRISMOOTH_HOST_DEVICE MeanRatioMesh of(const MeanRatioSums& sums, double size_weight, int power,
+                                                          bool has_sizes = false) {
     const double count = sums.count > 0 ? static_cast<double>(sums.count) : 1;
     const double mean_shape =
         shape_constant * (static_cast<double>(sums.quotients) * MeanRatioSums::quotient_unit / count);
     const double trust = (mean_shape * mean_shape) * (mean_shape * mean_shape) * mean_shape;
     const int usual_power = mean_shape >= 0.8 ? 3 : 2;
-    return {static_cast<double>(sums.areas) * MeanRatioSums::area_unit / count, size_weight * trust / 3,
-            power > 0 ? power : usual_power, 1.5 / trust};
+    const double areas = static_cast<double>(sums.areas) * MeanRatioSums::area_unit;
+    MeanRatioMesh mesh{areas / count, size_weight * trust / 3, power > 0 ? power : usual_power, 1.5 / trust};
+    if (has_sizes) {
+      constexpr double a_little_above = 1 + 0x1p-10;  // the guard rounds in another way
+      mesh.size_weight = size_weight / 3;
+      mesh.allowance = 8;
+      mesh.size_scale = sums.sum_of_sizes() / areas;
+      mesh.least_quotient = sums.count > 0 ? a_little_above * sums.least_quotient() : 0;
+    }
+    return mesh;
   }
 };
+
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE MeanRatioScales<T> scales_of(const MeanRatioMesh& mesh) {
+  return {static_cast<T>(mesh.size_weight), mesh.power, static_cast<T>(mesh.least_quotient)};
+}
 
 /// The growth bound of a vertex: the largest share of its triangles before, or that of an equilateral triangle that is
 /// MeanRatioMesh::allowance times as large as the mean around the vertex or in the mesh, where that is more.
@@ -101,6 +194,12 @@ constexpr TRISMOOTH_HOST_DEVICE T growth_bound(T largest_share, T mean_area, con
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T inverse_target_area(T mean_area, const MeanRatioMesh& mesh) {
   return T(1) / (mean_area > T(0) ? mean_area : static_cast<T>(mesh.mean_area));
+}
+
+/// The same where sizes are asked for.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T inverse_asked_area(T inverse_size, const MeanRatioMesh& mesh) {
+  return inverse_size * static_cast<T>(mesh.size_scale);
 }
 
 /// Twice the mean area of the triangles around a fixed vertex, which has no ring: the sum comes from its free

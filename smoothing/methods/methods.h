@@ -21,7 +21,7 @@ struct MethodInUse {
 /// visit_method() for mean-ratio.
 template <class T, class Function>
 decltype(auto) visit_mean_ratio(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step, Function&& function) {
-  if (targets.reference != nullptr) {
+  if (targets.edges != nullptr) {
     return step.is_last ? function(MeanRatio<T, true, true>(targets, step))
                         : function(MeanRatio<T, true, false>(targets, step));
   }

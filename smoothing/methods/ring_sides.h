@@ -12,15 +12,15 @@ namespace trismooth {
 template <class V, int count>
 struct SideTerms {
   V values[count];
-  V doubled_area;
-  V share;  ///< share_of_error()
+  V margin;  ///< positive where the triangle is as it may be
+  V share;   ///< share_of_error()
 };
 
 /// The same of all of them.
 template <class T, int count>
 struct SideTotals {
   T sums[count] = {};  ///< of the values, added in the order of the ring: the same bits whoever adds
-  T smallest_area = std::numeric_limits<T>::max();  ///< doubled
+  T smallest_margin = std::numeric_limits<T>::max();
   T largest_share = 0;
 
   constexpr TRISMOOTH_HOST_DEVICE void add(const SideTerms<T, count>& terms) {
@@ -31,7 +31,7 @@ struct SideTotals {
   }
   /// All but the sums.
   constexpr TRISMOOTH_HOST_DEVICE void add_extremes(const SideTerms<T, count>& terms) {
-    smallest_area = terms.doubled_area < smallest_area ? terms.doubled_area : smallest_area;
+    smallest_margin = terms.margin < smallest_margin ? terms.margin : smallest_margin;
     largest_share = terms.share > largest_share ? terms.share : largest_share;
   }
 };

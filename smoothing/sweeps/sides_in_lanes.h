@@ -48,13 +48,13 @@ class SidesInLanes {
   SideTotals<T, count> totals(const Term& term) const {
     using V = Lanes<T>;
     SideTotals<T, count> result;
-    V smallest = V{} + result.smallest_area;
+    V smallest = V{} + result.smallest_margin;
     V largest = V{};
     // The sums of two values side by side: they fill a register, too.
     std::array<V, (count + 1) / 2> pairs{};
     unrolled<groups>([&](auto group) {
       const SideTerms<V, count> terms = term(groups_[group]);
-      smallest = terms.doubled_area < smallest ? terms.doubled_area : smallest;
+      smallest = terms.margin < smallest ? terms.margin : smallest;
       largest = terms.share > largest ? terms.share : largest;
       unrolled<std::min(lanes, size - group * lanes)>([&](auto lane) {
         unrolled<(count + 1) / 2>([&](auto pair) {
@@ -66,7 +66,7 @@ class SidesInLanes {
     });
     unrolled<count>([&](auto i) { result.sums[i] = pairs[i / 2][i() % 2]; });
     unrolled<lanes>([&](auto lane) {
-      result.smallest_area = smallest[lane()] < result.smallest_area ? smallest[lane()] : result.smallest_area;
+      result.smallest_margin = smallest[lane()] < result.smallest_margin ? smallest[lane()] : result.smallest_margin;
       result.largest_share = largest[lane()] > result.largest_share ? largest[lane()] : result.largest_share;
     });
     return result;

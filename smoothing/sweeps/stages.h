@@ -15,15 +15,16 @@ namespace trismooth {
 /// The first stage of the mean-ratio method minimises the inverse mean ratio itself, which brings vertices where they
 /// belong soonest, the last one a power of it, which sees to the worst triangles. The first lasts ten
 /// sweeps. If more than 7/8 of the vertices still move then, the mesh has far to go: it takes smaller gains for moves
-/// and goes on, ten sweeps at a time, while more than a quarter of the vertices move. (Found by experiment:
-/// docs/mean_ratio.md.)
+/// and goes on, ten sweeps at a time, while more than a quarter of the vertices move. So has one with sizes that are
+/// asked for. (Found by experiment: docs/mean_ratio.md.)
 class Stages {
  public:
   Stages(const SmoothingOptions& options, std::int64_t free_count)
       : is_mean_ratio_(options.method == Method::mean_ratio),
         is_form_a_(options.form == Form::swap),
         free_count_(free_count),
-        is_last_(!is_mean_ratio_ || free_count == 0) {}
+        is_last_(!is_mean_ratio_ || free_count == 0),
+        has_far_to_go_(options.aims_at_sizes()) {}
 
   /// Whether the stage lasts to the stop.
   bool is_last() const { return is_last_; }
@@ -56,7 +57,7 @@ class Stages {
   bool is_form_a_;
   std::int64_t free_count_;
   bool is_last_;
-  bool has_far_to_go_ = false;
+  bool has_far_to_go_;
 };
 
 }  // namespace trismooth

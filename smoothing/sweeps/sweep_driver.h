@@ -34,8 +34,10 @@ namespace trismooth {
 template <class T>
 class SweepDriver {
  public:
-  SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers)
-      : rings_(rings), view_(rings.view()), options_(options), workers_(workers) {}
+  /// `inverse_sizes`: see HostTargets.
+  SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers,
+              std::span<const double> inverse_sizes = {})
+      : rings_(rings), view_(rings.view()), options_(options), workers_(workers), inverse_sizes_(inverse_sizes) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -56,7 +58,7 @@ class SweepDriver {
       return;
     }
     const HostTargets<T> targets = options_.method == Method::mean_ratio
-                                       ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_)
+                                       ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_)
                                        : HostTargets<T>();
     Stages stages(options_, rings_.free_count());
     std::optional<StopReason> reason;
@@ -249,6 +251,7 @@ class SweepDriver {
   RingView view_;
   const SmoothingOptions& options_;
   Workers& workers_;
+  std::span<const double> inverse_sizes_;
   std::vector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;
   std::vector<std::uint8_t> other_marked_;

@@ -61,14 +61,13 @@ template <class T, bool shaped>
 __host__ __device__ Move<T> mean_ratio(const Case<T>& ring, int index) {
   const trismooth::MeanRatioScales<T> scales{T(0.1) * static_cast<T>(index % 5), 1 + index % 8};
   T inverse_areas[largest_ring + 1];
-  T reference[2 * (largest_ring + 1)];
+  trismooth::EdgeTensor<T> edges[largest_ring + 1];
   for (int i = 0; i <= largest_ring; ++i) {
     inverse_areas[i] = T(1) + T(0.125) * static_cast<T>((index + i) % 9);
-    reference[2 * i] = i == 0 ? T(0) : ring.neighbours[i - 1].x * T(0.75);
-    reference[2 * i + 1] = i == 0 ? T(0) : ring.neighbours[i - 1].y;
+    edges[i] = {T(1), T(0.125) * static_cast<T>(index % 3), T(0.25) + T(0.5) * static_cast<T>((index + i) % 4)};
   }
   const T largest_share = T(0.5) + static_cast<T>(index % 7);
-  const trismooth::MeanRatioTargets<T> targets{inverse_areas, &largest_share, &scales, shaped ? reference : nullptr};
+  const trismooth::MeanRatioTargets<T> targets{inverse_areas, &largest_share, &scales, shaped ? edges : nullptr};
   const trismooth::MeanRatioStep<T> step{T(1.5), T(3e-4), index % 2 == 0};
   return step.is_last ? trismooth::MeanRatio<T, shaped, true>(targets, step).update(0, ring.position, ring)
                       : trismooth::MeanRatio<T, shaped, false>(targets, step).update(0, ring.position, ring);

@@ -166,6 +166,38 @@ TEST_CASE("random meshes in device memory have the CPU's bits, in plans used aga
   });
 }
 
+TEST_CASE("random meshes with sizes asked for have the CPU's bits, in host memory, in device memory and in plans") {
+  for_random_meshes(1200, [](const RandomMesh& mesh) {
+    std::vector<double> lengths;
+    return for_some_options(mesh, 1, [&](SmoothingOptions options, Random& random) -> std::string {
+      draw_the_rest(options, random);
+      options.method = trismooth::Method::mean_ratio;
+      for (std::int32_t v = 0; v < mesh.mesh.vertex_count(); ++v) {
+        lengths.push_back(random.between(0.5, 4));
+      }
+      options.mean_ratio.target_lengths = lengths;
+      if (random.below(4) == 0) {
+        options.untangle = trismooth::Untangle::on;
+      }
+      const Run expected = run(mesh, options);
+      choose_any(every_way(), options, random);
+      options.backend = &cuda::backend();
+      options.topology = static_cast<Topology>(random.below(2));
+      if (const std::string wrong = difference(run(mesh, options), expected); !wrong.empty()) {
+        return fmt::format("{}: {}", text_of_device(options), wrong);
+      }
+      OnDevice device(mesh, options);
+      for (int times = 0; times < 2; ++times) {
+        if (const std::string wrong = difference(device.smooth(mesh.mesh.xy(), Storage::float64), expected);
+            !wrong.empty()) {
+          return fmt::format("{}, in device memory, call {}: {}", text_of_device(options), times + 1, wrong);
+        }
+      }
+      return {};
+    });
+  });
+}
+
 TEST_CASE("random meshes have the host's orientation, constraints and rings") {
   for_random_meshes(2000, [](const RandomMesh& mesh) -> std::string {
     const trismooth::LocalFrame frame =

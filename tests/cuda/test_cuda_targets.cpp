@@ -21,6 +21,7 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 #include "catch.h"
 #include "support/hostile_meshes.h"
@@ -50,7 +51,7 @@ struct Aims {
   MeanRatioScales<T> scales;
   std::vector<T> inverse_areas;
   std::vector<T> largest_shares;  ///< of fixed vertices: 0
-  std::vector<T> reference;
+  std::vector<EdgeTensor<T>> edges;
 };
 
 /// `own(pointer, count)` copies to the host.
@@ -67,13 +68,11 @@ Aims<T> by_input(const MeanRatioTargets<T>& targets, std::span<const std::int32_
       aims.largest_shares[input_index[v]] = shares[v];
     }
   }
-  if (targets.reference != nullptr) {
-    const auto reference = own(targets.reference, 2 * size);
-    aims.reference.resize(2 * size);
+  if (targets.edges != nullptr) {
+    const auto edges = own(targets.edges, size);
+    aims.edges.resize(size);
     for (std::size_t v = 0; v < size; ++v) {
-      const auto to = 2 * static_cast<std::size_t>(input_index[v]);
-      aims.reference[to] = reference[2 * v];
-      aims.reference[to + 1] = reference[2 * v + 1];
+      aims.edges[input_index[v]] = edges[v];
     }
   }
   return aims;
@@ -83,19 +82,20 @@ template <class T>
 void require_same(const Aims<T>& found, const Aims<T>& expected) {
   REQUIRE(same_bits(found.scales.size_weight, expected.scales.size_weight));
   REQUIRE(found.scales.power == expected.scales.power);
-  REQUIRE(found.reference.size() == expected.reference.size());
+  REQUIRE(same_bits(found.scales.least_quotient, expected.scales.least_quotient));
+  REQUIRE(found.edges.size() == expected.edges.size());
   for (std::size_t v = 0; v < expected.inverse_areas.size(); ++v) {
     CAPTURE(v);
     REQUIRE(same_bits(found.inverse_areas[v], expected.inverse_areas[v]));
     REQUIRE(same_bits(found.largest_shares[v], expected.largest_shares[v]));
   }
-  for (std::size_t i = 0; i < expected.reference.size(); ++i) {
-    REQUIRE(same_bits(found.reference[i], expected.reference[i]));
+  for (std::size_t v = 0; v < expected.edges.size(); ++v) {
+    REQUIRE(same_bits(found.edges[v], expected.edges[v]));
   }
 }
 
 template <class T>
-void check_aims(const Mesh& mesh, SmoothingOptions options) {
+void check_aims(const Mesh& mesh, SmoothingOptions options, bool has_sizes) {
   options.method = Method::mean_ratio;
   Workers workers(2);
   const LocalFrame frame = local_frame(mesh.points);
@@ -103,7 +103,8 @@ void check_aims(const Mesh& mesh, SmoothingOptions options) {
   for (const auto p : mesh.points) {
     local.push_back(frame.enter(p));
   }
-  const OneRings rings = find_mesh_rings(local, mesh.triangles, {}, workers).rings;
+  const MeshRings found_rings = find_mesh_rings(local, mesh.triangles, {}, workers);
+  const OneRings& rings = found_rings.rings;
   const PackedRings host_rings = pack_rings(rings, local, options.form, workers);
   if (host_rings.free_count() == 0) {
     return;
@@ -112,8 +113,16 @@ void check_aims(const Mesh& mesh, SmoothingOptions options) {
   for (const std::int32_t v : host_rings.input_index) {
     host_points.push_back({static_cast<T>(local[v].x), static_cast<T>(local[v].y)});
   }
+  std::vector<double> lengths;
+  if (has_sizes) {
+    for (const auto p : local) {
+      lengths.push_back(1 + 20 * p.x * p.x);
+    }
+    options.mean_ratio.target_lengths = lengths;
+  }
+  const std::vector<double> sizes = inverse_sizes(options, found_rings.fixed);
   std::optional<HostTargets<T>> host;
-  workers.run([&] { host.emplace(host_points, host_rings, options.mean_ratio, workers); });
+  workers.run([&] { host.emplace(host_points, host_rings, options.mean_ratio, workers, sizes); });
   const Aims<T> expected =
       by_input(host->view(), host_rings.input_index, host_rings.free_count(),
                [](const auto* from, std::size_t count) { return std::vector(from, from + count); });
@@ -130,6 +139,9 @@ void check_aims(const Mesh& mesh, SmoothingOptions options) {
   }
   cuda::DeviceBuffer<cuda::PointRecord<T>> memory(context, positions);
   cuda::DeviceTargets<T> device(context, packed.order.vertex_count(), packed.order.free_count(), options);
+  if (has_sizes) {
+    device.set_sizes(packed.order, sizes);
+  }
   // Twice: what it found before must not be added to.
   for (int times = 0; times < 2; ++times) {
     std::visit([&](const auto& kind) { device.find(kind.view(), cuda::PointArray<T>{memory.data()}); }, packed.rings);
@@ -149,7 +161,8 @@ void check_everywhere(const Mesh& mesh, const MeanRatioOptions& mean_ratio) {
       options.mean_ratio = mean_ratio;
       options.execution = execution;
       options.form = form;
-      check_aims<T>(mesh, options);
+      check_aims<T>(mesh, options, false);
+      check_aims<T>(mesh, options, true);
     }
   }
 }
@@ -174,5 +187,9 @@ TEST_CASE("no memory is taken for them where the method is another one") {
   const std::size_t uniform = cuda::DeviceTargets<double>::bytes(1000, 900, options);
   CHECK(uniform >= 1900 * sizeof(double));
   options.mean_ratio.target = TargetShape::input;
-  CHECK(cuda::DeviceTargets<double>::bytes(1000, 900, options) == uniform + 2000 * sizeof(double));
+  CHECK(cuda::DeviceTargets<double>::bytes(1000, 900, options) == uniform + 6000 * sizeof(double));
+  const std::vector<double> lengths(1000, 1);
+  options.mean_ratio = {};
+  options.mean_ratio.target_lengths = lengths;
+  CHECK(cuda::DeviceTargets<double>::bytes(1000, 900, options) == 3900 * sizeof(double));
 }

@@ -17,13 +17,13 @@ import tool
 METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ratio", "edge_ratio", "condition",
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
-    "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "gates", "smoothing",
-         "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"},
+    "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_fit", "gates",
+         "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
               "fixed_ids_vertices", "held"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
-                "max_sweeps", "tolerance", "size_weight", "power", "target"},
+                "max_sweeps", "tolerance", "size_weight", "power", "target", "size_array"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
                   "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
                   "guard_rounds", "untangling", "history"},

@@ -85,18 +85,20 @@ TEST_CASE("every option of smooth reaches the pipeline") {
 }
 
 TEST_CASE("the options of mean-ratio reach the pipeline") {
-  const Outcome outcome =
-      smooth({"--method", "mean-ratio", "--size-weight", "2.5", "--power", "8", "--target", "input-shape"});
+  const Outcome outcome = smooth({"--method", "mean-ratio", "--size-weight", "2.5", "--power", "8", "--target",
+                                  "input-shape", "--size-array", "edge length"});
   REQUIRE(outcome.code == 0);
   const trismooth::SmoothingOptions& options = outcome.options->smoothing;
   CHECK(options.method == trismooth::Method::mean_ratio);
   CHECK(options.mean_ratio.size_weight == 2.5);
   CHECK(options.mean_ratio.power == 8);
   CHECK(options.mean_ratio.target == trismooth::TargetShape::input);
+  CHECK(outcome.options->size_array == "edge length");
   const Outcome defaults = smooth({"--method", "mean-ratio"});
   REQUIRE(defaults.code == 0);
   CHECK(defaults.options->smoothing.mean_ratio.size_weight == 1);
   CHECK(defaults.options->smoothing.mean_ratio.power == 0);
+  CHECK_FALSE(defaults.options->size_array);
   CHECK(defaults.options->smoothing.mean_ratio.target == trismooth::TargetShape::uniform);
 }
 

@@ -93,10 +93,16 @@ TEST_CASE("the report shows what steers the mean-ratio method where that ran, an
   options.smoothing.method = trismooth::Method::mean_ratio;
   CHECK(parse(html_report(options, sample::result())).says("by the mean shape"));
   options.smoothing.mean_ratio = {.size_weight = 0.375, .power = 7, .target = trismooth::TargetShape::input};
-  const std::string html = html_report(options, sample::result());
+  options.size_array = "my <h>";
+  auto result = sample::result();
+  result.input.size_array = "My <H>";
+  result.size_fit_before = trismooth::SizeFit{200, 3, 1.5};
+  result.size_fit_after = trismooth::SizeFit{201, 2, 0.0625};
+  const std::string html = html_report(options, result);
   const Parsed page = parse(html);
   REQUIRE(page.error.empty());
-  for (const char* words : {"size weight", "0.375", "power", "target", "input-shape"}) {
+  for (const char* words : {"size weight", "0.375", "power", "target", "input-shape", "sizes by array", "my <h>",
+                            "Sizes off those asked for", "0.0625", "by array My <H>"}) {
     CAPTURE(words);
     CHECK(page.says(words));
   }

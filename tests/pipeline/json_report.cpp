@@ -32,8 +32,8 @@ using Keys = std::vector<std::string>;
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
   CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "size_change",
-                                "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
-                                "peak_memory_bytes"});
+                                "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings",
+                                "timings_ms", "peak_memory_bytes"});
   CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
@@ -44,9 +44,9 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
         Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells", "unused", "named", "several"});
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
-  for (const char* key :
-       {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads", "max_sweeps",
-        "tolerance", "time_limit", "target_quality", "guard", "size_weight", "power", "target", "untangle"}) {
+  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
+                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard", "size_weight",
+                          "power", "target", "size_array", "untangle"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
@@ -86,9 +86,10 @@ TEST_CASE("the JSON report says what untangling did") {
 TEST_CASE("the JSON report has what steers the mean-ratio method, and null where another method ran") {
   auto options = sample::options();
   options.smoothing.mean_ratio = {.size_weight = 0.25, .power = 4, .target = trismooth::TargetShape::input};
+  options.size_array = "h";
   const auto reported = [&] { return Json::parse(json_report(options, sample::result()))["options"]; };
   const Json of_smart = reported();
-  for (const char* key : {"size_weight", "power", "target"}) {
+  for (const char* key : {"size_weight", "power", "target", "size_array"}) {
     CAPTURE(key);
     CHECK(of_smart[key].is_null());
   }
@@ -98,11 +99,22 @@ TEST_CASE("the JSON report has what steers the mean-ratio method, and null where
   CHECK(chosen["size_weight"] == 0.25);
   CHECK(chosen["power"] == 4);
   CHECK(chosen["target"] == "input-shape");
+  CHECK(chosen["size_array"] == "h");
   options.smoothing.mean_ratio = {};
   const Json defaults = reported();
   CHECK(defaults["size_weight"] == 1);
   CHECK(defaults["power"].is_null());
   CHECK(defaults["target"] == "uniform");
+}
+
+TEST_CASE("the JSON report says how far sizes are from those asked for") {
+  auto result = sample::result();
+  CHECK(Json::parse(json_report(sample::options(), result))["size_fit"].is_null());
+  result.size_fit_before = trismooth::SizeFit{200, 3, 1.5};
+  result.size_fit_after = trismooth::SizeFit{201, 2, 0.25};
+  const Json fit = Json::parse(json_report(sample::options(), result))["size_fit"];
+  CHECK(fit["before"] == Json{{"triangles", 200}, {"left_out", 3}, {"rms_log_ratio", 1.5}});
+  CHECK(fit["after"] == Json{{"triangles", 201}, {"left_out", 2}, {"rms_log_ratio", 0.25}});
 }
 
 TEST_CASE("the JSON report holds the run's values") {

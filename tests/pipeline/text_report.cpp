@@ -68,6 +68,8 @@ TEST_CASE("no line of a report is wider than 80 columns, however large its numbe
   result.smoothing->backend_note = "cudaErrorInsufficientDriver (CUDA driver version is insufficient for CUDA runtime)";
   result.before.inverted = result.after->inverted = 700'000'000;
   result.size_change = trismooth::SizeChange{15'827'882, 700'000'000, 1.2345678e+300, 1.2345678e-300, 1.2345678e+300};
+  result.size_fit_before = result.size_fit_after = trismooth::SizeFit{1, 2, 1.2345678e+300};
+  result.input.size_array = "target edge length";
   for (auto* const report : {&result.before, &*result.after}) {
     report->triangles = 715'827'882;
     report->shape_histogram.fill(715'827'882);
@@ -91,10 +93,16 @@ TEST_CASE("how sizes changed is told where vertices moved") {
   result.size_change = trismooth::SizeChange{210, 0, 0.01, 0.9, 1.1};
   CHECK(says(text_report(sample::options(), result),
              "sizes:      0.9 to 1.1 times the area (98 % of elements), rms ln(A/A0) 0.01\n"));
+  result.input.size_array = "h";
+  result.size_fit_before = trismooth::SizeFit{210, 0, 1.23456};
+  result.size_fit_after = trismooth::SizeFit{210, 0, 0.5};
+  CHECK(says(text_report(sample::options(), result),
+             "            off those of the array 'h': rms ln(A/A*) 1.23 before, 0.5 now\n"));
   result.size_change->triangles = 0;
   CHECK(says(text_report(sample::options(), result), "sizes:      no element was valid before and is now\n"));
   result.smoothing->moved_vertices = 0;
   CHECK_FALSE(says(text_report(sample::options(), result), "sizes:"));
+  CHECK_FALSE(says(text_report(sample::options(), result), "off those"));
   CHECK_FALSE(says(text_report(sample::options(), sample::quality_result()), "sizes:"));
 }
 

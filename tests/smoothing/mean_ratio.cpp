@@ -47,7 +47,7 @@ struct Scene {
   std::vector<T> inverse_areas;  ///< by number
   T largest_share = std::numeric_limits<T>::infinity();
   MeanRatioScales<T> scales;
-  std::vector<Point2<T>> reference;  ///< by number, or none
+  std::vector<trismooth::EdgeTensor<T>> edges;  ///< by number, or none
 
   int size() const { return static_cast<int>(positions.size()); }
   Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
@@ -55,8 +55,8 @@ struct Scene {
 
   Move<T> visit(const MeanRatioStep<T>& step) const {
     MeanRatioTargets<T> targets{inverse_areas.data(), &largest_share, &scales};
-    if (!reference.empty()) {
-      targets.reference = &reference[0].x;
+    if (!edges.empty()) {
+      targets.edges = edges.data();
     }
     return trismooth::visit_mean_ratio(targets, step,
                                        [&](const auto& method) { return method.update(0, position, *this); });
@@ -68,21 +68,24 @@ struct Scene {
     for (std::size_t i = 0; i < positions.size(); ++i) {
       ring.positions.push_back(naive::widened(positions[i]));
       ring.inverse_areas.push_back(static_cast<Real>(inverse_areas[i + 1]));
-      if (!reference.empty()) {
-        ring.reference.push_back(naive::widened(reference[i + 1]));
+      if (!edges.empty()) {
+        ring.edges.push_back(widened(edges[i + 1]));
       }
     }
-    ring.own_reference = reference.empty() ? Point2<Real>{} : naive::widened(reference[0]);
+    ring.own_edges = edges.empty() ? naive::Tensor{} : widened(edges[0]);
     ring.own_inverse_area = static_cast<Real>(inverse_areas[0]);
     ring.third_of_weight = static_cast<Real>(scales.size_weight);
     ring.power = is_last ? scales.power : 1;
     return ring;
   }
+  static naive::Tensor widened(const trismooth::EdgeTensor<T>& tensor) {
+    return {static_cast<Real>(tensor.xx), static_cast<Real>(tensor.xy), static_cast<Real>(tensor.yy)};
+  }
 };
 
 /// Round enough for the origin to see all of it; with areas to be aimed at about those that there are.
 template <class T>
-Scene<T> star(test_meshes::Random& random, bool has_reference) {
+Scene<T> star(test_meshes::Random& random, bool has_edges) {
   Scene<T> scene;
   const std::int32_t size = 3 + random.below(9);
   const auto around = [&](double spread) {
@@ -95,9 +98,15 @@ Scene<T> star(test_meshes::Random& random, bool has_reference) {
     return places;
   };
   scene.positions = around(0.3);
-  if (has_reference) {
-    scene.reference = around(0.2);
-    scene.reference.insert(scene.reference.begin(), Point2<T>{0, 0});
+  if (has_edges) {
+    for (const Point2<T> p : around(0.2)) {
+      trismooth::EdgeTensor<T> edges{static_cast<T>(random.between(0.1, 1)), 0, static_cast<T>(random.between(0.1, 1))};
+      edges.add(p);
+      scene.edges.push_back(edges);
+    }
+    // Fixed vertices have none.
+    scene.edges[static_cast<std::size_t>(random.below(size))] = {};
+    scene.edges.insert(scene.edges.begin(), trismooth::EdgeTensor<T>{1, static_cast<T>(0.25), static_cast<T>(0.5)});
   }
   for (std::int32_t i = 0; i <= size; ++i) {
     scene.inverse_areas.push_back(static_cast<T>(size / random.between(2, 10)));
@@ -108,9 +117,9 @@ Scene<T> star(test_meshes::Random& random, bool has_reference) {
 
 /// The same with the vertex at a random place where all triangles are positive.
 template <class T>
-Scene<T> valid_scene(test_meshes::Random& random, bool has_reference) {
+Scene<T> valid_scene(test_meshes::Random& random, bool has_edges) {
   for (;;) {
-    Scene<T> scene = star<T>(random, has_reference);
+    Scene<T> scene = star<T>(random, has_edges);
     scene.position = {static_cast<T>(random.between(-0.5, 0.5)), static_cast<T>(random.between(-0.5, 0.5))};
     if (scene.energy(true).smallest_area(naive::widened(scene.position)) > 1e-2L) {
       return scene;
@@ -277,13 +286,13 @@ TEST_CASE("a visit makes the first step of those tried that lowers the energy, a
     }
     if (is_clear) {
       const Real off = distance(naive::widened(move.position), expected);
-      REQUIRE(static_cast<double>(off) < 1e-6 + 1e-6 * static_cast<double>(distance(expected, from)));
+      REQUIRE(static_cast<double>(off) < 4e-6 + 4e-6 * static_cast<double>(distance(expected, from)));
       moves += move.moved ? 1 : 0;
       stays += move.moved ? 0 : 1;
     }
   }
   CHECK(moves > (is_sanitized ? 100 : 2000));
-  CHECK(shortened > (is_sanitized ? 10 : 200));
+  CHECK(shortened > (is_sanitized ? 10 : 100));
   CHECK(stays > (is_sanitized ? 5 : 100));
 }
 
@@ -330,8 +339,9 @@ TEST_CASE("visits again and again end where the energy of the ring is smallest, 
     for (const Point2<double> p : scene.positions) {
       narrow.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
     }
-    for (const Point2<double> p : scene.reference) {
-      narrow.reference.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
+    for (const auto& edges : scene.edges) {
+      narrow.edges.push_back(
+          {static_cast<float>(edges.xx), static_cast<float>(edges.xy), static_cast<float>(edges.yy)});
     }
     narrow.inverse_areas.assign(scene.inverse_areas.begin(), scene.inverse_areas.end());
     narrow.scales = {static_cast<float>(scene.scales.size_weight), scene.scales.power};
@@ -390,51 +400,6 @@ TEMPLATE_TEST_CASE("around an inverted or flat triangle, and where a position is
   CHECK(moves > 1000);
 }
 
-TEST_CASE("aimed at the shapes of a sheared grid, its displaced vertices come back to their places") {
-  constexpr std::int32_t side = 9;
-  const test_meshes::Mesh grid = sheared_grid(side, true);
-  std::vector<Point2<double>> points = grid.points;
-  test_meshes::Random random(5);
-  const naive::Rings rings = naive::one_rings(grid.vertex_count(), grid.triangles);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!rings[v].empty()) {
-      points[v].x += random.between(-0.25, 0.25) / 64;
-      points[v].y += random.between(-0.25, 0.25) / 256;
-    }
-  }
-  for (const bool is_shaped : {true, false}) {
-    std::vector<Point2<double>> moving = points;
-    for (int sweep = 0; sweep < 200; ++sweep) {
-      for (std::size_t v = 0; v < moving.size(); ++v) {
-        if (rings[v].empty()) {
-          continue;
-        }
-        Scene<double> scene;
-        scene.position = moving[v];
-        scene.inverse_areas.assign(rings[v].size() + 1, 64.0 * 256);
-        scene.scales = {0, 2};
-        if (is_shaped) {
-          scene.reference.push_back(grid.points[v]);
-        }
-        for (const std::int32_t n : rings[v]) {
-          scene.positions.push_back(moving[n]);
-          if (is_shaped) {
-            scene.reference.push_back(grid.points[n]);
-          }
-        }
-        moving[v] = scene.visit({1.5, 0, true}).position;
-      }
-    }
-    double farthest = 0;
-    for (std::size_t v = 0; v < moving.size(); ++v) {
-      farthest = std::max(farthest, 64 * std::abs(moving[v].x - grid.points[v].x));
-      farthest = std::max(farthest, 256 * std::abs(moving[v].y - grid.points[v].y));
-    }
-    // It is the target that brings them back: equilateral triangles are elsewhere.
-    CHECK((farthest < 1e-6) == is_shaped);
-  }
-}
-
 TEST_CASE("a sheared grid of equal areas does not move where it keeps its shapes") {
   const test_meshes::Mesh grid = sheared_grid(12, false);
   for (const Form form : {Form::swap, Form::in_place}) {
@@ -445,20 +410,67 @@ TEST_CASE("a sheared grid of equal areas does not move where it keeps its shapes
   }
 }
 
-TEST_CASE("layers that are flat on purpose stay flat where they keep their shapes, and else do not") {
-  const test_meshes::Mesh layers = sheared_grid(16, true);
-  CHECK(smoothed(layers, {0, 0, TargetShape::input}).result.moved_vertices == 0);
-  const auto height_of_lowest = [](const std::vector<double>& xy) {
-    double sum = 0;
-    for (std::size_t v = 17; v < 31; ++v) {
-      sum += 256 * xy[2 * v + 1] / 14;
+/// Layers of a grid, jittered, turned by `angle`: `aspect` times as long as high at the bottom, each 1.1 times as high
+/// as the one below.
+struct Layers {
+  static constexpr std::int32_t side = 31;
+  double aspect = 20;
+  double angle = 0;
+
+  double height(double layer) const { return std::pow(1.1, layer) / aspect; }
+  test_meshes::Mesh mesh(double jitter) const {
+    test_meshes::Mesh mesh = test_meshes::jittered_grid(side, side, jitter, 3);
+    for (auto& p : mesh.points) {
+      const double x = p.x * (side - 1);
+      const double y = (std::pow(1.1, p.y * (side - 1)) - 1) / 0.1 / aspect;
+      p = {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y};
     }
-    return sum;
-  };
-  CHECK(height_of_lowest(layers.xy()) == Approx(1));
-  CHECK(height_of_lowest(smoothed(layers, {0, 0, TargetShape::uniform}).xy) > 2);
-  // Sizes pull a little, as they do at flat triangles of equal shapes.
-  CHECK(height_of_lowest(smoothed(layers, {1, 0, TargetShape::input}).xy) == Approx(1).margin(0.1));
+    return mesh;
+  }
+  /// Shapes of the triangles, each stretched by as much as its layers are flattened: 1 is equilateral then.
+  trismooth::MetricSummary shapes(const test_meshes::Mesh& mesh, const std::vector<double>& xy) const {
+    test_meshes::Mesh stretched;
+    for (const auto& t : mesh.triangles) {
+      double layer = 0;
+      for (const std::int32_t v : t) {
+        layer += v / side / 3.0;  // of the grid, wherever the vertex is now
+      }
+      for (const std::int32_t v : t) {
+        const double x = xy[2 * static_cast<std::size_t>(v)];
+        const double y = xy[2 * static_cast<std::size_t>(v) + 1];
+        stretched.points.push_back(
+            {std::cos(angle) * x + std::sin(angle) * y, (std::cos(angle) * y - std::sin(angle) * x) / height(layer)});
+      }
+      const std::int32_t first = stretched.vertex_count() - 3;
+      stretched.triangles.push_back({first, first + 1, first + 2});
+    }
+    return mean_ratio_test::shapes(stretched, stretched.xy());
+  }
+};
+
+TEST_CASE("layers that are flat on purpose stay as flat as they are, and what is badly made in them gets better") {
+  for (const Layers layers : {Layers{20, 0}, Layers{20, 0.5}, Layers{200, 1}}) {
+    const test_meshes::Mesh mesh = layers.mesh(0.25);
+    const auto before = layers.shapes(mesh, mesh.xy());
+    for (const Form form : {Form::swap, Form::in_place}) {
+      const Smoothed kept = smoothed(mesh, {1, 0, TargetShape::input}, form);
+      const auto after = layers.shapes(mesh, kept.xy);
+      CAPTURE(layers.aspect, layers.angle, form, before.min, before.mean, after.min, after.mean);
+      CHECK(before.mean < 0.83);
+      CHECK(after.mean > 0.92);
+      CHECK(after.min > before.min + 0.1);
+    }
+    // Equilateral triangles are other ones.
+    CHECK(layers.shapes(mesh, smoothed(mesh, {1, 0, TargetShape::uniform}).xy).mean < before.mean);
+  }
+}
+
+TEST_CASE("a mesh that is not flat on purpose gets nearly as good as where equilateral triangles are aimed at") {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(40, 40, 0.3, 7);
+  const auto kept = shapes(mesh, smoothed(mesh, {1, 0, TargetShape::input}).xy);
+  const auto uniform = shapes(mesh, smoothed(mesh, {1, 0, TargetShape::uniform}).xy);
+  CHECK(kept.mean > uniform.mean - 0.02);
+  CHECK(kept.min > shapes(mesh, mesh.xy()).min + 0.1);
 }
 
 TEST_CASE("every power makes shapes better, and high ones see to the worst") {
@@ -542,13 +554,14 @@ TEMPLATE_TEST_CASE("what it aims at is what a plain computation finds, bit for b
         REQUIRE(view.scales->size_weight == expected.scales.size_weight);
         REQUIRE(view.scales->power == expected.scales.power);
       }
-      REQUIRE((view.reference != nullptr) == (options.target == TargetShape::input));
+      REQUIRE((view.edges != nullptr) == (options.target == TargetShape::input));
       for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
         const std::int32_t input = rings.input_index[v];
         CAPTURE(v, input);
-        if (view.reference != nullptr) {
-          REQUIRE(view.reference[2 * v] == working[input].x);
-          REQUIRE(view.reference[2 * v + 1] == working[input].y);
+        if (view.edges != nullptr) {
+          REQUIRE(view.edges[v].xx == expected.edges[input].xx);
+          REQUIRE(view.edges[v].xy == expected.edges[input].xy);
+          REQUIRE(view.edges[v].yy == expected.edges[input].yy);
         }
         if (v < rings.free_count()) {
           REQUIRE(view.largest_shares[v] == expected.largest_shares[input]);

@@ -45,21 +45,20 @@ TEMPLATE_TEST_CASE("the sides of a ring in lanes give the bits that they give on
     std::vector<Point2<T>> points{{number(-0.3, 0.3), number(-0.3, 0.3)}};
     std::vector<std::int32_t> ring;
     std::vector<T> inverse_areas{number(0.5, 2)};
-    std::vector<T> reference{0, 0};
+    std::vector<trismooth::EdgeTensor<T>> edges{{1, number(-0.2, 0.2), 1}};
     for (std::int32_t k = 0; k < size; ++k) {
       const double angle = 2 * 3.14159265358979 * (k + random.between(0, 0.6)) / size;
       const double radius = random.between(0.6, 1.6);
       points.push_back({static_cast<T>(radius * std::cos(angle)), static_cast<T>(radius * std::sin(angle))});
       ring.push_back(k + 1);
       inverse_areas.push_back(number(0.5, 2));
-      reference.push_back(static_cast<T>(std::cos(angle)));
-      reference.push_back(number(0.5, 1) * static_cast<T>(std::sin(angle)));
+      edges.push_back({number(0.5, 2), number(-0.2, 0.2), number(0.5, 2)});
     }
     const T largest_share = i % 4 == 0 ? number(0.1, 4) : std::numeric_limits<T>::infinity();
-    const MeanRatioScales<T> scales{number(0, 0.4), 1 + i % 5};
+    const MeanRatioScales<T> scales{number(0, 0.4), 1 + i % 5, i % 7 == 0 ? number(0, 0.2) : T(0)};
     const MeanRatioStep<T> step{i % 3 == 0 ? T(1.5) : T(1.8), static_cast<T>(3e-4), i % 2 == 0};
     MeanRatioTargets<T> targets{inverse_areas.data(), &largest_share, &scales};
-    targets.reference = i % 5 == 0 ? reference.data() : nullptr;
+    targets.edges = i % 5 == 0 ? edges.data() : nullptr;
     trismooth::visit_mean_ratio(targets, step, [&](const auto& method) {
       const auto in_turn = method.vertex_move(0, points[0], PlainRing<T>{points, ring});
       const auto in_lanes = gatherer.with_ring(std::span<const Point2<T>>(points), ring, [&](const auto& gathered) {

@@ -60,6 +60,22 @@ Mesh far_mesh() {
   return mesh;
 }
 
+TEST_CASE("with sizes asked for a mesh has far to go from the start, and goes on while a quarter of it moves") {
+  const std::vector<double> lengths(4, 1);
+  SmoothingOptions options = mean_ratio();
+  const double usual_gain = Stages(options, 1000).step<double>().least_gain;
+  options.mean_ratio.target_lengths = lengths;
+  Stages stages(options, 1000);
+  CHECK(stages.step<double>().least_gain == Approx(usual_gain / 3));
+  stages.next(251, false);
+  CHECK_FALSE(stages.is_last());
+  stages.next(250, false);
+  CHECK(stages.is_last());
+  CHECK(stages.step<double>().least_gain == Approx(usual_gain / 3));
+  options.method = Method::smart;
+  CHECK(Stages(options, 1000).is_last());
+}
+
 TEST_CASE("methods without stages have one that lasts to the stop, and no moves are few") {
   for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
     SmoothingOptions options;

@@ -38,39 +38,52 @@ inline Real share(Point2<Real> a, Point2<Real> b, Point2<Real> c) {
   return doubled_area(a, b, c) * sum_of_squares(a, b, c);
 }
 
+/// A symmetric tensor: the sum of e e^T over edges e.
+struct Tensor {
+  Real xx = 0;
+  Real xy = 0;
+  Real yy = 0;
+};
+
 /// A vertex's ring with all that the energy around it asks for.
 struct EnergyRing {
   std::vector<Point2<Real>> positions;
-  std::vector<Real> inverse_areas;        ///< 1 / (twice the area aimed at) around each neighbour
-  Real own_inverse_area = 1;              ///< around the vertex
-  Real third_of_weight = 0;               ///< lambda / 3
-  int power = 1;                          ///< p
-  std::vector<Point2<Real>> reference{};  ///< of the neighbours, or none: shapes are equilateral
-  Point2<Real> own_reference{};           ///< of the vertex
+  std::vector<Real> inverse_areas;  ///< 1 / (twice the area aimed at) around each neighbour
+  Real own_inverse_area = 1;        ///< around the vertex
+  Real third_of_weight = 0;         ///< lambda / 3
+  int power = 1;                    ///< p
+  std::vector<Tensor> edges{};      ///< around the neighbours, or none: shapes are equilateral
+  Tensor own_edges{};               ///< around the vertex
 
   std::size_t next(std::size_t i) const { return (i + 1) % positions.size(); }
 
-  /// alpha of the triangle on side i where the vertex is at v: 2 det(M) / |M|^2, where M maps the triangle aimed at
-  /// onto this one. 1 where they are similar.
+  /// alpha of the triangle on side i where the vertex is at v: 2 det(M) / |M|^2, where M maps an equilateral triangle
+  /// onto this one, seen in coordinates in which the edges around its corners have no direction. 1 where it is
+  /// equilateral there.
   Real alpha(std::size_t i, Point2<Real> v) const {
-    const Point2<Real> a = positions[i];
-    const Point2<Real> b = positions[next(i)];
-    Point2<Real> o{0, 0};
-    Point2<Real> p{1, 0};
-    Point2<Real> q{0.5L, std::sqrt(3.0L) / 2};
-    if (!reference.empty()) {
-      o = own_reference;
-      p = reference[i];
-      q = reference[next(i)];
+    const Point2<Real> o{0, 0};
+    const Point2<Real> p{1, 0};
+    const Point2<Real> q{0.5L, std::sqrt(3.0L) / 2};
+    Tensor sum{1, 0, 1};
+    if (!edges.empty()) {
+      const Tensor& of_a = edges[i];
+      const Tensor& of_b = edges[next(i)];
+      sum = {own_edges.xx + of_a.xx + of_b.xx, own_edges.xy + of_a.xy + of_b.xy, own_edges.yy + of_a.yy + of_b.yy};
     }
+    // The inverse of the lower triangular matrix L with L L^T = sum, up to a factor.
+    const Real l = sum.xy / sum.xx;
+    const Real across = std::sqrt(sum.yy / sum.xx - l * l);
+    const auto seen = [&](Point2<Real> e) { return Point2<Real>{e.x, (e.y - l * e.x) / across}; };
+    const Point2<Real> to_a = seen({positions[i].x - v.x, positions[i].y - v.y});
+    const Point2<Real> to_b = seen({positions[next(i)].x - v.x, positions[next(i)].y - v.y});
     const Real determinant = doubled_area(o, p, q);
     // The inverse of the matrix of columns p - o and q - o.
     const Real xx = (q.y - o.y) / determinant;
     const Real xy = -(q.x - o.x) / determinant;
     const Real yx = -(p.y - o.y) / determinant;
     const Real yy = (p.x - o.x) / determinant;
-    const Real m[4] = {(a.x - v.x) * xx + (b.x - v.x) * yx, (a.x - v.x) * xy + (b.x - v.x) * yy,
-                       (a.y - v.y) * xx + (b.y - v.y) * yx, (a.y - v.y) * xy + (b.y - v.y) * yy};
+    const Real m[4] = {to_a.x * xx + to_b.x * yx, to_a.x * xy + to_b.x * yy, to_a.y * xx + to_b.y * yx,
+                       to_a.y * xy + to_b.y * yy};
     return 2 * (m[0] * m[3] - m[1] * m[2]) / (m[0] * m[0] + m[1] * m[1] + m[2] * m[2] + m[3] * m[3]);
   }
 
@@ -100,11 +113,11 @@ template <class T>
 struct MeanRatioAims {
   std::vector<T> inverse_areas;
   std::vector<T> largest_shares;
-  std::vector<Point2<T>> reference;
+  std::vector<trismooth::EdgeTensor<T>> edges;
   trismooth::MeanRatioScales<T> scales{};
 
   trismooth::MeanRatioTargets<T> view() const {
-    return {inverse_areas.data(), largest_shares.data(), &scales, reference.empty() ? nullptr : &reference[0].x};
+    return {inverse_areas.data(), largest_shares.data(), &scales, edges.empty() ? nullptr : edges.data()};
   }
 };
 
@@ -197,7 +210,31 @@ MeanRatioAims<T> mean_ratio_aims(const std::vector<Point2<T>>& points,
     aims.inverse_areas.push_back(1 / (mean[v] > 0 ? mean[v] : mesh_area));
   }
   if (options.target == trismooth::TargetShape::input) {
-    aims.reference = points;
+    std::vector<trismooth::EdgeTensor<T>> around(size);
+    for (std::size_t v = 0; v < size; ++v) {
+      const auto& ring = rings[v];
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::int32_t a = ring[(i + ring.size() - 1) % ring.size()];
+        const std::int32_t b = ring[i];
+        if (area(v, a, b) > 0) {
+          const Point2<T> to_a{points[a].x - points[v].x, points[a].y - points[v].y};
+          const Point2<T> to_b{points[b].x - points[v].x, points[b].y - points[v].y};
+          for (const Point2<T> e : {to_a, to_b, Point2<T>{to_b.x - to_a.x, to_b.y - to_a.y}}) {
+            around[v].xx += e.x * e.x;
+            around[v].xy += e.x * e.y;
+            around[v].yy += e.y * e.y;
+          }
+        }
+      }
+    }
+    aims.edges = around;
+    for (std::size_t v = 0; v < size; ++v) {
+      for (const std::int32_t n : rings[v]) {
+        aims.edges[v].xx += around[n].xx;
+        aims.edges[v].xy += around[n].xy;
+        aims.edges[v].yy += around[n].yy;
+      }
+    }
   }
   return aims;
 }

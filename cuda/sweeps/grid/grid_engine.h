@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,10 @@ class GridEngine {
   auto rings() const { return rings_.view(); }
   /// Where the working positions are to be written before begin(): both of these (which may be the same).
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
+  /// The sizes that are asked for: before the first run, where the options say that they are.
+  void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
+    targets_.set_sizes(order, inverse_sizes);
+  }
   /// Makes ready for a run from those positions.
   void begin() { targets_.find(rings(), mesh_.first.points); }
   /// Makes ready for a stage of the run, which begins with a sweep over all vertices.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "trismooth/cuda/packing/packed_rings.h"
@@ -37,6 +38,8 @@ class PatchEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
+  /// Patches are not for the method that asks for sizes.
+  void set_sizes(const VertexOrder& /*order*/, std::span<const double> /*inverse_sizes*/) {}
   void begin() {}
   void begin_stage() { moved_[0].fill_bytes(1); }
   std::int64_t sweep(const MeanRatioStep<T>& /*step*/, const LoopRules& rules, LoopState* state, SweepSums* sums) {

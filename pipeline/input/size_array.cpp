@@ -1,0 +1,96 @@
+#include "trismooth/pipeline/input/size_array.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "trismooth/pipeline/input/array_names.h"
+#include "trismooth/pipeline/input/value_numbers.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The value of a one-component array at a row, which must be a positive number.
+double size_at(const DataArray& array, std::size_t row, const char* what, const char* place) {
+  const double value = array.value(row);
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw std::invalid_argument(fmt::format("the {} array '{}' is {} at {} {}; sizes must be positive numbers", what,
+                                            array.name, value_text(array, row), place, row));
+  }
+  return value;
+}
+
+void require_one_component(const DataArray& array, const char* what) {
+  if (array.components != 1) {
+    throw std::invalid_argument(
+        fmt::format("the {} array '{}' has {} components; sizes need one", what, array.name, array.components));
+  }
+}
+
+SizeArray lengths_at_points(const DataArray& array, const PlanarMesh& mesh) {
+  require_one_component(array, "point");
+  SizeArray sizes{array.name, std::vector<double>(mesh.points.size(), 0)};
+  std::vector<std::uint8_t> in_triangle(mesh.points.size(), 0);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle) {
+      in_triangle[v] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < sizes.lengths.size(); ++v) {
+    if (in_triangle[v] != 0) {
+      sizes.lengths[v] = size_at(array, v, "point", "point");
+    }
+  }
+  return sizes;
+}
+
+SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
+  require_one_component(array, "cell");
+  std::vector<double> areas(mesh.triangles.size());
+  double largest = 0;
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    areas[t] = size_at(array, static_cast<std::size_t>(mesh.cells[t]), "cell", "cell");
+    largest = std::max(largest, areas[t]);
+  }
+  // By the largest, sums are within the range of double.
+  const int exponent = std::ilogb(largest);
+  std::vector<double> sums(mesh.points.size(), 0);
+  std::vector<std::int32_t> counts(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    for (const std::int32_t v : mesh.triangles[t]) {
+      sums[v] += std::ldexp(areas[t], -exponent);
+      ++counts[v];
+    }
+  }
+  SizeArray sizes{array.name, std::move(sums)};
+  for (std::size_t v = 0; v < sizes.lengths.size(); ++v) {
+    if (counts[v] > 0) {
+      // sqrt(3) / 4 h^2 = area; all by the same factor, which sizes do not need
+      sizes.lengths[v] = std::sqrt(4 / std::sqrt(3.0) * sizes.lengths[v] / counts[v]);
+    }
+  }
+  return sizes;
+}
+
+}  // namespace
+
+SizeArray find_size_array(const MeshDocument& document, const PlanarMesh& mesh, const std::string& name) {
+  if (const DataArray* const array = find_array_loosely(document.point_arrays, name)) {
+    return lengths_at_points(*array, mesh);
+  }
+  if (const DataArray* const array = find_array_loosely(document.cell_arrays, name)) {
+    return areas_of_cells(*array, mesh);
+  }
+  if (std::ranges::find(document.cell_labels, name, &LabelArray::name) != document.cell_labels.end()) {
+    throw std::invalid_argument("the cell array '" + name + "' holds texts; sizes must be positive numbers");
+  }
+  throw std::invalid_argument("the file has no point or cell array '" + name +
+                              "' to take sizes from; it has: " + array_names(document.point_arrays) + " at points, " +
+                              array_names(document.cell_arrays) + " at cells");
+}
+
+}  // namespace trismooth

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+
+namespace trismooth {
+
+/// Sizes that an array of the file asks for.
+struct SizeArray {
+  std::string array;            ///< its name in the file
+  std::vector<double> lengths;  ///< per vertex: the edge length asked for around it; 0 of vertices in no triangle
+};
+
+/// The sizes by the point array `name`, which has edge lengths, or else by the cell array of that name, which has
+/// areas: a vertex is asked for the edge length of an equilateral triangle with the mean area of the triangles around
+/// it. The name may differ in case, blanks and the like. Throws std::invalid_argument where the document has no such
+/// array, where it has texts or several components, and for a value at a triangle that is not a positive number.
+/// Complexity: linear.
+SizeArray find_size_array(const MeshDocument& document, const PlanarMesh& mesh, const std::string& name);
+
+}  // namespace trismooth

@@ -1,0 +1,47 @@
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "trismooth/base/hold.h"
+#include "trismooth/base/local_frame.h"
+
+namespace trismooth {
+
+std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed) {
+  const std::span<const double> lengths = options.mean_ratio.target_lengths;
+  if (!options.aims_at_sizes()) {
+    return {};
+  }
+  if (lengths.size() != fixed.size()) {
+    throw std::invalid_argument("MeanRatioOptions::target_lengths has " + std::to_string(lengths.size()) +
+                                " entries, expected " + std::to_string(fixed.size()) + " or none");
+  }
+  double largest = 0;
+  for (std::size_t v = 0; v < lengths.size(); ++v) {
+    if ((fixed[v] & hold::isolated) != 0) {
+      continue;
+    }
+    if (!(lengths[v] > 0) || !std::isfinite(lengths[v])) {
+      throw std::invalid_argument("MeanRatioOptions::target_lengths: that of vertex " + std::to_string(v) +
+                                  " is not a positive number");
+    }
+    largest = std::max(largest, lengths[v]);
+  }
+  std::vector<double> inverses(lengths.size(), 1);
+  if (largest > 0) {
+    constexpr double smallest = 0x1p-20;
+    const int unit = local_frame_details::exponent_of(largest);
+    for (std::size_t v = 0; v < lengths.size(); ++v) {
+      if ((fixed[v] & hold::isolated) == 0) {
+        const double length = std::max(smallest, local_frame_details::scaled(lengths[v], -unit));
+        inverses[v] = 1 / (length * length);
+      }
+    }
+  }
+  return inverses;
+}
+
+}  // namespace trismooth

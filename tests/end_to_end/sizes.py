@@ -1,0 +1,122 @@
+"""Sizes of the user's own: an array of the file says how long edges, or how large cells, are to be.
+
+How near sizes are to them is worked out here, from the files alone.
+"""
+
+import math
+import random
+
+import mesh_reader
+import sample_meshes
+import tool
+
+WRONG_USAGE = 2
+POINTS_WIDE = 25
+
+
+class Sizes(tool.ToolTest):
+
+    def setUp(self):
+        super().setUp()
+        draw = random.Random(4)
+        n = POINTS_WIDE - 1
+        inside = lambda i: 0 < i < n
+        self.points = [[x + (0.25 * draw.uniform(-1, 1) if inside(x) and inside(y) else 0),
+                        y + (0.25 * draw.uniform(-1, 1) if inside(x) and inside(y) else 0), 0.0]
+                       for y in range(n + 1) for x in range(n + 1)]
+        self.triangles = []
+        for y in range(n):
+            for x in range(n):
+                a = y * (n + 1) + x
+                self.triangles += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+        self.lengths = [1 + abs(math.hypot(x - n / 2, y - n / 2) - n / 3) / 6 for x, y, _ in self.points]
+        self.areas = [sum(self.lengths[v] for v in t) ** 2 / 9 for t in self.triangles]
+
+    def vtk(self):
+        numbers = lambda values: "".join(f"{value!r}\n" for value in values)
+        rows = lambda cells: "".join(" ".join(map(str, cell)) + "\n" for cell in cells)
+        return ("# vtk DataFile Version 3.0\nsizes\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                f"POINTS {len(self.points)} double\n{rows(self.points)}"
+                f"CELLS {len(self.triangles)} {4 * len(self.triangles)}\n{rows((3, *t) for t in self.triangles)}"
+                f"CELL_TYPES {len(self.triangles)}\n{rows((5,) for _ in self.triangles)}"
+                f"CELL_DATA {len(self.triangles)}\nSCALARS area double 1\nLOOKUP_TABLE default\n{numbers(self.areas)}"
+                f"POINT_DATA {len(self.points)}\nSCALARS edge_length double 1\nLOOKUP_TABLE default\n"
+                f"{numbers(self.lengths)}SCALARS bad double 1\nLOOKUP_TABLE default\n"
+                f"{numbers([1.0] * 7 + [-2.0] * (len(self.points) - 7))}"
+                f"VECTORS velocity double\n{rows(self.points)}")
+
+    def ply(self):
+        return (f"ply\nformat ascii 1.0\nelement vertex {len(self.points)}\n"
+                "property double x\nproperty double y\nproperty double z\nproperty double h\n"
+                f"element face {len(self.triangles)}\nproperty list uchar int vertex_indices\nend_header\n" +
+                "".join(f"{x!r} {y!r} {z!r} {h!r}\n" for (x, y, z), h in zip(self.points, self.lengths)) +
+                "".join("3 " + " ".join(map(str, t)) + "\n" for t in self.triangles))
+
+    def off_by(self, name):
+        """Root mean square of ln(area / area asked for), by the best factor, but for triangles of the boundary alone."""
+        points = mesh_reader.read(self.path(name)).points
+        n = POINTS_WIDE - 1
+        on_boundary = lambda v: v % (n + 1) in (0, n) or v // (n + 1) in (0, n)
+        logs = []
+        for t in self.triangles:
+            if not all(map(on_boundary, t)):
+                (ax, ay, _), (bx, by, _), (cx, cy, _) = (points[v] for v in t)
+                asked = 3 / sum(1 / self.lengths[v] ** 2 for v in t)
+                logs.append(math.log(((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / asked))
+        mean = sum(logs) / len(logs)
+        return math.sqrt(sum((log - mean) ** 2 for log in logs) / len(logs))
+
+    def test_sizes_get_nearer_to_lengths_at_points_and_areas_of_cells_and_every_report_says_how_far_they_are(self):
+        self.write("in.vtk", self.vtk())
+        self.write("in.ply", self.ply())
+        for name, array in (("in.vtk", "edge_length"), ("in.vtk", "Edge Length"), ("in.vtk", "area"), ("in.ply", "h")):
+            with self.subTest(array=array):
+                output = "out" + name[2:]
+                arguments = ("smooth", name, output, "--method", "mean-ratio", "--size-array", array, "--size-weight", "3")
+                report = self.report(*arguments)
+                self.assertLess(1.5 * self.off_by(output), self.off_by(name))
+                fit = report["size_fit"]
+                self.assertEqual(report["options"]["size_array"], array)
+                self.assertEqual(fit["before"]["left_out"], 0)
+                self.assertEqual(fit["after"]["triangles"], fit["before"]["triangles"])
+                if array != "area":  # whose vertices have means
+                    self.assertAlmostEqual(fit["before"]["rms_log_ratio"], self.off_by(name), delta=0.02)
+                    self.assertAlmostEqual(fit["after"]["rms_log_ratio"], self.off_by(output), delta=0.02)
+                self.assertRegex(self.run_tool(*arguments).out, r"off those of the array '.*': rms ln\(A/A\*\)")
+                self.run_tool(*arguments, "--report", "run.html")
+                self.assertIn("Sizes off those asked for", self.read("run.html").decode())
+
+    def test_only_relations_count(self):
+        self.write("in.vtk", self.vtk())
+        arguments = ("smooth", "in.vtk", "out.vtk", "--method", "mean-ratio", "--size-array", "edge_length")
+        expected = self.report(*arguments)["coordinates_hash"]
+        self.lengths = [length / 1024 for length in self.lengths]
+        self.write("in.vtk", self.vtk())
+        self.assertEqual(self.report(*arguments)["coordinates_hash"], expected)
+
+    def test_what_is_no_array_of_sizes_is_refused_and_nothing_is_written(self):
+        self.write("in.vtk", self.vtk())
+        self.write("in.off", sample_meshes.off(sample_meshes.Grid()))
+        for name, array, says in (
+                ("in.vtk", "size", "no point or cell array 'size'.*it has: edge_length, bad, velocity at points"),
+                ("in.vtk", "bad", "point array 'bad' is -2 at point 7; sizes must be positive"),
+                ("in.vtk", "velocity", "'velocity' has 3 components; sizes need one"),
+                ("in.off", "h", "no point or cell array 'h'.*none at points, none at cells")):
+            with self.subTest(array):
+                output = "out" + name[2:]
+                outcome = self.run_tool("smooth", name, output, "--method", "mean-ratio", "--size-array", array,
+                                        expect=WRONG_USAGE)
+                self.assertRegex(outcome.err, says)
+                self.assertEqual(len(outcome.err.splitlines()), 1)
+                with self.assertRaises(FileNotFoundError):
+                    self.read(output)
+
+    def test_other_methods_take_no_notice_of_it(self):
+        self.write("in.vtk", self.vtk())
+        hashes = [self.report("smooth", "in.vtk", "out.vtk", *more)["coordinates_hash"]
+                  for more in ((), ("--size-array", "no such array"))]
+        self.assertEqual(hashes[0], hashes[1])
+
+
+if __name__ == "__main__":
+    tool.main()
