@@ -1,7 +1,10 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include <algorithm>
+#include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include "trismooth/base/errors.h"
@@ -60,6 +63,7 @@ class Run {
     });
     if (options_.output) {
       warn_of_precision();
+      warn_of_options_without_effect();
       warn_of_boundary();
       begin(Stage::smooth);
       smooth();
@@ -146,6 +150,7 @@ class Run {
     if (options_.size_array && smoothing_.method == Method::mean_ratio) {
       sizes_ = find_size_array(document_, mesh_, *options_.size_array);
       result_.input.size_array = sizes_.array;
+      result_.input.sizes_are_areas = sizes_.of_cells;
       smoothing_.mean_ratio.target_lengths = sizes_.lengths;
     }
   }
@@ -210,6 +215,31 @@ class Run {
     }
     warn(describe(loss) + (options_.smoothing.guard ? "; the guard checks the result in double" : "") +
          "; --precision double smooths it as it is");
+  }
+
+  void warn_of_options_without_effect() {
+    const MeanRatioOptions& given = options_.smoothing.mean_ratio;
+    const MeanRatioOptions usual;
+    if (options_.smoothing.method == Method::mean_ratio) {
+      return;
+    }
+    std::vector<std::string_view> names;
+    if (options_.size_array) {
+      names.emplace_back("--size-array");
+    }
+    if (given.target != usual.target) {
+      names.emplace_back("--target");
+    }
+    if (given.size_weight != usual.size_weight) {
+      names.emplace_back("--size-weight");
+    }
+    if (given.power != usual.power) {
+      names.emplace_back("--power");
+    }
+    if (!names.empty()) {
+      warn(fmt::format("the method {} takes no notice of {}; --method mean-ratio does",
+                       to_string(options_.smoothing.method), fmt::join(names, ", ")));
+    }
   }
 
   void warn_of_boundary() {

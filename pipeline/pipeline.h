@@ -79,6 +79,7 @@ struct InputSummary {
   std::string fixed_array;                 ///< the point array that was obeyed, or empty
   std::int64_t fixed_array_vertices = 0;   ///< where it is not zero
   std::string size_array;                  ///< the array that sizes were taken from, or empty
+  bool sizes_are_areas = false;            ///< of cells, not edge lengths at points
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them

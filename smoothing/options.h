@@ -147,7 +147,7 @@ struct MeanRatioOptions {
   int power = 0;
   TargetShape target = TargetShape::uniform;
   /// The sizes to aim at in place of those that the mesh has: for every vertex the edge length wanted around it, in any
-  /// unit, since with so many triangles only their relations can be met. Lengths beyond a millionth of the largest
+  /// unit, since with so many triangles only their relations can be met. Lengths below a millionth of the largest
   /// count as that; those of vertices in no triangle do not count. Empty: none. The caller owns the numbers and keeps
   /// them for as long as the options are used, by a plan, too; they are read in every smooth(), which throws
   /// std::invalid_argument where they are not as many as vertices, or one is not a positive number.
@@ -173,7 +173,8 @@ struct SmoothingOptions {
   MeanRatioOptions mean_ratio{};
   Evaluation evaluation = Evaluation::changed;
   /// The never-worse guard: when the sweeps are over, the vertices go back whose moves made an element invalid, or
-  /// worse than it was and worse than the worst of all elements around moved vertices was.
+  /// worse than it was and worse than the worst of all elements around moved vertices was. Where sizes are aimed at
+  /// (MeanRatioOptions::target_lengths) it protects validity alone.
   bool guard = true;
   /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
   /// pass where none is. `automatic`: with Method::mean_ratio.

@@ -33,7 +33,7 @@ void require_one_component(const DataArray& array, const char* what) {
 
 SizeArray lengths_at_points(const DataArray& array, const PlanarMesh& mesh) {
   require_one_component(array, "point");
-  SizeArray sizes{array.name, std::vector<double>(mesh.points.size(), 0)};
+  SizeArray sizes{array.name, false, std::vector<double>(mesh.points.size(), 0)};
   std::vector<std::uint8_t> in_triangle(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::int32_t v : triangle) {
@@ -66,7 +66,7 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
       ++counts[v];
     }
   }
-  SizeArray sizes{array.name, std::move(sums)};
+  SizeArray sizes{array.name, true, std::move(sums)};
   for (std::size_t v = 0; v < sizes.lengths.size(); ++v) {
     if (counts[v] > 0) {
       // sqrt(3) / 4 h^2 = area; all by the same factor, which sizes do not need

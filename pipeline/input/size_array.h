@@ -11,6 +11,7 @@ namespace trismooth {
 /// Sizes that an array of the file asks for.
 struct SizeArray {
   std::string array;            ///< its name in the file
+  bool of_cells = false;        ///< areas of cells, not edge lengths at points
   std::vector<double> lengths;  ///< per vertex: the edge length asked for around it; 0 of vertices in no triangle
 };
 

@@ -137,9 +137,10 @@ std::string size_fit_line(const PipelineResult& result) {
   if (!result.size_fit_before || !result.size_fit_after || result.smoothing->moved_vertices == 0) {
     return {};
   }
-  return labelled_line(
-      "", fmt::format("off those of the array '{}': rms ln(A/A*) {:.3g} before, {:.3g} now", result.input.size_array,
-                      result.size_fit_before->rms_log_ratio, result.size_fit_after->rms_log_ratio));
+  return labelled_line("", fmt::format("off {} '{}' of {}: rms ln(A/A*) {:.3g} before, {:.3g} now",
+                                       result.input.sizes_are_areas ? "areas" : "edge lengths", result.input.size_array,
+                                       result.input.sizes_are_areas ? "cells" : "points",
+                                       result.size_fit_before->rms_log_ratio, result.size_fit_after->rms_log_ratio));
 }
 
 std::string inverted_line(const PipelineResult& result) {

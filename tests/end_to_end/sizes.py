@@ -82,7 +82,8 @@ class Sizes(tool.ToolTest):
                 if array != "area":  # whose vertices have means
                     self.assertAlmostEqual(fit["before"]["rms_log_ratio"], self.off_by(name), delta=0.02)
                     self.assertAlmostEqual(fit["after"]["rms_log_ratio"], self.off_by(output), delta=0.02)
-                self.assertRegex(self.run_tool(*arguments).out, r"off those of the array '.*': rms ln\(A/A\*\)")
+                line = "off areas '.*' of cells: rms" if array == "area" else "off edge lengths '.*' of points: rms"
+                self.assertRegex(self.run_tool(*arguments).out, line)
                 self.run_tool(*arguments, "--report", "run.html")
                 self.assertIn("Sizes off those asked for", self.read("run.html").decode())
 
@@ -93,6 +94,18 @@ class Sizes(tool.ToolTest):
         self.lengths = [length / 1024 for length in self.lengths]
         self.write("in.vtk", self.vtk())
         self.assertEqual(self.report(*arguments)["coordinates_hash"], expected)
+
+    def test_another_method_takes_no_notice_and_says_so(self):
+        self.write("in.vtk", self.vtk())
+        plain = self.report("smooth", "in.vtk", "out.vtk")
+        self.assertEqual(plain["warnings"], [])
+        for options in (("--size-array", "edge_length"), ("--target", "input-shape"), ("--size-weight", "2"),
+                        ("--power", "1"), ("--size-array", "edge_length", "--power", "4")):
+            with self.subTest(options):
+                report = self.report("smooth", "in.vtk", "out.vtk", *options)
+                self.assertEqual(report["coordinates_hash"], plain["coordinates_hash"])
+                self.assertEqual(report["warnings"], [
+                    f"the method smart takes no notice of {', '.join(options[::2])}; --method mean-ratio does"])
 
     def test_what_is_no_array_of_sizes_is_refused_and_nothing_is_written(self):
         self.write("in.vtk", self.vtk())

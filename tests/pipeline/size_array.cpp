@@ -50,6 +50,7 @@ TEST_CASE("an array at points has the edge lengths, and what is in no triangle d
   sample.at_points("Edge length", {1, 2, 3, 4, -5});
   const SizeArray sizes = find_size_array(sample.document, sample.mesh, "edge_length");
   CHECK(sizes.array == "Edge length");
+  CHECK_FALSE(sizes.of_cells);
   CHECK(sizes.lengths == std::vector<double>{1, 2, 3, 4, 0});
 }
 
@@ -57,6 +58,7 @@ TEST_CASE("an array of cells has the areas: vertices get the edges of the mean o
   Sample sample;
   sample.at_cells("area", {1, -7, 4});
   const SizeArray sizes = find_size_array(sample.document, sample.mesh, "area");
+  CHECK(sizes.of_cells);
   const auto edge = [](double area) { return std::sqrt(4 * area / std::sqrt(3.0)); };
   const std::vector<double> areas{2.5, 1, 2.5, 4};
   for (std::size_t v = 0; v < 4; ++v) {

@@ -97,7 +97,7 @@ TEST_CASE("how sizes changed is told where vertices moved") {
   result.size_fit_before = trismooth::SizeFit{210, 0, 1.23456};
   result.size_fit_after = trismooth::SizeFit{210, 0, 0.5};
   CHECK(says(text_report(sample::options(), result),
-             "            off those of the array 'h': rms ln(A/A*) 1.23 before, 0.5 now\n"));
+             "            off edge lengths 'h' of points: rms ln(A/A*) 1.23 before, 0.5 now\n"));
   result.size_change->triangles = 0;
   CHECK(says(text_report(sample::options(), result), "sizes:      no element was valid before and is now\n"));
   result.smoothing->moved_vertices = 0;
