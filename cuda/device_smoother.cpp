@@ -130,15 +130,7 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    Ending ending{{order_.input_index.data(),
-                   before_.data(),
-                   {},
-                   {},
-                   &record_.data()->state,
-                   false,
-                   frame,
-                   storage,
-                   highest_threshold(options_)},
+    Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
                   stored};
     enter(ending, result);
     run(fixed_quotient, ending, result);

@@ -104,7 +104,6 @@ class CpuSmoother final : public PreparedSmoother {
     std::vector<Point2<double>> after = before;
     for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
     if (options_.guard) {
-      const double highest = highest_threshold(options_);
       const auto list = [&](const GuardOutcome& outcome) {
         result.guard_rounds += outcome.rounds;
         for (const std::int32_t v : outcome.reverted) {
@@ -116,17 +115,16 @@ class CpuSmoother final : public PreparedSmoother {
         // far takes others along.
         std::vector<Point2<double>> untangled = before;
         for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = frame.enter(stored_from(start, v)); });
-        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_, highest);
+        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_);
         list(outcome);
         for (const std::int32_t v : outcome.reverted) {
           working[v] = start[v];
         }
       }
       if (turned) {
-        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_,
-                              highest));
+        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
       } else {
-        list(keep_never_worse(rings.view(), before, after, workers_, highest));
+        list(keep_never_worse(rings.view(), before, after, workers_));
       }
     }
     std::atomic<std::int64_t> moved{0};

@@ -173,8 +173,7 @@ struct SmoothingOptions {
   MeanRatioOptions mean_ratio{};
   Evaluation evaluation = Evaluation::changed;
   /// The never-worse guard: when the sweeps are over, the vertices go back whose moves made an element invalid, or
-  /// worse than it was and worse than the worst of all elements around moved vertices was. Where sizes are aimed at
-  /// (MeanRatioOptions::target_lengths) it protects validity alone.
+  /// worse than it was and worse than the worst of all elements around moved vertices was.
   bool guard = true;
   /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
   /// pass where none is. `automatic`: with Method::mean_ratio.

@@ -69,7 +69,7 @@ __global__ void __launch_bounds__(block_size, 4) judge(View view, GuardKeys* key
   __syncthreads();
   if (threadIdx.x == 0) {
     keys[blockIdx.x] = shared;
-    raise(&state->all.before, max(shared.before, falling_key(view.highest_threshold)));
+    raise(&state->all.before, shared.before);
     raise(&state->all.worsened, shared.worsened);
   }
 }
@@ -201,7 +201,7 @@ class Rounds {
 
   /// Brings the keys up to date, and the key of T with them, in the word of this round.
   __device__ unsigned long long find_threshold(std::uint32_t word) {
-    unsigned long long largest = falling_key(view_.highest_threshold);
+    unsigned long long largest = 0;
     for_blocks([&](std::int64_t block, std::int32_t lane) {
       unsigned long long before = work_.keys[block].before;
       if (before == GuardKeys::outdated) {

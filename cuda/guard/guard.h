@@ -28,7 +28,6 @@ struct GuardInput {
   bool is_over;                     ///< or if this is set
   const LocalFrame* frame;
   Storage storage;
-  double highest_threshold;  ///< see keep_never_worse()
 };
 
 /// What the guard knows of the elements of a set of vertices, as keys of which the largest counts: falling_key() of the

@@ -327,6 +327,22 @@ PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> co
   return fit;
 }
 
+namespace {
+
+/// The side from which in-plane coordinates are seen as they are, counter-clockwise what is counter-clockwise.
+Vector3d seen_from(const Plane& plane) {
+  return plane.aligned ? Vector3d::Unit(plane.axes[0]).cross(Vector3d::Unit(plane.axes[1])) : plane.u.cross(plane.v);
+}
+
+/// The same plane, seen from its other side.
+void turn_over(Plane& plane) {
+  std::swap(plane.axes[0], plane.axes[1]);
+  std::swap(plane.slope.x, plane.slope.y);
+  std::swap(plane.u, plane.v);
+}
+
+}  // namespace
+
 std::optional<PlaneFit> plane_of_fixed(const Plane& plane, std::span<const double> xyz,
                                        std::span<const std::uint8_t> counts, std::span<const std::uint8_t> fixed,
                                        Storage storage) {
@@ -348,6 +364,10 @@ std::optional<PlaneFit> plane_of_fixed(const Plane& plane, std::span<const doubl
     const bool is_one =
         cloud.half_size() > 0 && least_squares(cloud).width * cloud.half_size() > least_part * plane.deviation;
     fit.plane = is_one ? fit.plane : plane;
+    // How triangles are turned is known from the plane before.
+    if (seen_from(fit.plane).dot(seen_from(plane)) < 0) {
+      turn_over(fit.plane);
+    }
     fit.plane.drops_offsets = true;
   }
   return fit;

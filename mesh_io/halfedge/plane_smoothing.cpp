@@ -49,8 +49,7 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
     turned = {result.untangling->turned_components, std::move(result.untangling->turned)};
   }
   if (options.guard) {
-    const GuardOutcome outcome =
-        keep_never_worse(rings, triangles, mesh.reversed, turned, before, after, workers, highest_threshold(options));
+    const GuardOutcome outcome = keep_never_worse(rings, triangles, mesh.reversed, turned, before, after, workers);
     result.guard_rounds += outcome.rounds;
     for (const std::int32_t v : outcome.reverted) {
       result.reverted.push_back({v, moved[v]});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -70,7 +72,9 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
   for (std::size_t v = 0; v < sizes.lengths.size(); ++v) {
     if (counts[v] > 0) {
       // sqrt(3) / 4 h^2 = area; all by the same factor, which sizes do not need
-      sizes.lengths[v] = std::sqrt(4 / std::sqrt(3.0) * sizes.lengths[v] / counts[v]);
+      // An area so much smaller than the largest that it is lost beside it is the smallest number.
+      sizes.lengths[v] = std::sqrt(4 / std::numbers::sqrt3 *
+                                   std::max(sizes.lengths[v] / counts[v], std::numeric_limits<double>::min()));
     }
   }
   return sizes;

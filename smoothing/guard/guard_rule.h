@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/options.h"
 
 namespace trismooth {
 
@@ -22,12 +21,6 @@ constexpr TRISMOOTH_HOST_DEVICE double worsened_quotient(double before, double a
 /// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
 constexpr TRISMOOTH_HOST_DEVICE bool offends(double before, double after, double threshold) {
   return worsened_quotient(before, after) < threshold;
-}
-
-/// The threshold T is never above this. Where sizes are asked for shapes may get worse for them: the sweeps see to it
-/// that none gets worse than the worst was, and the guard protects validity alone.
-inline double highest_threshold(const SmoothingOptions& options) {
-  return options.aims_at_sizes() ? 0 : std::numeric_limits<double>::infinity();
 }
 
 /// The shape quotient of the element with these corners (counter-clockwise) and input indices, in canonical corner

@@ -21,12 +21,11 @@ constexpr std::int64_t block_grain = 32;
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
-        Workers& workers, double highest_threshold)
+        Workers& workers)
       : rings_(rings),
         before_(before),
         after_(after),
         workers_(workers),
-        highest_threshold_(highest_threshold),
         block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
         tree_(static_cast<std::size_t>(block_count_)) {}
 
@@ -40,7 +39,7 @@ class Guard {
     tree_.update();
     for (;;) {
       blocks_.clear();
-      tree_.find_below(threshold(), blocks_);
+      tree_.find_below(tree_.total().before, blocks_);
       if (blocks_.empty()) {
         break;
       }
@@ -54,7 +53,6 @@ class Guard {
   }
 
  private:
-  double threshold() const { return std::min(tree_.total().before, highest_threshold_); }
   bool has_moved(std::int32_t vertex) const { return !(before_[vertex] == after_[vertex]); }
 
   /// The quotient of the element (a, b, c), counter-clockwise, in canonical corner order.
@@ -97,7 +95,7 @@ class Guard {
 
   /// The moved corners of the offending elements in blocks_, each once.
   void find_offenders() {
-    const double threshold = this->threshold();
+    const double threshold = tree_.total().before;
     listed_.resize(static_cast<std::size_t>(rings_.size()), 0);
     offenders_.clear();
     std::mutex joining;
@@ -150,7 +148,6 @@ class Guard {
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
   Workers& workers_;
-  double highest_threshold_;
   std::int64_t block_count_;
   GuardTree tree_;
   std::vector<std::int32_t> blocks_;     ///< of this round: with an offender, then with elements that changed
@@ -161,8 +158,8 @@ class Guard {
 }  // namespace
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, double highest_threshold) {
-  return Guard(rings, before, after, workers, highest_threshold).run();
+                              std::span<Point2<double>> after, Workers& workers) {
+  return Guard(rings, before, after, workers).run();
 }
 
 void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {

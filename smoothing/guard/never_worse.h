@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,14 +24,12 @@ struct GuardOutcome {
 /// vertices that are elsewhere now; all moved vertices of all elements that offend (see offends) go back to where they
 /// were, at once; until none offends. Afterwards no element that was valid is invalid, and none is both worse than it
 /// was and worse than the worst element around the vertices that stay moved was. T is one number for the whole mesh; it
-/// is found again in every round, for it rises when the vertices around that element have gone back, but never above
-/// `highest_threshold`: with 0 the guard protects validity alone. Elements are
+/// is found again in every round, for it rises when the vertices around that element have gone back. Elements are
 /// evaluated in float64 in canonical corner order (smallest input index first), so each gives the same bits from every
 /// vertex, in the report too. Ends: each round returns a vertex. Complexity: one pass over the elements of moved
 /// vertices; a round costs what it takes back (times log n), not the mesh.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers,
-                              double highest_threshold = std::numeric_limits<double>::infinity());
+                              std::span<Point2<double>> after, Workers& workers);
 
 /// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
 /// the first found it; who is there again, at `points`, is not.

@@ -14,7 +14,8 @@ namespace trismooth {
 template <class T>
 struct LanesOf {
   static constexpr int count = static_cast<int>(16 / sizeof(T));
-  typedef T type __attribute__((vector_size(16)));  // a size in an alias may not depend on T
+  // An alias may not have an attribute that depends on T.
+  typedef T type __attribute__((vector_size(16)));  // NOLINT(modernize-use-using)
 };
 template <class T>
 using Lanes = typename LanesOf<T>::type;

@@ -146,10 +146,12 @@ class SweepDriver {
     return total;
   }
 
+  /// Everything in it is inlined, by force: left alone, GCC calls what works on a few numbers in registers.
   template <class Update>
-  void update_block(const Update& method, std::int32_t begin, std::int32_t end, std::span<const Point2<T>> from,
-                    std::span<Point2<T>> to, std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next,
-                    SweepTally<T>& tally) {
+  [[gnu::flatten]] void update_block(const Update& method, std::int32_t begin, std::int32_t end,
+                                     std::span<const Point2<T>> from, std::span<Point2<T>> to,
+                                     std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next,
+                                     SweepTally<T>& tally) {
     RingGatherer<T> gatherer;
     const bool all = options_.evaluation == Evaluation::all;
     const T tolerance = static_cast<T>(options_.tolerance);

@@ -252,10 +252,10 @@ MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> tr
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
                               std::span<const std::uint8_t> reversed, TurnedComponents& turned,
-                              std::span<const Point2<double>> before, std::span<Point2<double>> after, Workers& workers,
-                              double highest_threshold) {
+                              std::span<const Point2<double>> before, std::span<Point2<double>> after,
+                              Workers& workers) {
   if (!turned.any()) {
-    return keep_never_worse(rings, before, after, workers, highest_threshold);
+    return keep_never_worse(rings, before, after, workers);
   }
   const std::vector<std::uint8_t> were_turned = vertices_of(rings, triangles, turned.triangles);
   const OrientedComponents components(triangles, reversed, before.size(), workers);
@@ -275,7 +275,7 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> t
       }
     }
   }
-  GuardOutcome outcome = keep_never_worse(rings, before, rest, workers, highest_threshold);
+  GuardOutcome outcome = keep_never_worse(rings, before, rest, workers);
   for (std::int32_t v = 0; v < rings.size(); ++v) {
     after[v] = are_turned[v] != 0 ? after[v] : rest[v];
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -60,7 +59,7 @@ MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> tr
 /// keep_never_worse(), and where there are turned components that of matching the mesh's sides.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
                               std::span<const std::uint8_t> reversed, TurnedComponents& turned,
-                              std::span<const Point2<double>> before, std::span<Point2<double>> after, Workers& workers,
-                              double highest_threshold = std::numeric_limits<double>::infinity());
+                              std::span<const Point2<double>> before, std::span<Point2<double>> after,
+                              Workers& workers);
 
 }  // namespace trismooth

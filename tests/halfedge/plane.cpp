@@ -358,6 +358,38 @@ TEST_CASE("noise across a plane of two axes is no slope: the third coordinate ke
   CHECK(plane->moved(points[9], plane->project(points[9]), {0.7, 0.1}).z() == points[9].z());
 }
 
+TEST_CASE("the plane of the fixed points is seen from the side that the plane before was") {
+  const Grid flat_grid = unit_grid(12);
+  int settled_planes = 0;
+  for (int i = 0; i < 200; ++i) {
+    // Far from the origin, where rounding to float32 makes two fits differ.
+    const Eigen::Vector3d axis = Eigen::Vector3d(std::sin(i), std::cos(3 * i), std::sin(2 * i + 1)).normalized();
+    const Eigen::AngleAxisd turn(0.3 + 0.1 * (i % 29), axis);
+    std::vector<Eigen::Vector3d> points;
+    std::vector<std::uint8_t> fixed;
+    for (const Eigen::Vector3d& point : flat_grid.points) {
+      const Eigen::Vector3d placed = turn * point + Eigen::Vector3d(30, -20, 10) * (1 + i % 40);
+      points.emplace_back(placed.cast<float>().cast<double>());
+      const bool inside = point.x() > 0 && point.x() < 11 && point.y() > 0 && point.y() < 11;
+      fixed.push_back(inside ? 0 : 1);
+    }
+    const std::vector<std::uint8_t> all(points.size(), 1);
+    const auto fit = trismooth::fit_plane(flat(points), all, {}, trismooth::Storage::float32);
+    const auto settled = plane_of_fixed(fit.plane, flat(points), all, fixed, trismooth::Storage::float32);
+    if (!settled || !settled->is_planar()) {
+      continue;
+    }
+    ++settled_planes;
+    const auto doubled_area = [&](const Plane& plane) {
+      const auto a = plane.project(points[0]);
+      return trismooth::cross(plane.project(points[11]) - a, plane.project(points.back()) - a);
+    };
+    CAPTURE(i);
+    CHECK(doubled_area(fit.plane) * doubled_area(settled->plane) > 0);
+  }
+  CHECK(settled_planes > 20);
+}
+
 TEST_CASE("where free vertices far away hide that the fixed ones are in another plane, theirs is taken, or none") {
   Grid grid = unit_grid(4);
   std::vector<std::uint8_t> fixed(16, 1);

@@ -360,27 +360,4 @@ TEST_CASE("a plan reads the lengths anew in every call") {
   CHECK_FALSE(smoothed(mesh, aiming_at(ring)).xy == smoothed(mesh, aiming_at(one)).xy);
 }
 
-TEST_CASE("with the threshold 0 the guard takes back what is not valid any more, and not what is just worse") {
-  const Mesh mesh = test_meshes::star(6);
-  trismooth::Workers workers(1);
-  const auto topology = trismooth::connect_triangles(mesh.vertex_count(), mesh.triangles, workers);
-  const std::vector<std::uint8_t> reversed(mesh.triangles.size(), 0);
-  const auto rings = trismooth::one_rings(topology, mesh.triangles, reversed, topology.hold, workers);
-  const auto reverted = [&](Point2<double> place, double highest) {
-    std::vector<Point2<double>> after = mesh.points;
-    for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-      if (rings.is_free(v)) {
-        after[v] = place;
-      }
-    }
-    return trismooth::keep_never_worse(rings.view(), mesh.points, after, workers, highest).reverted.size();
-  };
-  const Point2<double> corner = mesh.points[static_cast<std::size_t>(mesh.triangles[0][1])];
-  const Point2<double> near{0.98 * corner.x, 0.98 * corner.y};
-  const Point2<double> outside{3 * corner.x, 3 * corner.y};
-  CHECK(reverted(near, infinity) == 1);
-  CHECK(reverted(near, 0) == 0);
-  CHECK(reverted(outside, 0) == 1);
-}
-
 }  // namespace target_sizes_test
