@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/base/workers.h"
@@ -164,11 +167,21 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<doub
 
 void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {
   // By vertex, and of one vertex the first first.
-  std::ranges::stable_sort(result.reverted, {}, &RevertedVertex::vertex);
-  const auto same = std::unique(result.reverted.begin(), result.reverted.end(),
-                                [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; });
-  result.reverted.erase(same, result.reverted.end());
-  std::erase_if(result.reverted, [&](const RevertedVertex& one) { return one.position == points[one.vertex]; });
+  std::vector<std::pair<std::int32_t, std::size_t>> order;
+  order.reserve(result.reverted.size());
+  for (std::size_t i = 0; i < result.reverted.size(); ++i) {
+    order.emplace_back(result.reverted[i].vertex, i);
+  }
+  std::ranges::sort(order);
+  std::vector<RevertedVertex> named;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto [vertex, place] = order[i];
+    const bool is_first = i == 0 || order[i - 1].first != vertex;
+    if (is_first && !(result.reverted[place].position == points[vertex])) {
+      named.push_back(result.reverted[place]);
+    }
+  }
+  result.reverted = std::move(named);
   result.reverted_vertices = std::ssize(result.reverted);
 }
 
