@@ -179,7 +179,7 @@ TurnedComponents turn_over(const RingView& rings, std::span<const Triangle> tria
   std::vector<std::uint8_t> turned = components.of_negative_area(before);
   const TurnedComponents tried = components.triangles_of(turned);
   if (!tried.any()) {
-    return tried;
+    return {};
   }
   OneRings tried_rings = rings_of(rings, vertices_of(rings, triangles, tried.triangles));
   const RingView view{tried_rings.offsets, tried_rings.neighbours, rings.input_index};

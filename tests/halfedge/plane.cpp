@@ -185,7 +185,7 @@ TEST_CASE("points on one line, equal points, one point and no point lie in a pla
 
   Points line;
   for (int i = 0; i <= 10; ++i) {
-    line.push_back(size * (Eigen::Vector3d(1, 2, 3) + i * Eigen::Vector3d(0.3, -0.5, 0.7)));
+    line.emplace_back(size * (Eigen::Vector3d(1, 2, 3) + i * Eigen::Vector3d(0.3, -0.5, 0.7)));
   }
   const auto tilted = plane_of(line);
   REQUIRE(tilted);

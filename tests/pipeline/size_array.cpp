@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -59,7 +60,7 @@ TEST_CASE("an array of cells has the areas: vertices get the edges of the mean o
   sample.at_cells("area", {1, -7, 4});
   const SizeArray sizes = find_size_array(sample.document, sample.mesh, "area");
   CHECK(sizes.of_cells);
-  const auto edge = [](double area) { return std::sqrt(4 * area / std::sqrt(3.0)); };
+  const auto edge = [](double area) { return std::sqrt(4 * area / std::numbers::sqrt3); };
   const std::vector<double> areas{2.5, 1, 2.5, 4};
   for (std::size_t v = 0; v < 4; ++v) {
     CHECK(sizes.lengths[v] / sizes.lengths[1] == Approx(edge(areas[v]) / edge(1)));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -47,7 +48,7 @@ TEMPLATE_TEST_CASE("the sides of a ring in lanes give the bits that they give on
     std::vector<T> inverse_areas{number(0.5, 2)};
     std::vector<trismooth::EdgeTensor<T>> edges{{1, number(-0.2, 0.2), 1}};
     for (std::int32_t k = 0; k < size; ++k) {
-      const double angle = 2 * 3.14159265358979 * (k + random.between(0, 0.6)) / size;
+      const double angle = 2 * std::numbers::pi * (k + random.between(0, 0.6)) / size;
       const double radius = random.between(0.6, 1.6);
       points.push_back({static_cast<T>(radius * std::cos(angle)), static_cast<T>(radius * std::sin(angle))});
       ring.push_back(k + 1);
