@@ -21,7 +21,6 @@
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 

@@ -27,10 +27,6 @@ struct SideTotals {
     for (int i = 0; i < count; ++i) {
       sums[i] += terms.values[i];
     }
-    add_extremes(terms);
-  }
-  /// All but the sums.
-  constexpr TRISMOOTH_HOST_DEVICE void add_extremes(const SideTerms<T, count>& terms) {
     smallest_margin = terms.margin < smallest_margin ? terms.margin : smallest_margin;
     largest_share = terms.share > largest_share ? terms.share : largest_share;
   }

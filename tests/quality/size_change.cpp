@@ -18,18 +18,7 @@ using trismooth::TriangleView;
 namespace size_change_test {
 
 using test_meshes::Mesh;
-
-/// Right triangles side by side, of these areas, counter-clockwise; negative ones clockwise.
-Mesh triangles_of_areas(const std::vector<double>& areas) {
-  Mesh mesh;
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double x = static_cast<double>(i);
-    const auto first = static_cast<std::int32_t>(3 * i);
-    mesh.points.insert(mesh.points.end(), {{x, 0}, {x + 1, 0}, {x, 2 * areas[i]}});
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  return mesh;
-}
+using test_meshes::triangles_of_areas;
 
 TriangleView view_of(const Mesh& mesh) {
   return {mesh.points, mesh.triangles, {}, 0};

@@ -15,25 +15,14 @@ using trismooth::TriangleView;
 namespace size_fit_test {
 
 using test_meshes::Mesh;
-
-/// Right triangles side by side, of these areas.
-Mesh of_areas(const std::vector<double>& areas) {
-  Mesh mesh;
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double x = static_cast<double>(i);
-    const auto first = static_cast<std::int32_t>(3 * i);
-    mesh.points.insert(mesh.points.end(), {{x, 0}, {x + 1, 0}, {x, 2 * areas[i]}});
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  return mesh;
-}
+using test_meshes::triangles_of_areas;
 
 TriangleView view_of(const Mesh& mesh) {
   return {mesh.points, mesh.triangles, {}, 0};
 }
 
 TEST_CASE("sizes fit where they are those asked for but for a factor") {
-  const Mesh mesh = of_areas({1, 2, 5});
+  const Mesh mesh = triangles_of_areas({1, 2, 5});
   const std::vector<double> asked{1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.1, 0.2};
   const SizeFit fit = size_fit(view_of(mesh), asked, std::vector<std::uint8_t>(9, 0));
   CHECK(fit.triangles == 3);
@@ -42,7 +31,7 @@ TEST_CASE("sizes fit where they are those asked for but for a factor") {
 }
 
 TEST_CASE("how far sizes are off is the root mean square of the logarithms, with the same area asked for as there is") {
-  const Mesh mesh = of_areas({1, 3});
+  const Mesh mesh = triangles_of_areas({1, 3});
   // 2 and 2 are asked for.
   const SizeFit fit = size_fit(view_of(mesh), std::vector<double>(6, 0.01), std::vector<std::uint8_t>(6, 0));
   const double down = std::log(1.0 / 2);
@@ -51,7 +40,7 @@ TEST_CASE("how far sizes are off is the root mean square of the logarithms, with
 }
 
 TEST_CASE("triangles that are held or not valid are left out") {
-  const Mesh mesh = of_areas({1, -1, 3, 0, 100});
+  const Mesh mesh = triangles_of_areas({1, -1, 3, 0, 100});
   std::vector<std::uint8_t> held(15, 0);
   held[12] = held[13] = held[14] = 1;  // the last one
   held[0] = held[1] = 64;              // the first one keeps a corner
@@ -59,7 +48,7 @@ TEST_CASE("triangles that are held or not valid are left out") {
   CHECK(fit.triangles == 2);
   CHECK(fit.left_out == 2);
   CHECK(fit.rms_log_ratio ==
-        Approx(size_fit(view_of(of_areas({1, 3})), std::vector<double>(6, 1), std::vector<std::uint8_t>(6, 0))
+        Approx(size_fit(view_of(triangles_of_areas({1, 3})), std::vector<double>(6, 1), std::vector<std::uint8_t>(6, 0))
                    .rms_log_ratio));
   const SizeFit none = size_fit(view_of(mesh), std::vector<double>(15, 1), std::vector<std::uint8_t>(15, 1));
   CHECK(none.triangles == 0);

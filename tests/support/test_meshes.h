@@ -95,6 +95,18 @@ inline Mesh tangled(std::int32_t side, std::uint64_t seed) {
   return jittered_grid(side, side, 1.3, seed);
 }
 
+/// Right triangles side by side, of these areas, counter-clockwise; negative ones clockwise.
+inline Mesh triangles_of_areas(const std::vector<double>& areas) {
+  Mesh mesh;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const double x = static_cast<double>(i);
+    const auto first = static_cast<std::int32_t>(3 * i);
+    mesh.points.insert(mesh.points.end(), {{x, 0}, {x + 1, 0}, {x, 2 * areas[i]}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
 /// Vertex 0, off the middle of a ring of `size` others.
 inline Mesh star(std::int32_t size, std::uint64_t seed = 1) {
   Random random(seed);
