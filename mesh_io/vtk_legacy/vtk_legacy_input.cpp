@@ -324,7 +324,8 @@ std::shared_ptr<const ArrayDescription> VtkLegacyInput::read_metadata(std::uint6
     const std::string keyword = lower_case(words.front());
     if (keyword == "component_names") {
       // A component without a name is an empty line that ends nothing. Where lines are missing, arrays that are added
-      // behind the file's last byte would be taken for names.
+      // behind the file's last byte would be taken for names. Of two lists the last one holds, as in VTK.
+      description.component_names.clear();
       for (std::uint64_t i = 0; i < components; ++i) {
         if (bytes_left() == 0) {
           fail("COMPONENT_NAMES: expected " + std::to_string(components) + " lines, got " + std::to_string(i) +

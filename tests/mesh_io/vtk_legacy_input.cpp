@@ -133,3 +133,16 @@ TEST_CASE("legacy VTK: METADATA goes with its array, and what is no METADATA end
   CHECK(description->roles == std::vector<std::string>{"Vectors"});
   CHECK(document.cell_arrays[1].description->roles == std::vector<std::string>{"Scalars"});
 }
+
+TEST_CASE("legacy VTK: of two lists of names of components the last one holds, as many names as components") {
+  const std::string file = legacy_test::grid_file(false, false)
+                               .text(
+                                   "CELL_DATA 7\nSCALARS pair int 2\nLOOKUP_TABLE default\n"
+                                   "1 2 3 4 5 6 7 8 9 10 11 12 13 14\n"
+                                   "METADATA\nCOMPONENT_NAMES\nold\nnames\nCOMPONENT_NAMES\nnew\nones\n\n")
+                               .bytes();
+  const MeshDocument document = trismooth::read_mesh(TemporaryFile(file, ".vtk").path());
+  REQUIRE(document.cell_arrays.size() == 1);
+  REQUIRE(document.cell_arrays[0].description != nullptr);
+  CHECK(document.cell_arrays[0].description->component_names == std::vector<std::string>{"new", "ones"});
+}
