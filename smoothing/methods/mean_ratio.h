@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "trismooth/smoothing/methods/mean_ratio_energy.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
@@ -41,6 +42,17 @@ struct MeanRatioStep {
   bool is_last = true;  ///< the power is that of MeanRatioScales, else 1
 };
 
+/// A move by the energy, or several in lanes. V: a number, or lanes of it.
+template <class V>
+struct NewtonMove {
+  using Mask = decltype(V{} < V{});
+
+  Point2<V> target;  ///< where it moves
+  V squares;         ///< see VertexMove
+  Mask is_valid;     ///< every triangle is positive; there is no energy elsewhere
+  Mask moved;
+};
+
 /// Smoothing by an energy of the elements: Munson's inverse mean ratio (T. Munson 2007, "Mesh shape-quality
 /// optimization using the inverse mean-ratio metric"), which is 1 / alpha, with a term that keeps sizes. The energy of
 /// a vertex is the sum of MeanRatioEnergy over its triangles.
@@ -55,6 +67,10 @@ struct MeanRatioStep {
 template <class T, bool shaped, bool is_last>
 class MeanRatio {
  public:
+  /// That of a side. V: see NewtonMove.
+  template <class V>
+  using Metric = std::conditional_t<shaped, EdgeTensor<V>, EuclideanMetric<V>>;
+
   constexpr TRISMOOTH_HOST_DEVICE MeanRatio(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step)
       : targets_(targets), step_(step) {}
 
@@ -67,44 +83,81 @@ class MeanRatio {
   template <class Ring>
   constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> vertex_move(std::int32_t v, Point2<T> position,
                                                             const Ring& ring) const {
+    const T own = targets_.inverse_areas[v];
+    const T largest = targets_.largest_shares[v];
+    const auto fetch = [&](int i) -> Neighbour {
+      const std::int32_t number = ring.number(i);
+      return {number, ring[i], targets_.inverse_areas[number]};
+    };
+    const auto side = [&](const Neighbour& from, const Neighbour& to) {
+      return side_between<T>(from.position, to.position, own + from.inverse_area + to.inverse_area,
+                             metric(v, from.number, to.number));
+    };
+    const auto grows = [&](bool is_candidate, Point2<T> target) {
+      return is_candidate && grows_beyond(largest, position, target, ring);
+    };
+    const NewtonMove<T> found = newton_move(sides_in_turn<T>(ring, fetch, side), position, largest, grows);
+    if (!found.is_valid) {
+      return with_squares(SmartLaplacian::update(position, ring), position, ring);
+    }
+    return {found.moved ? move_to(position, found.target) : stay(position), found.squares};
+  }
+
+  /// The move of a vertex by the energy, or of several at once. `largest`: of largest_shares. Where a step is a
+  /// candidate but gives a triangle a share above that, grows(candidates, target) says which of them may not be.
+  template <class V, class Sides, class Grows>
+  constexpr TRISMOOTH_HOST_DEVICE NewtonMove<V> newton_move(const Sides& sides, Point2<V> position, V largest,
+                                                            const Grows& grows) const {
+    using Mask = decltype(V{} < V{});
     const MeanRatioScales<T> scales = *targets_.scales;
     const MeanRatioEnergy<T, is_last ? 0 : 1> energy{is_last ? scales.power : 1, scales.size_weight,
                                                      scales.least_quotient};
-    const T own = targets_.inverse_areas[v];
-    const T largest = targets_.largest_shares[v];
-    const auto sides = sides_of(
-        ring, [&](int i) { return fetched(ring, i); },
-        [&](const Neighbour& from, const Neighbour& to) { return side(v, own, from, to); });
-
     const auto at =
-        sides.template totals<T, 7>([&](const auto& of) { return energy.expansion(triangle_of(position, of)); });
-    if (!(at.smallest_margin > T(0))) {
-      return with_squares(SmartLaplacian::update(position, ring), position, ring);
-    }
+        sides.template totals<7>(position, [&](const auto& triangle) { return energy.expansion(triangle); });
     const auto [value, x, y, xx, xy, yy, squares] = at.sums;
-    const T inverse = T(1) / (xx * yy - xy * xy);
-    const Point2<T> newton{inverse * (xy * y - yy * x), inverse * (xy * x - xx * y)};
+    const V inverse = T(1) / (xx * yy - xy * xy);
+    const Point2<V> newton{inverse * (xy * y - yy * x), inverse * (xy * x - xx * y)};
     // Half of this is what a Newton step gains where the energy is quadratic. (The expansion is that of the energy
     // divided by the power.)
-    const T gain = -static_cast<T>(energy.power) * (newton.x * x + newton.y * y);
-    if (!(inverse > T(0)) || !(gain > step_.least_gain * value)) {
-      return {stay(position), T(0)};
-    }
+    const V gain = -static_cast<T>(energy.power) * (newton.x * x + newton.y * y);
+
+    NewtonMove<V> result{position, squares, at.smallest_margin > T(0), Mask{}};
+    Mask open = result.is_valid && inverse > T(0) && gain > step_.least_gain * value;
     T length = step_.relaxation;
-    for (int tries = 0; tries < most_tries; ++tries) {
-      const Point2<T> target{position.x + length * newton.x, position.y + length * newton.y};
-      const auto after =
-          sides.template totals<T, 1>([&](const auto& of) { return energy.value(triangle_of(target, of)); });
-      if (after.smallest_margin > T(0) && after.sums[0] < value &&
-          !(after.largest_share > largest && grows_beyond(largest, position, target, ring))) {
-        return {move_to(position, target), squares};
-      }
+    for (int tries = 0; tries < most_tries && sides.any(open); ++tries) {
+      const Point2<V> target{position.x + length * newton.x, position.y + length * newton.y};
+      const auto after = sides.template totals<1>(target, [&](const auto& triangle) { return energy.value(triangle); });
+      Mask good = open && after.smallest_margin > T(0) && after.sums[0] < value;
+      good = good && !grows(good && after.largest_share > largest, target);
+      result.target = {good ? target.x : result.target.x, good ? target.y : result.target.y};
+      result.moved = result.moved || good;
+      open = open && !good;
       length = length > T(1) ? T(1) : length * T(0.5);
     }
-    return {stay(position), T(0)};
+    return result;
   }
 
-  /// What update() reads of a neighbour beside its position.
+  const MeanRatioTargets<T>& targets() const { return targets_; }
+
+  /// The metric to be aimed at in a triangle, of determinant 1: that of the edges around its free corners; Euclid's
+  /// where nothing is known of these.
+  constexpr TRISMOOTH_HOST_DEVICE Metric<T> metric(std::int32_t v, std::int32_t na, std::int32_t nb) const {
+    if constexpr (shaped) {
+      EdgeTensor<T> edges = targets_.edges[v];
+      edges.add(targets_.edges[na]);
+      edges.add(targets_.edges[nb]);
+      const T determinant = edges.xx * edges.yy - edges.xy * edges.xy;
+      if (!(determinant > T(0))) {
+        return {T(1), T(0), T(1)};
+      }
+      const T scale = T(1) / std::sqrt(determinant);
+      return {scale * edges.yy, -scale * edges.xy, scale * edges.xx};
+    } else {
+      return {};
+    }
+  }
+
+  /// What is read of a neighbour beside its position.
   const T* also_reads(std::int32_t neighbour) const { return targets_.inverse_areas + neighbour; }
 
  private:
@@ -116,36 +169,6 @@ class MeanRatio {
     Point2<T> position;
     T inverse_area;
   };
-  template <class Ring>
-  constexpr TRISMOOTH_HOST_DEVICE Neighbour fetched(const Ring& ring, int i) const {
-    const std::int32_t number = ring.number(i);
-    return {number, ring[i], targets_.inverse_areas[number]};
-  }
-
-  /// `own`: of targets_.inverse_areas.
-  constexpr TRISMOOTH_HOST_DEVICE RingSide<T, shaped> side(std::int32_t v, T own, const Neighbour& from,
-                                                           const Neighbour& to) const {
-    RingSide<T, shaped> result{
-        from.position, to.position, T(1) / T(3) * (own + from.inverse_area + to.inverse_area), {}};
-    if constexpr (shaped) {
-      result.metric = metric(v, from.number, to.number);
-    }
-    return result;
-  }
-
-  /// The metric to be aimed at in a triangle, of determinant 1: that of the edges around its free corners; Euclid's
-  /// where nothing is known of these.
-  constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> metric(std::int32_t v, std::int32_t na, std::int32_t nb) const {
-    EdgeTensor<T> edges = targets_.edges[v];
-    edges.add(targets_.edges[na]);
-    edges.add(targets_.edges[nb]);
-    const T determinant = edges.xx * edges.yy - edges.xy * edges.xy;
-    if (!(determinant > T(0))) {
-      return {T(1), T(0), T(1)};
-    }
-    const T scale = T(1) / std::sqrt(determinant);
-    return {scale * edges.yy, -scale * edges.xy, scale * edges.xx};
-  }
 
   /// Whether a triangle whose share is above the bound would get a larger one than it has.
   template <class Ring>

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <type_traits>
-
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/ring_sides.h"
 
-/// The energy that the mean-ratio method makes smaller. Here T is a number, and V one or several: T itself, or lanes of
-/// it in a register, for as many triangles at once.
+/// The energy that the mean-ratio method makes smaller. T and V as in ring_sides.h.
 namespace trismooth {
 
 /// The share that a triangle has in the error of an interpolated gradient, but for the solution's curvature: its area
@@ -14,107 +11,6 @@ namespace trismooth {
 template <class V>
 constexpr TRISMOOTH_HOST_DEVICE V share_of_error(V doubled_area, V squares) {
   return doubled_area * squares;
-}
-
-/// A symmetric tensor. The sum of e e^T over edges e says how long these are, and in which direction: a triangle is as
-/// flat as they are, and lies as they do, where it is equilateral in the metric that is the inverse of that sum.
-template <class V>
-struct EdgeTensor {
-  V xx = {};
-  V xy = {};
-  V yy = {};
-
-  constexpr TRISMOOTH_HOST_DEVICE void add(const EdgeTensor& other) {
-    xx += other.xx;
-    xy += other.xy;
-    yy += other.yy;
-  }
-  constexpr TRISMOOTH_HOST_DEVICE void add(Point2<V> edge) {
-    xx += edge.x * edge.x;
-    xy += edge.x * edge.y;
-    yy += edge.y * edge.y;
-  }
-};
-
-/// The squared length of e where the tensor is the metric.
-template <class V>
-constexpr TRISMOOTH_HOST_DEVICE V squared_length_in(const EdgeTensor<V>& metric, Point2<V> e) {
-  return (metric.xx * (e.x * e.x) + metric.yy * (e.y * e.y)) + (metric.xy + metric.xy) * (e.x * e.y);
-}
-
-/// The metric where shapes aimed at are equilateral.
-template <class V>
-struct EuclideanMetric {};
-
-/// One side of a ring, and so one triangle of its vertex: what does not change where the vertex moves. `shaped`: the
-/// shape that is aimed at is not equilateral.
-template <class V, bool shaped>
-struct RingSide {
-  Point2<V> from;
-  Point2<V> to;
-  V inverse_area;                                                        ///< 1 / (twice the area that is aimed at)
-  std::conditional_t<shaped, EdgeTensor<V>, EuclideanMetric<V>> metric;  ///< in which shapes count, of determinant 1
-
-  template <class Other>
-  using With = RingSide<Other, shaped>;
-
-  /// A side with sides(i) in lane i; join(number) makes V of number(0), number(1), ...
-  template <class Sides, class Join>
-  static RingSide of(const Sides& sides, const Join& join) {
-    RingSide result{{join([&](int i) { return sides(i).from.x; }), join([&](int i) { return sides(i).from.y; })},
-                    {join([&](int i) { return sides(i).to.x; }), join([&](int i) { return sides(i).to.y; })},
-                    join([&](int i) { return sides(i).inverse_area; }),
-                    {}};
-    if constexpr (shaped) {
-      result.metric = {join([&](int i) { return sides(i).metric.xx; }), join([&](int i) { return sides(i).metric.xy; }),
-                       join([&](int i) { return sides(i).metric.yy; })};
-    }
-    return result;
-  }
-};
-
-/// The triangle of a side, seen from the vertex.
-template <class V, bool shaped>
-struct SideTriangle {
-  Point2<V> c;  ///< the side
-  V doubled_area;
-  V squares;    ///< the sum of the squared edge lengths
-  V in_metric;  ///< the same in the metric of the side
-  V pull_x;     ///< of the vertex on that: minus half its derivative
-  V pull_y;
-  EdgeTensor<V> stiffness;  ///< half its second derivative
-  V inverse_area;           ///< of the side
-  V spoke;                  ///< the squared distance to the first end of the side
-
-  constexpr TRISMOOTH_HOST_DEVICE V share() const { return share_of_error(doubled_area, squares); }
-};
-
-/// That of a vertex at `position`.
-template <class T, class V, bool shaped>
-constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, shaped> triangle_of(Point2<T> position,
-                                                                    const RingSide<V, shaped>& side) {
-  const Point2<V> a{side.from.x - position.x, side.from.y - position.y};
-  const Point2<V> b{side.to.x - position.x, side.to.y - position.y};
-  const Point2<V> c = side.to - side.from;
-  const Point2<V> pull{a.x + b.x, a.y + b.y};
-  const V area = cross(a, b);
-  const V spoke = squared_length(a);
-  const V squares = spoke + squared_length(b) + squared_length(c);
-  if constexpr (shaped) {
-    const EdgeTensor<V>& metric = side.metric;
-    return {c,
-            area,
-            squares,
-            squared_length_in(metric, a) + squared_length_in(metric, b) + squared_length_in(metric, c),
-            metric.xx * pull.x + metric.xy * pull.y,
-            metric.xy * pull.x + metric.yy * pull.y,
-            {metric.xx + metric.xx, metric.xy + metric.xy, metric.yy + metric.yy},
-            side.inverse_area,
-            spoke};
-  } else {
-    const V two = V{} + T(2);
-    return {c, area, squares, squares, pull.x, pull.y, {two, V{}, two}, side.inverse_area, spoke};
-  }
 }
 
 /// The energy of a triangle:
@@ -133,7 +29,9 @@ struct MeanRatioEnergy {
   template <class V, bool shaped>
   constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideTriangle<V, shaped>& t) const {
     const Terms<V> terms(t);
-    return {{of(terms, power_below(terms.ratio))}, t.doubled_area - least_quotient * t.squares, t.share()};
+    return {{of(terms, power_below(terms.ratio))},
+            t.doubled_area - least_quotient * t.squares,
+            share_of_error(t.doubled_area, t.squares)};
   }
 
   /// The energy, the derivatives x, y, xx, xy, yy of it divided by p, and the triangle's spoke.
@@ -163,7 +61,7 @@ struct MeanRatioEnergy {
       return {{of(terms, power_below(terms.ratio)), ratio_x + size_first * area_x, ratio_y + size_first * area_y,
                ratio_xx + size_xx, ratio_xy + size_xy, ratio_yy + size_yy, t.spoke},
               t.doubled_area,
-              t.share()};
+              share_of_error(t.doubled_area, t.squares)};
     } else {
       const Power<V> below = power_below(terms.ratio);
       const V first = below.value;
@@ -173,7 +71,7 @@ struct MeanRatioEnergy {
                first * ratio_xy + second * (ratio_x * ratio_y) + size_xy,
                first * ratio_yy + second * (ratio_y * ratio_y) + size_yy, t.spoke},
               t.doubled_area,
-              t.share()};
+              share_of_error(t.doubled_area, t.squares)};
     }
   }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/smoothing/sweeps/sides_in_lanes.h"
 
 namespace trismooth {
 
@@ -19,10 +18,6 @@ struct FixedRing {
   static constexpr int size() { return Size; }
   constexpr Point2<T> operator[](int i) const { return positions[i]; }
   constexpr std::int32_t number(int i) const { return numbers[i]; }
-  template <class Fetch, class Make>
-  auto sides(const Fetch& fetch, const Make& make) const {
-    return SidesInLanes<T, Size, Fetch, Make>(fetch, make);
-  }
 };
 
 /// Those of a ring of any size, in memory that somebody else owns.
@@ -61,6 +56,13 @@ class RingGatherer {
       default:
         break;
     }
+    return with_ring_of_any_size(points, ring, function);
+  }
+
+  /// The same by code that is not unrolled.
+  template <class Function>
+  auto with_ring_of_any_size(std::span<const Point2<T>> points, std::span<const std::int32_t> ring,
+                             const Function& function) {
     buffer_.clear();
     for (const std::int32_t neighbour : ring) {
       buffer_.push_back(points[neighbour]);

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -19,9 +17,12 @@
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"
+#include "trismooth/smoothing/sweeps/mean_ratio_visits.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
+#include "trismooth/smoothing/sweeps/vertex_groups.h"
+#include "trismooth/smoothing/sweeps/vertex_visits.h"
 
 namespace trismooth {
 
@@ -152,33 +153,30 @@ class SweepDriver {
                                      std::span<const Point2<T>> from, std::span<Point2<T>> to,
                                      std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next,
                                      SweepTally<T>& tally) {
-    RingGatherer<T> gatherer;
-    const bool all = options_.evaluation == Evaluation::all;
+    using Visits = VertexVisits<T, Update>;
+    Visits visits(method, view_, from);
+    VertexGroups<Visits::lanes> groups(view_, marked, options_.evaluation == Evaluation::all, begin, end);
     const T tolerance = static_cast<T>(options_.tolerance);
-    const auto next = [&](std::int32_t v) { return all || v == end ? v : next_marked(marked, v, end); };
-    for (std::int32_t v = next(begin); v < end;) {
-      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next one is
+    for (auto group = groups.next(); group.count > 0;) {
+      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next ones are
       // known.
-      const std::int32_t following = next(v + 1);
-      if (following < end) {
-        prefetch_ring(method, from, following);
+      const auto following = groups.next();
+      for (int i = 0; i < following.count; ++i) {
+        prefetch_ring(method, from, following.vertices[i]);
       }
-      // No other thread touches this mark now.
-      marked[v] = 0;
-      const Point2<T> position = from[v];
-      const bool moved = gatherer.with_ring(from, view_[v], [&](const auto& ring) {
-        const VertexMove<T> result = update_over(method, v, position, ring);
+      visits.visit(group.vertices, group.count, [&](std::int32_t v, const VertexMove<T>& result) {
+        // No other thread touches this mark now.
+        marked[v] = 0;
+        const Point2<T> position = from[v];
         to[v] = result.move.position;
+        ++tally.evaluated;
         if (result.move.moved) {
-          add_move(tally, length_of_move(position, result.move.position, ring.size(), result.squares), tolerance);
+          const int neighbours = static_cast<int>(view_[v].size());
+          add_move(tally, length_of_move(position, result.move.position, neighbours, result.squares), tolerance);
+          mark_neighbourhood(v, marked_next);
         }
-        return result.move.moved;
       });
-      ++tally.evaluated;
-      if (moved) {
-        mark_neighbourhood(v, marked_next);
-      }
-      v = following;
+      group = following;
     }
   }
 
@@ -194,22 +192,6 @@ class SweepDriver {
         __builtin_prefetch(method.also_reads(neighbour));
       }
     }
-  }
-
-  /// The first marked vertex of [v, end), or end; eight at a time where none is marked.
-  static std::int32_t next_marked(std::span<const std::uint8_t> marked, std::int32_t v, std::int32_t end) {
-    std::uint64_t eight = 0;
-    while (v + 8 <= end) {
-      std::memcpy(&eight, marked.data() + v, sizeof(eight));
-      if (eight != 0) {
-        break;
-      }
-      v += 8;
-    }
-    while (v < end && marked[v] == 0) {
-      ++v;
-    }
-    return v;
   }
 
   void mark_neighbourhood(std::int32_t v, std::span<std::uint8_t> marked) const {

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/sweeps/lanes.h"
+#include "trismooth/smoothing/sweeps/sides_in_lanes.h"
+#include "trismooth/smoothing/sweeps/vertex_visits.h"
+
+namespace trismooth {
+
+/// Visits of the mean-ratio method, to a vertex in each lane of a register. The few that its energy alone does not
+/// decide are made again one after the other.
+template <class T, bool shaped, bool is_last>
+class VertexVisits<T, MeanRatio<T, shaped, is_last>> {
+ public:
+  using Method = MeanRatio<T, shaped, is_last>;
+
+  static constexpr int lanes = LanesOf<T>::count;
+
+  VertexVisits(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
+      : method_(method), rings_(rings), points_(points), inverse_areas_(method.targets().inverse_areas) {}
+
+  template <class Settle>
+  void visit(const std::array<std::int32_t, lanes>& vertices, int count, const Settle& settle) {
+    take_sides(vertices);
+    const Point2<V> positions = positions_of([&](int lane) { return vertices[lane]; });
+    const V largest = joined<T>([&](int lane) { return method_.targets().largest_shares[vertices[lane]]; });
+    Mask alone{};
+    const NewtonMove<V> found = method_.newton_move(sides_, positions, largest, [&](const Mask& may_grow, Point2<V>) {
+      alone = alone || may_grow;
+      return may_grow;
+    });
+    alone = alone || !found.is_valid;
+    for (int lane = 0; lane < count; ++lane) {
+      const std::int32_t v = vertices[lane];
+      const Point2<T> position = points_[v];
+      if (alone[lane]) {
+        settle(v, gatherer_.with_ring_of_any_size(
+                      points_, rings_[v], [&](const auto& ring) { return method_.vertex_move(v, position, ring); }));
+      } else {
+        const Point2<T> target{found.target.x[lane], found.target.y[lane]};
+        settle(v, VertexMove<T>{found.moved[lane] ? move_to(position, target) : stay(position), found.squares[lane]});
+      }
+    }
+  }
+
+ private:
+  using V = Lanes<T>;
+  using Mask = typename NewtonMove<V>::Mask;
+  using Metric = typename Method::template Metric<V>;
+
+  void take_sides(const std::array<std::int32_t, lanes>& vertices) {
+    std::array<const std::int32_t*, lanes> rings{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      rings[lane] = rings_[vertices[lane]].data();
+    }
+    const int size = static_cast<int>(rings_[vertices[0]].size());
+    sides_.take(
+        size, joined<T>([&](int lane) { return inverse_areas_[vertices[lane]]; }),
+        [&](int i) -> typename SidesInLanes<T, Metric>::Neighbour {
+          return {positions_of([&](int lane) { return rings[lane][i]; }),
+                  joined<T>([&](int lane) { return inverse_areas_[rings[lane][i]]; })};
+        },
+        [&](int i) {
+          const int following = i + 1 < size ? i + 1 : 0;
+          return metrics(
+              [&](int lane) { return method_.metric(vertices[lane], rings[lane][i], rings[lane][following]); });
+        });
+  }
+
+  /// Those of the vertices number(lane).
+  template <class Number>
+  Point2<V> positions_of(const Number& number) const {
+    return {joined<T>([&](int lane) { return points_[number(lane)].x; }),
+            joined<T>([&](int lane) { return points_[number(lane)].y; })};
+  }
+
+  template <class MetricIn>
+  static Metric metrics(const MetricIn& metric_in) {
+    if constexpr (shaped) {
+      std::array<EdgeTensor<T>, lanes> one;
+      for (int lane = 0; lane < lanes; ++lane) {
+        one[lane] = metric_in(lane);
+      }
+      return {joined<T>([&](int lane) { return one[lane].xx; }), joined<T>([&](int lane) { return one[lane].xy; }),
+              joined<T>([&](int lane) { return one[lane].yy; })};
+    } else {
+      return {};
+    }
+  }
+
+  const Method& method_;
+  const RingView& rings_;
+  std::span<const Point2<T>> points_;
+  const T* inverse_areas_;
+  SidesInLanes<T, Metric> sides_;
+  RingGatherer<T> gatherer_;
+};
+
+}  // namespace trismooth

@@ -1,0 +1,114 @@
+#include "trismooth/smoothing/sweeps/mean_ratio_visits.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "trismooth/smoothing/methods/methods.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using trismooth::MeanRatioScales;
+using trismooth::MeanRatioStep;
+using trismooth::MeanRatioTargets;
+using trismooth::Point2;
+using trismooth::RingView;
+using trismooth::VertexMove;
+
+namespace {
+
+/// A ring that knows of no lanes.
+template <class T>
+struct PlainRing {
+  std::span<const Point2<T>> points;
+  std::span<const std::int32_t> numbers;
+
+  int size() const { return static_cast<int>(numbers.size()); }
+  Point2<T> operator[](int i) const { return points[static_cast<std::size_t>(number(i))]; }
+  std::int32_t number(int i) const { return numbers[static_cast<std::size_t>(i)]; }
+};
+
+/// Vertices with rings of their own: star-shaped around them as a rule, so that most have an energy.
+template <class T>
+struct Stars {
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> neighbours;
+  std::vector<Point2<T>> points;
+  std::vector<T> inverse_areas;
+  std::vector<T> largest_shares;
+  std::vector<trismooth::EdgeTensor<T>> edges;
+
+  Stars(std::int32_t count, int size, bool bounds_growth, test_meshes::Random& random) {
+    const auto number = [&](double low, double high) { return static_cast<T>(random.between(low, high)); };
+    const auto add = [&](Point2<T> point) {
+      points.push_back(point);
+      inverse_areas.push_back(number(0.5, 2));
+      edges.push_back({number(0.5, 2), number(-0.2, 0.2), number(0.5, 2)});
+    };
+    for (std::int32_t v = 0; v < count; ++v) {
+      add({number(-0.3, 0.3), number(-0.3, 0.3)});
+      largest_shares.push_back(bounds_growth ? number(0.1, 4) : std::numeric_limits<T>::infinity());
+    }
+    for (std::int32_t v = 0; v < count; ++v) {
+      for (int k = 0; k < size; ++k) {
+        const double angle = 2 * std::numbers::pi * (k + random.between(0, 0.6)) / size;
+        const double radius = random.between(0.6, 1.6);
+        neighbours.push_back(static_cast<std::int32_t>(points.size()));
+        add({static_cast<T>(radius * std::cos(angle)), static_cast<T>(radius * std::sin(angle))});
+      }
+      offsets.push_back(static_cast<std::int64_t>(neighbours.size()));
+    }
+  }
+
+  RingView rings() const { return {offsets, neighbours, {}}; }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("vertices that the mean-ratio method visits in lanes get the bits that each gets alone", "", float,
+                   double) {
+  using T = TestType;
+  constexpr int lanes = trismooth::LanesOf<T>::count;
+  test_meshes::Random random(11);
+  int moved = 0;
+  int stayed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int size = 3 + i % 10;
+    const Stars<T> stars(lanes, size, i % 4 == 0, random);
+    const MeanRatioScales<T> scales{static_cast<T>(random.between(0, 0.4)), 1 + i % 5,
+                                    i % 7 == 0 ? static_cast<T>(random.between(0, 0.2)) : T(0)};
+    const MeanRatioStep<T> step{i % 3 == 0 ? T(1.5) : T(1.8), static_cast<T>(3e-4), i % 2 == 0};
+    MeanRatioTargets<T> targets{stars.inverse_areas.data(), stars.largest_shares.data(), &scales};
+    targets.edges = i % 5 == 0 ? stars.edges.data() : nullptr;
+    trismooth::visit_mean_ratio(targets, step, [&](const auto& method) {
+      const RingView rings = stars.rings();
+      trismooth::VertexVisits<T, std::remove_cvref_t<decltype(method)>> visits(method, rings, stars.points);
+      std::array<std::int32_t, lanes> vertices{};
+      for (int lane = 0; lane < lanes; ++lane) {
+        vertices[lane] = lane;
+      }
+      std::int32_t settled = 0;
+      const int count = 1 + i % lanes;
+      visits.visit(vertices, count, [&](std::int32_t v, const VertexMove<T>& in_lanes) {
+        CAPTURE(i, size, v);
+        REQUIRE(v == settled);
+        ++settled;
+        const VertexMove<T> alone = method.vertex_move(v, stars.points[v], PlainRing<T>{stars.points, rings[v]});
+        REQUIRE(in_lanes.move.moved == alone.move.moved);
+        REQUIRE(in_lanes.move.position == alone.move.position);
+        REQUIRE((!alone.move.moved || in_lanes.squares == alone.squares));
+        ++(alone.move.moved ? moved : stayed);
+      });
+      REQUIRE(settled == count);
+    });
+  }
+  CHECK(moved > 10000);
+  CHECK(stayed > 100);
+}
