@@ -156,12 +156,11 @@ class SidesInTurn {
     const auto first = fetch_(0);
     auto from = first;
     auto to = fetch_(1);
-    RingSpoke<T> a = spoke_to(from.position, position);
     for (int i = 2; i <= size + 1; ++i) {
       const auto following = i < size ? fetch_(i) : first;
-      const RingSpoke<T> b = spoke_to(to.position, position);
-      result.add(term(triangle_of<T>(a, b, make_(from, to))));
-      a = b;
+      // A spoke is found again for the next side: kept until then, it costs a device registers.
+      result.add(
+          term(triangle_of<T>(spoke_to(from.position, position), spoke_to(to.position, position), make_(from, to))));
       from = to;
       to = following;
     }
