@@ -108,7 +108,7 @@ class MeanRatio {
   template <class V, class Sides, class Grows>
   constexpr TRISMOOTH_HOST_DEVICE NewtonMove<V> newton_move(const Sides& sides, Point2<V> position, V largest,
                                                             const Grows& grows) const {
-    using Mask = decltype(V{} < V{});
+    using Mask = typename NewtonMove<V>::Mask;
     const MeanRatioScales<T> scales = *targets_.scales;
     const MeanRatioEnergy<T, is_last ? 0 : 1> energy{is_last ? scales.power : 1, scales.size_weight,
                                                      scales.least_quotient};

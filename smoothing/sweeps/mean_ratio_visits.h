@@ -8,6 +8,7 @@
 #include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/sweeps/lanes.h"
 #include "trismooth/smoothing/sweeps/sides_in_lanes.h"
+#include "trismooth/smoothing/sweeps/vertex_groups.h"
 #include "trismooth/smoothing/sweeps/vertex_visits.h"
 
 namespace trismooth {
@@ -25,7 +26,8 @@ class VertexVisits<T, MeanRatio<T, shaped, is_last>> {
       : method_(method), rings_(rings), points_(points), inverse_areas_(method.targets().inverse_areas) {}
 
   template <class Settle>
-  void visit(const std::array<std::int32_t, lanes>& vertices, int count, const Settle& settle) {
+  void visit(const VertexGroup<lanes>& group, const Settle& settle) {
+    const auto& vertices = group.vertices;
     take_sides(vertices);
     const Point2<V> positions = positions_of([&](int lane) { return vertices[lane]; });
     const V largest = joined<T>([&](int lane) { return method_.targets().largest_shares[vertices[lane]]; });
@@ -35,7 +37,7 @@ class VertexVisits<T, MeanRatio<T, shaped, is_last>> {
       return may_grow;
     });
     alone = alone || !found.is_valid;
-    for (int lane = 0; lane < count; ++lane) {
+    for (int lane = 0; lane < group.count; ++lane) {
       const std::int32_t v = vertices[lane];
       const Point2<T> position = points_[v];
       if (alone[lane]) {

@@ -164,7 +164,7 @@ class SweepDriver {
       for (int i = 0; i < following.count; ++i) {
         prefetch_ring(method, from, following.vertices[i]);
       }
-      visits.visit(group.vertices, group.count, [&](std::int32_t v, const VertexMove<T>& result) {
+      visits.visit(group, [&](std::int32_t v, const VertexMove<T>& result) {
         // No other thread touches this mark now.
         marked[v] = 0;
         const Point2<T> position = from[v];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -8,6 +7,7 @@
 #include "trismooth/smoothing/methods/one_ring_update.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
+#include "trismooth/smoothing/sweeps/vertex_groups.h"
 
 namespace trismooth {
 
@@ -20,10 +20,10 @@ class VertexVisits {
   VertexVisits(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
       : method_(method), rings_(rings), points_(points) {}
 
-  /// Calls settle(v, move) for each of the first `count` vertices.
+  /// Calls settle(v, move) for each vertex of the group.
   template <class Settle>
-  void visit(const std::array<std::int32_t, lanes>& vertices, int /*count*/, const Settle& settle) {
-    const std::int32_t v = vertices[0];
+  void visit(const VertexGroup<lanes>& group, const Settle& settle) {
+    const std::int32_t v = group.vertices[0];
     settle(v, gatherer_.with_ring(points_, rings_[v],
                                   [&](const auto& ring) { return update_over(method_, v, points_[v], ring); }));
   }

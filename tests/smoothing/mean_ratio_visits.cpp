@@ -1,11 +1,11 @@
 #include "trismooth/smoothing/sweeps/mean_ratio_visits.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -90,13 +90,10 @@ TEMPLATE_TEST_CASE("vertices that the mean-ratio method visits in lanes get the 
     trismooth::visit_mean_ratio(targets, step, [&](const auto& method) {
       const RingView rings = stars.rings();
       trismooth::VertexVisits<T, std::remove_cvref_t<decltype(method)>> visits(method, rings, stars.points);
-      std::array<std::int32_t, lanes> vertices{};
-      for (int lane = 0; lane < lanes; ++lane) {
-        vertices[lane] = lane;
-      }
+      trismooth::VertexGroup<lanes> group{{}, 1 + i % lanes};
+      std::iota(group.vertices.begin(), group.vertices.end(), 0);
       std::int32_t settled = 0;
-      const int count = 1 + i % lanes;
-      visits.visit(vertices, count, [&](std::int32_t v, const VertexMove<T>& in_lanes) {
+      visits.visit(group, [&](std::int32_t v, const VertexMove<T>& in_lanes) {
         CAPTURE(i, size, v);
         REQUIRE(v == settled);
         ++settled;
@@ -106,7 +103,7 @@ TEMPLATE_TEST_CASE("vertices that the mean-ratio method visits in lanes get the 
         REQUIRE((!alone.move.moved || in_lanes.squares == alone.squares));
         ++(alone.move.moved ? moved : stayed);
       });
-      REQUIRE(settled == count);
+      REQUIRE(settled == group.count);
     });
   }
   CHECK(moved > 10000);
