@@ -63,7 +63,7 @@ constexpr int enough_left_over = 32;
 /// Threads and blocks of a multiprocessor where a thread has one vertex: as many as hide the waiting for memory without
 /// taking registers away.
 constexpr std::int32_t threads_from_memory = 128;
-constexpr std::int32_t blocks_from_memory = 5;
+constexpr std::int32_t blocks_from_memory = 4;
 
 /// Evaluates the block's vertices. `list` is the warp's own.
 template <bool marks, class Update, class T, class Slot>
