@@ -266,16 +266,18 @@ void allow_most_patch_bytes(const void* kernel) {
 }
 
 template <class T>
-std::size_t patch_bytes(const Patches& patches, bool swaps) {
+std::size_t patch_bytes(const Patches& patches, const SmoothingOptions& options) {
   return memory_bytes<T>(static_cast<std::size_t>(patches.most_vertices()),
-                         static_cast<std::size_t>(patches.most_entries()), swaps);
+                         static_cast<std::size_t>(patches.most_entries()),
+                         {options.form == Form::swap, options.method == Method::mean_ratio});
 }
-template std::size_t patch_bytes<float>(const Patches&, bool);
-template std::size_t patch_bytes<double>(const Patches&, bool);
+template std::size_t patch_bytes<float>(const Patches&, const SmoothingOptions&);
+template std::size_t patch_bytes<double>(const Patches&, const SmoothingOptions&);
 
 bool Patches::may_suit(std::int32_t vertices, std::int32_t colours, const SmoothingOptions& options) {
-  // The mean-ratio method reads more of a neighbour than its position.
-  return options.execution == Execution::resident && options.method != Method::mean_ratio && vertices <= largest_mesh &&
+  // Edge tensors have no room in a patch.
+  const bool keeps_shapes = options.method == Method::mean_ratio && options.mean_ratio.target == TargetShape::input;
+  return options.execution == Execution::resident && !keeps_shapes && vertices <= largest_mesh &&
          colours <= most_colours && !options.measures_shape() && set_bytes(vertices) <= most_patch_bytes();
 }
 
@@ -309,9 +311,8 @@ std::optional<Patches> Patches::cut(Context& context, const RingsView& rings, st
     vertices += static_cast<std::uint32_t>(place.vertex_count);
     entries += static_cast<std::uint32_t>(place.entry_count);
   }
-  const std::size_t shared = options.precision == Precision::double_precision
-                                 ? patch_bytes<double>(patches, options.form == Form::swap)
-                                 : patch_bytes<float>(patches, options.form == Form::swap);
+  const std::size_t shared = options.precision == Precision::double_precision ? patch_bytes<double>(patches, options)
+                                                                              : patch_bytes<float>(patches, options);
   if (patches.most_vertices_ > most_numbers || patches.most_entries_ > most_numbers || shared > most_patch_bytes()) {
     return std::nullopt;
   }

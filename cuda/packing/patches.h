@@ -81,8 +81,8 @@ class Patches {
   DeviceBuffer<std::uint16_t> ring_entries_;
 };
 
-/// Bytes of shared memory that a block needs for its patch. `swaps`: Form A.
+/// Bytes of shared memory that a block needs for its patch.
 template <class T>
-std::size_t patch_bytes(const Patches& patches, bool swaps);
+std::size_t patch_bytes(const Patches& patches, const SmoothingOptions& options);
 
 }  // namespace trismooth::cuda

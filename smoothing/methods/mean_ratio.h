@@ -137,7 +137,8 @@ class MeanRatio {
     return result;
   }
 
-  const MeanRatioTargets<T>& targets() const { return targets_; }
+  constexpr TRISMOOTH_HOST_DEVICE const MeanRatioTargets<T>& targets() const { return targets_; }
+  constexpr TRISMOOTH_HOST_DEVICE const MeanRatioStep<T>& step() const { return step_; }
 
   /// The metric to be aimed at in a triangle, of determinant 1: that of the edges around its free corners; Euclid's
   /// where nothing is known of these.

@@ -7,6 +7,7 @@
 
 #include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
@@ -25,7 +26,8 @@ class PatchEngine {
         method_(options.method),
         free_count_(order.free_count()),
         rings_(std::move(rings)),
-        shared_bytes_(patch_bytes<T>(rings_.patches, rings_.form == Form::swap)) {
+        targets_(context, order.vertex_count(), order.free_count(), options),
+        shared_bytes_(patch_bytes<T>(rings_.patches, options)) {
     for (std::size_t i = 0; i < 2; ++i) {
       points_[i] = DeviceBuffer<PointRecord<T>>(context, static_cast<std::size_t>(order.vertex_count()));
       moved_[i] = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(free_count_));
@@ -38,18 +40,23 @@ class PatchEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
-  /// Patches are not for the method that asks for sizes.
-  void set_sizes(const VertexOrder& /*order*/, std::span<const double> /*inverse_sizes*/) {}
-  void begin() {}
-  void begin_stage() { moved_[0].fill_bytes(1); }
-  std::int64_t sweep(const MeanRatioStep<T>& /*step*/, const LoopRules& rules, LoopState* state, SweepSums* sums) {
+  void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
+    targets_.set_sizes(order, inverse_sizes);
+  }
+  void begin() { targets_.find(rings(), mesh_.first.points); }
+  void begin_stage() {
+    for (DeviceBuffer<std::uint8_t>& moved : moved_) {
+      moved.fill_bytes(1);
+    }
+  }
+  std::int64_t sweep(const MeanRatioStep<T>& step, const LoopRules& rules, LoopState* state, SweepSums* sums) {
     const std::size_t groups = static_cast<std::size_t>(rules.sweeps);
     if (words_.size() < 2 * groups) {
       words_ = DeviceBuffer<unsigned long long>(*context_, 2 * groups);
     }
     words_.fill_bytes(0);
-    launch_patch_sweeps(method_, mesh_, rules, shared_bytes_, free_count_, state, sums, words_.data(),
-                        words_.data() + groups, context_->stream());
+    launch_patch_sweeps({method_, targets_.view(), step}, mesh_, rules, shared_bytes_, free_count_, state, sums,
+                        words_.data(), words_.data() + groups, context_->stream());
     return 1;
   }
   void measure(SweepSums* sums) const {
@@ -62,6 +69,7 @@ class PatchEngine {
   Method method_;
   std::int32_t free_count_;
   PatchedRings rings_;
+  DeviceTargets<T> targets_;
   std::size_t shared_bytes_;
   DeviceBuffer<PointRecord<T>> points_[2];
   DeviceBuffer<std::uint8_t> moved_[2];

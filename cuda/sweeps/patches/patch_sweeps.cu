@@ -1,5 +1,3 @@
-#include <type_traits>
-
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"
@@ -9,6 +7,8 @@ namespace trismooth::cuda {
 
 namespace {
 
+using patch::in_patch;
+using patch::knows_aims;
 using patch::PatchRules;
 using patch::PatchSums;
 using patch::PatchSweep;
@@ -28,17 +28,17 @@ struct BlockWork {
 
 /// One sweep of Form A: evaluates the marked vertices that the group's sweep `sweep` is to.
 template <class Update, class T>
-__device__ void sweep_form_a(std::int32_t sweep, bool all, std::int32_t count, PatchMemory<T>& patch,
-                             const PatchRules& rules, BlockWork& work) {
-  visit_candidates<Update>(count, work.lists[threadIdx.x / 32], PatchSweep<T>{patch, rules, work.sums[sweep]},
-                           [&](std::int32_t i, std::int32_t& v) {
-                             v = i;
-                             const bool marked = patch.marked[i] != 0;
-                             if (marked) {
-                               patch.marked[i] = 0;
-                             }
-                             return (all || marked) && sweep < patch.sweeps[i];
-                           });
+__device__ void sweep_form_a(const Update& method, std::int32_t sweep, bool all, std::int32_t count,
+                             PatchMemory<T>& patch, const PatchRules& rules, BlockWork& work) {
+  visit_candidates(count, work.lists[threadIdx.x / 32], PatchSweep<Update, T>{method, patch, rules, work.sums[sweep]},
+                   [&](std::int32_t i, std::int32_t& v) {
+                     v = i;
+                     const bool marked = patch.marked[i] != 0;
+                     if (marked) {
+                       patch.marked[i] = 0;
+                     }
+                     return (all || marked) && sweep < patch.sweeps[i];
+                   });
   __syncthreads();
   Point2<T>* const old = patch.points;
   patch.points = patch.next_points;
@@ -50,19 +50,20 @@ __device__ void sweep_form_a(std::int32_t sweep, bool all, std::int32_t count, P
 
 /// One sweep of Form B, colour by colour.
 template <class Update, class T>
-__device__ void sweep_form_b(std::int32_t sweep, bool all, std::int32_t colours, PatchMemory<T>& patch,
-                             const PatchRules& rules, BlockWork& work) {
+__device__ void sweep_form_b(const Update& method, std::int32_t sweep, bool all, std::int32_t colours,
+                             PatchMemory<T>& patch, const PatchRules& rules, BlockWork& work) {
   for (std::int32_t colour = 0; colour < colours; ++colour) {
     const std::int32_t begin = work.class_begins[colour];
-    visit_candidates<Update>(work.class_begins[colour + 1] - begin, work.lists[threadIdx.x / 32],
-                             PatchSweep<T>{patch, rules, work.sums[sweep]}, [&](std::int32_t i, std::int32_t& v) {
-                               v = patch.list[begin + i];
-                               const bool marked = patch.marked[v] != 0;
-                               if (marked) {
-                                 patch.marked[v] = 0;
-                               }
-                               return all || marked;
-                             });
+    visit_candidates(work.class_begins[colour + 1] - begin, work.lists[threadIdx.x / 32],
+                     PatchSweep<Update, T>{method, patch, rules, work.sums[sweep]},
+                     [&](std::int32_t i, std::int32_t& v) {
+                       v = patch.list[begin + i];
+                       const bool marked = patch.marked[v] != 0;
+                       if (marked) {
+                         patch.marked[v] = 0;
+                       }
+                       return all || marked;
+                     });
     __syncthreads();
   }
 }
@@ -131,25 +132,51 @@ __device__ void enter_group(const PatchBuffer<T>& from, const std::int32_t* vert
   __syncthreads();
 }
 
+/// Brings in what the method aims at around the vertices of the patch.
+template <class Update, class T>
+__device__ void take_aims(const Update& method, const std::int32_t* vertices, std::int32_t count,
+                          std::int32_t free_count, const PatchMemory<T>& patch) {
+  if constexpr (knows_aims<Update>) {
+    const MeanRatioTargets<T>& aims = method.targets();
+    for (std::int32_t v = static_cast<std::int32_t>(threadIdx.x); v < count; v += threads_for<T>) {
+      const std::int32_t number = __ldg(vertices + v);
+      patch.inverse_areas[v] = aims.inverse_areas[number];
+      patch.largest_shares[v] = number < free_count ? aims.largest_shares[number] : T(0);
+    }
+    if (threadIdx.x == 0) {
+      *patch.scales = *aims.scales;
+    }
+  }
+}
+
 /// What the blocks tell each other of a group: bit s: a vertex moved in its sweep s; bit 32 + s: beyond the tolerance.
 constexpr unsigned beyond_shift = 32;
-
-__device__ std::int32_t stop_in_group(unsigned long long found, std::int32_t sweep) {
-  const bool moved = (found >> static_cast<unsigned>(sweep) & 1) != 0;
-  const bool beyond = (found >> (beyond_shift + static_cast<unsigned>(sweep)) & 1) != 0;
-  const auto reason = reason_in_sweep(moved ? 1 : 0, !beyond, 0, no_target, no_target);
-  return reason ? static_cast<std::int32_t>(*reason) : LoopState::running;
-}
 
 __device__ unsigned long long bits_of(const PatchSums& sums, std::int32_t sweep) {
   return (sums.moved > 0 ? 1ULL << static_cast<unsigned>(sweep) : 0ULL) |
          (sums.beyond_tolerance > 0 ? 1ULL << (beyond_shift + static_cast<unsigned>(sweep)) : 0ULL);
 }
 
+/// A StopReason after the group's sweep `sweep`, or LoopState::running. `moved`: how many vertices moved in it. It is
+/// looked at only where the rules count them: the bits are one word to read for a whole group.
+template <class Count>
+__device__ std::int32_t stop_in_group(unsigned long long found, std::int32_t sweep, const LoopRules& rules,
+                                      const volatile Count& moved) {
+  const bool any_moved = (found >> static_cast<unsigned>(sweep) & 1) != 0;
+  const bool beyond = (found >> (beyond_shift + static_cast<unsigned>(sweep)) & 1) != 0;
+  SweepSums sums{};
+  if (any_moved) {
+    sums.moved = rules.few_moves > 0 ? static_cast<unsigned long long>(moved) : 1;
+  }
+  sums.beyond_tolerance = beyond ? 1 : 0;
+  return stop_after(sums, rules);
+}
+
 template <class Update, class T, bool swaps>
 __global__ void __launch_bounds__(threads_for<T>, 1)
-    sweep_patches(PatchedMesh<T> mesh, LoopRules rules, std::int32_t group_length, std::int32_t free_count,
-                  LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found) {
+    sweep_patches(Update method, PatchedMesh<T> mesh, LoopRules rules, std::int32_t group_length,
+                  std::int32_t free_count, LoopState* state, SweepSums* sums, BarrierWord* barriers,
+                  unsigned long long* found) {
   constexpr int threads = threads_for<T>;
   extern __shared__ __align__(16) std::uint8_t memory[];
   __shared__ BlockWork work;
@@ -157,7 +184,8 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   const std::int32_t count = place.vertex_count;
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   PatchMemory<T> patch =
-      divide_memory<T>(memory, static_cast<std::size_t>(count), static_cast<std::size_t>(place.entry_count), swaps);
+      divide_memory<T>(memory, static_cast<std::size_t>(count), static_cast<std::size_t>(place.entry_count),
+                       PatchUse{swaps, knows_aims<Update>});
   const std::int32_t* const vertices = mesh.patches.vertices + place.first_vertex;
   for (std::int32_t v = thread; v <= count; v += threads) {
     patch.begins[v] = mesh.patches.ring_begins[place.first_vertex + blockIdx.x + static_cast<std::uint32_t>(v)];
@@ -169,6 +197,8 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   for (std::int32_t i = thread; i < place.entry_count; i += threads) {
     patch.entries[i] = mesh.patches.ring_entries[place.first_entry + static_cast<std::uint32_t>(i)];
   }
+  take_aims(method, vertices, count, free_count, patch);
+  const Update local_method = in_patch(method, patch);
   __syncthreads();
   if (!swaps) {
     list_classes(count, mesh.colours, patch, work);
@@ -193,13 +223,13 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
       for (std::int32_t s = 0; s < made; ++s) {
         patch_rules.stamp = stamp(s);
         if (swaps) {
-          sweep_form_a<Update>(s, rules.evaluates_all, count, patch, patch_rules, work);
+          sweep_form_a(local_method, s, rules.evaluates_all, count, patch, patch_rules, work);
         } else {
-          sweep_form_b<Update>(s, rules.evaluates_all, mesh.colours, patch, patch_rules, work);
+          sweep_form_b(local_method, s, rules.evaluates_all, mesh.colours, patch, patch_rules, work);
         }
         // A block that is alone decides at once.
         if (is_alone) {
-          stop = stop_in_group(bits_of(work.sums[s], s), s);
+          stop = stop_in_group(bits_of(work.sums[s], s), s, rules, work.sums[s].moved);
           made = stop != LoopState::running ? s + 1 : made;
         }
       }
@@ -241,7 +271,7 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
       grid_barrier(barriers, 0, work.barrier_total, [] {});
       const unsigned long long bits = *static_cast<volatile unsigned long long*>(found);
       for (std::int32_t s = 0; s < planned && stop == LoopState::running; ++s) {
-        stop = stop_in_group(bits, s);
+        stop = stop_in_group(bits, s, rules, sums[sweep + s].moved);
         made = s + 1;
       }
       ++barriers;
@@ -264,23 +294,27 @@ __global__ void __launch_bounds__(threads_for<T>, 1)
   }
 }
 
-/// A method that knows of a vertex no more than where its neighbours are: patches have numbers of their own.
+/// Whether a patch has room for what a method knows of a vertex.
 template <class Update>
-constexpr bool fits_patches = std::is_empty_v<Update>;
+constexpr bool fits_patches = true;
+template <class T, bool is_last>
+constexpr bool fits_patches<MeanRatio<T, true, is_last>> = false;
 
 template <class Update, class T, bool swaps>
-void launch_with(const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes, std::int32_t free_count,
-                 LoopState* state, SweepSums* sums, BarrierWord* barriers, unsigned long long* found,
-                 cudaStream_t stream) {
+void launch_with(const Update& method, const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes,
+                 std::int32_t free_count, LoopState* state, SweepSums* sums, BarrierWord* barriers,
+                 unsigned long long* found, cudaStream_t stream) {
   const auto* const kernel = reinterpret_cast<const void*>(&sweep_patches<Update, T, swaps>);
   allow_most_patch_bytes(kernel);
   std::int32_t group_length = longest_group;
   if (mesh.patches.count > 1) {
     group_length = swaps ? Patches::sweeps_in_group_a : Patches::sweeps_in_group_b;
   }
+  Update method_argument = method;
   PatchedMesh<T> mesh_argument = mesh;
   LoopRules rules_argument = rules;
-  void* arguments[] = {&mesh_argument, &rules_argument, &group_length, &free_count, &state, &sums, &barriers, &found};
+  void* arguments[] = {&method_argument, &mesh_argument, &rules_argument, &group_length, &free_count,
+                       &state,           &sums,          &barriers,       &found};
   TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(kernel, dim3(static_cast<unsigned>(mesh.patches.count)),
                                                    dim3(threads_for<T>), arguments, shared_bytes, stream));
 }
@@ -288,23 +322,26 @@ void launch_with(const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t
 }  // namespace
 
 template <class T>
-void launch_patch_sweeps(Method method, const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes,
-                         std::int32_t free_count, LoopState* state, SweepSums* sums, unsigned long long* barriers,
-                         unsigned long long* found, cudaStream_t stream) {
-  visit_method(MethodInUse<T>{method}, [&]<class Update>(const Update&) {
+void launch_patch_sweeps(const MethodInUse<T>& method, const PatchedMesh<T>& mesh, const LoopRules& rules,
+                         std::size_t shared_bytes, std::int32_t free_count, LoopState* state, SweepSums* sums,
+                         unsigned long long* barriers, unsigned long long* found, cudaStream_t stream) {
+  visit_method(method, [&]<class Update>(const Update& update) {
     if constexpr (fits_patches<Update>) {
       if (rules.swaps) {
-        launch_with<Update, T, true>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+        launch_with<Update, T, true>(update, mesh, rules, shared_bytes, free_count, state, sums, barriers, found,
+                                     stream);
       } else {
-        launch_with<Update, T, false>(mesh, rules, shared_bytes, free_count, state, sums, barriers, found, stream);
+        launch_with<Update, T, false>(update, mesh, rules, shared_bytes, free_count, state, sums, barriers, found,
+                                      stream);
       }
     }
   });
 }
 
-#define INSTANTIATE(T)                                                                                          \
-  template void launch_patch_sweeps(Method, const PatchedMesh<T>&, const LoopRules&, std::size_t, std::int32_t, \
-                                    LoopState*, SweepSums*, unsigned long long*, unsigned long long*, cudaStream_t)
+#define INSTANTIATE(T)                                                                                              \
+  template void launch_patch_sweeps(const MethodInUse<T>&, const PatchedMesh<T>&, const LoopRules&, std::size_t,    \
+                                    std::int32_t, LoopState*, SweepSums*, unsigned long long*, unsigned long long*, \
+                                    cudaStream_t)
 INSTANTIATE(float);
 INSTANTIATE(double);
 

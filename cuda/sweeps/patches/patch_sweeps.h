@@ -8,7 +8,7 @@
 #include "trismooth/cuda/packing/patches.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
-#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 namespace trismooth::cuda {
 
@@ -35,8 +35,8 @@ struct PatchedMesh {
 /// the last one too; these and the rules.sweeps words of `barriers` and of `found` are zero before. The rules measure
 /// no shape.
 template <class T>
-void launch_patch_sweeps(Method method, const PatchedMesh<T>& mesh, const LoopRules& rules, std::size_t shared_bytes,
-                         std::int32_t free_count, LoopState* state, SweepSums* sums, unsigned long long* barriers,
-                         unsigned long long* found, cudaStream_t stream);
+void launch_patch_sweeps(const MethodInUse<T>& method, const PatchedMesh<T>& mesh, const LoopRules& rules,
+                         std::size_t shared_bytes, std::int32_t free_count, LoopState* state, SweepSums* sums,
+                         unsigned long long* barriers, unsigned long long* found, cudaStream_t stream);
 
 }  // namespace trismooth::cuda

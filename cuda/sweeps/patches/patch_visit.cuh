@@ -35,6 +35,7 @@ struct RingInPatch {
 
   __device__ int size() const { return count; }
   __device__ Point2<T> operator[](int i) const { return points[ring[i]]; }
+  __device__ std::int32_t number(int i) const { return ring[i]; }
 };
 
 /// What stands for a group's sweep in PatchMemory::moved. 1 is the last sweep of the group before.
@@ -51,8 +52,9 @@ struct PatchRules {
 };
 
 /// What the threads of a block do in a sweep with the patch's vertices.
-template <class T>
+template <class Update, class T>
 struct PatchSweep {
+  const Update& method;  ///< for local numbers: see in_patch()
   const PatchMemory<T>& patch;
   PatchRules rules;
   PatchSums& sums;
@@ -61,8 +63,8 @@ struct PatchSweep {
 };
 
 /// Counts a move of the block's own vertices.
-template <class T>
-__device__ __forceinline__ void count_move(const MoveLength<T>& length, const PatchSweep<T>& sweep) {
+template <class Update, class T>
+__device__ __forceinline__ void count_move(const MoveLength<T>& length, const PatchSweep<Update, T>& sweep) {
   atomicAdd(&sweep.sums.moved, 1U);
   if (!length.is_within(static_cast<T>(sweep.rules.tolerance))) {
     sweep.sums.beyond_tolerance = 1;
@@ -75,13 +77,30 @@ __device__ __forceinline__ void count_move(const MoveLength<T>& length, const Pa
 }
 
 /// Marks a moved vertex; its neighbours are marked by the caller.
-template <class T>
-__device__ __forceinline__ void mark_moved(std::int32_t v, const PatchSweep<T>& sweep) {
+template <class Update, class T>
+__device__ __forceinline__ void mark_moved(std::int32_t v, const PatchSweep<Update, T>& sweep) {
   sweep.patch.next_marked[v] = 1;
   sweep.patch.moved[v] = sweep.rules.stamp;
 }
 
-/// The update of a vertex by one thread, for rings of any size.
+/// Whether a method knows what MeanRatioTargets says of a vertex.
+template <class Update>
+inline constexpr bool knows_aims = requires(const Update& method) {
+  method.targets();
+};
+
+/// A method for the vertices of a patch by their local numbers, as one for those of the mesh.
+template <class Update, class T>
+__device__ Update in_patch(const Update& method, const PatchMemory<T>& patch) {
+  if constexpr (knows_aims<Update>) {
+    return Update({patch.inverse_areas, patch.largest_shares, patch.scales, nullptr}, method.step());
+  } else {
+    return method;
+  }
+}
+
+/// The update of a vertex by one thread where that is seldom wanted: for rings of any size, by a method with an update
+/// in registers.
 template <class Update, class T>
 __device__ __noinline__ VertexMove<T> update_alone(Point2<T> position, RingInPatch<T> ring) {
   return update_over(Update{}, 0, position, ring);
@@ -90,7 +109,7 @@ __device__ __noinline__ VertexMove<T> update_alone(Point2<T> position, RingInPat
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
 /// vertex that is left to visit_by_team().
 template <class Update, class T>
-__device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, const PatchSweep<T>& sweep) {
+__device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, const PatchSweep<Update, T>& sweep) {
   const PatchMemory<T>& patch = sweep.patch;
   const std::int32_t begin = active ? patch.begins[v] : 0;
   const int size = active ? patch.begins[v + 1] - begin : 0;
@@ -108,7 +127,7 @@ __device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, con
       ring.neighbours[i] = patch.points[patch.entries[begin + (i < size ? i() : 0)]];
     });
     position = patch.points[v];
-    if (!try_update(Update{}, position, ring, result)) {
+    if (!try_update(sweep.method, position, ring, result)) {
       return true;
     }
   } else {
@@ -116,7 +135,7 @@ __device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, con
       return false;
     }
     position = patch.points[v];
-    result = update_alone<Update, T>(position, {patch.points, patch.entries + begin, size});
+    result = update_over(sweep.method, v, position, RingInPatch<T>{patch.points, patch.entries + begin, size});
   }
   patch.next_points[v] = result.move.position;
   if (result.move.moved) {
@@ -133,7 +152,7 @@ __device__ __forceinline__ bool visit_by_thread(std::int32_t v, bool active, con
 
 /// Evaluates one vertex a team, whose threads call it with the same arguments. All threads of the warp call it.
 template <class Update, class T>
-__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const PatchSweep<T>& sweep) {
+__device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const PatchSweep<Update, T>& sweep) {
   const PatchMemory<T>& patch = sweep.patch;
   const std::int32_t begin = patch.begins[v];
   const int size = active ? patch.begins[v + 1] - begin : 0;
@@ -163,11 +182,11 @@ __device__ __forceinline__ void visit_by_team(std::int32_t v, bool active, const
 /// Evaluates vertices of the warp's list from `begin` on by teams.
 template <class Update, class T>
 __device__ __forceinline__ void visit_by_teams(const std::uint16_t* list, int begin, int end,
-                                               const PatchSweep<T>& sweep) {
+                                               const PatchSweep<Update, T>& sweep) {
   if constexpr (has_register_update<Update, T>) {
     for (; begin < end; begin += teams) {
       const int i = begin + static_cast<int>(threadIdx.x % 32) / team_size;
-      visit_by_team<Update>(list[i < end ? i : begin], i < end, sweep);
+      visit_by_team(list[i < end ? i : begin], i < end, sweep);
     }
   }
 }
@@ -175,48 +194,49 @@ __device__ __forceinline__ void visit_by_teams(const std::uint16_t* list, int be
 /// Evaluates the vertices of the warp's list: 32 at a time by threads while there are more than a few, what is left and
 /// what threads have left by teams. All threads of the warp call it.
 template <class Update, class T>
-__device__ __forceinline__ void visit_list(std::uint16_t* list, int listed, const PatchSweep<T>& sweep) {
+__device__ __forceinline__ void visit_list(std::uint16_t* list, int listed, const PatchSweep<Update, T>& sweep) {
   __syncwarp();
   int begin = 0;
   int left_over = 0;
   while (listed - begin > (has_register_update<Update, T> ? few_for_teams : 0)) {
     const int i = begin + static_cast<int>(threadIdx.x % 32);
     const std::int32_t v = i < listed ? list[i] : 0;
-    const bool left = visit_by_thread<Update>(v, i < listed, sweep);
+    const bool left = visit_by_thread(v, i < listed, sweep);
     __syncwarp();
     // The places before `begin` are free.
     left_over = added_to_list(list, left_over, left, v);
     begin += 32;
   }
   __syncwarp();
-  visit_by_teams<Update>(list, 0, left_over, sweep);
-  visit_by_teams<Update>(list, begin, listed, sweep);
+  visit_by_teams(list, 0, left_over, sweep);
+  visit_by_teams(list, begin, listed, sweep);
   __syncwarp();
 }
 
 /// Evaluates those of `count` candidates that wanted(i, v) says of, with v set to the vertex. The candidates of a warp
 /// are far apart: what changes is often near to each other.
 template <class Update, class T, class Wanted>
-__device__ __forceinline__ void visit_candidates(std::int32_t count, std::uint16_t* list, const PatchSweep<T>& sweep,
-                                                 const Wanted& wanted) {
+__device__ __forceinline__ void visit_candidates(std::int32_t count, std::uint16_t* list,
+                                                 const PatchSweep<Update, T>& sweep, const Wanted& wanted) {
   constexpr std::int32_t warps = threads_for<T> / 32;
   const auto warp = static_cast<std::int32_t>(threadIdx.x / 32);
   const auto lane = static_cast<std::int32_t>(threadIdx.x % 32);
   int listed = 0;
   unsigned evaluated = 0;
-  for (std::int32_t base = 0; base + warp < count; base += 32 * warps) {
-    const std::int32_t i = base + lane * warps + warp;
+  // Where an update takes long, few warps that are full are sooner done than many with few vertices each.
+  const std::int32_t used = has_register_update<Update, T> ? warps : min(warps, (count + 31) / 32);
+  for (std::int32_t base = 0; warp < used && base + warp < count; base += 32 * used) {
+    const std::int32_t i = base + lane * used + warp;
     std::int32_t v = 0;
     const bool is_wanted = i < count && wanted(i, v);
     listed = added_to_list(list, listed, is_wanted, v);
     evaluated += __popc(__ballot_sync(all_lanes, is_wanted && sweep.is_own(v)));
-    if (listed > list_size - 32) {
-      visit_list<Update>(list, listed, sweep);
+    // In one place: the code is long, and two copies of it leave the cache.
+    const bool is_last = base + 32 * used + warp >= count;
+    if (listed > (is_last ? 0 : list_size - 32)) {
+      visit_list(list, listed, sweep);
       listed = 0;
     }
-  }
-  if (listed > 0) {
-    visit_list<Update>(list, listed, sweep);
   }
   if (lane == 0 && evaluated > 0) {
     atomicAdd(&sweep.sums.evaluated, evaluated);
