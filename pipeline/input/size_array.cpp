@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -83,14 +84,22 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
 }  // namespace
 
 SizeArray find_size_array(const MeshDocument& document, const PlanarMesh& mesh, const std::string& name) {
-  if (const DataArray* const array = find_array_loosely(document.point_arrays, name)) {
-    return lengths_at_points(*array, mesh);
-  }
-  if (const DataArray* const array = find_array_loosely(document.cell_arrays, name)) {
-    return areas_of_cells(*array, mesh);
+  const auto by = [&](const auto& find) {
+    const DataArray* const at_points = find(document.point_arrays, name);
+    const DataArray* const of_cells = at_points == nullptr ? find(document.cell_arrays, name) : nullptr;
+    return at_points != nullptr  ? std::optional(lengths_at_points(*at_points, mesh))
+           : of_cells != nullptr ? std::optional(areas_of_cells(*of_cells, mesh))
+                                 : std::nullopt;
+  };
+  // A cell array of the very name goes before a point array whose name only resembles it.
+  if (std::optional<SizeArray> exact = by(find_array)) {
+    return *std::move(exact);
   }
   if (std::ranges::find(document.cell_labels, name, &LabelArray::name) != document.cell_labels.end()) {
     throw std::invalid_argument("the cell array '" + name + "' holds texts; sizes must be positive numbers");
+  }
+  if (std::optional<SizeArray> similar = by(find_array_loosely)) {
+    return *std::move(similar);
   }
   throw std::invalid_argument("the file has no point or cell array '" + name +
                               "' to take sizes from; it has: " + array_names(document.point_arrays) + " at points, " +

@@ -78,6 +78,20 @@ TEST_CASE("of two arrays of a name that at points counts") {
   CHECK(find_size_array(sample.document, sample.mesh, "h").lengths[1] == 2);
 }
 
+TEST_CASE("an array of the very name goes before one whose name differs in case, at points or of cells") {
+  Sample sample;
+  sample.at_points("H", {1, 2, 3, 4, 5});
+  sample.at_points("h_", {6, 7, 8, 9, 1});
+  sample.at_cells("h", {9, 9, 9});
+  CHECK(find_size_array(sample.document, sample.mesh, "h").of_cells);
+  CHECK(find_size_array(sample.document, sample.mesh, "H").lengths[1] == 2);
+  CHECK(find_size_array(sample.document, sample.mesh, "h_").lengths[1] == 7);
+  CHECK(find_size_array(sample.document, sample.mesh, "h ").array == "H");
+  sample.document.cell_labels.push_back(
+      trismooth::make_label_array("_h", std::vector<std::string_view>{"a", "b", "a"}));
+  CHECK(sample.message("_h") == "the cell array '_h' holds texts; sizes must be positive numbers");
+}
+
 TEST_CASE("what is no array of sizes is refused in words") {
   Sample sample;
   sample.at_points("h", {1, 2, 3, 4, 5});
