@@ -206,6 +206,13 @@ Json size_change_json(const SizeChange& change) {
           {"ratio_p99", number_json(change.ratio_p99)}};
 }
 
+Json size_array_json(const InputSummary& input) {
+  if (input.size_array.empty()) {
+    return nullptr;
+  }
+  return {{"name", input.size_array}, {"values", input.sizes_are_areas ? "areas_of_cells" : "lengths_at_points"}};
+}
+
 Json size_fit_json(const PipelineResult& result) {
   if (!result.size_fit_before || !result.size_fit_after) {
     return nullptr;
@@ -238,6 +245,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"before", quality_json(result.before, result.region_names, result.regions_before)},
       {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
       {"size_change", result.size_change ? size_change_json(*result.size_change) : Json(nullptr)},
+      {"size_array", size_array_json(result.input)},
       {"size_fit", size_fit_json(result)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},

@@ -17,8 +17,9 @@ import tool
 METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ratio", "edge_ratio", "condition",
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
-    "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_fit", "gates",
-         "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"},
+    "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_array",
+         "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
+         "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
               "fixed_ids_vertices", "held"},

@@ -77,6 +77,9 @@ class Sizes(tool.ToolTest):
                 self.assertLess(1.5 * self.off_by(output), self.off_by(name))
                 fit = report["size_fit"]
                 self.assertEqual(report["options"]["size_array"], array)
+                self.assertEqual(report["size_array"], {
+                    "name": "edge_length" if array == "Edge Length" else array,
+                    "values": "areas_of_cells" if array == "area" else "lengths_at_points"})
                 self.assertEqual(fit["before"]["left_out"], 0)
                 self.assertEqual(fit["after"]["triangles"], fit["before"]["triangles"])
                 if array != "area":  # whose vertices have means
@@ -99,11 +102,13 @@ class Sizes(tool.ToolTest):
         self.write("in.vtk", self.vtk())
         plain = self.report("smooth", "in.vtk", "out.vtk")
         self.assertEqual(plain["warnings"], [])
+        self.assertIsNone(plain["size_array"])
         for options in (("--size-array", "edge_length"), ("--target", "input-shape"), ("--size-weight", "2"),
                         ("--power", "1"), ("--size-array", "edge_length", "--power", "4")):
             with self.subTest(options):
                 report = self.report("smooth", "in.vtk", "out.vtk", *options)
                 self.assertEqual(report["coordinates_hash"], plain["coordinates_hash"])
+                self.assertIsNone(report["size_array"])
                 self.assertEqual(report["warnings"], [
                     f"the method smart takes no notice of {', '.join(options[::2])}; --method mean-ratio does"])
 

@@ -32,8 +32,8 @@ using Keys = std::vector<std::string>;
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
   CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "size_change",
-                                "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings",
-                                "timings_ms", "peak_memory_bytes"});
+                                "size_array", "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash",
+                                "warnings", "timings_ms", "peak_memory_bytes"});
   CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
@@ -115,6 +115,16 @@ TEST_CASE("the JSON report says how far sizes are from those asked for") {
   const Json fit = Json::parse(json_report(sample::options(), result))["size_fit"];
   CHECK(fit["before"] == Json{{"triangles", 200}, {"left_out", 3}, {"rms_log_ratio", 1.5}});
   CHECK(fit["after"] == Json{{"triangles", 201}, {"left_out", 2}, {"rms_log_ratio", 0.25}});
+}
+
+TEST_CASE("the JSON report says which array sizes were taken from, and what its values were read as") {
+  auto result = sample::result();
+  const auto reported = [&] { return Json::parse(json_report(sample::options(), result))["size_array"]; };
+  CHECK(reported().is_null());
+  result.input.size_array = "Edge length";
+  CHECK(reported() == Json{{"name", "Edge length"}, {"values", "lengths_at_points"}});
+  result.input.sizes_are_areas = true;
+  CHECK(reported() == Json{{"name", "Edge length"}, {"values", "areas_of_cells"}});
 }
 
 TEST_CASE("the JSON report holds the run's values") {
