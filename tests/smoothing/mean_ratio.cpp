@@ -4,17 +4,12 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/smoothing/methods/methods.h"
-#include "trismooth/smoothing/rings/mesh_rings.h"
-#include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/smooth.h"
-#include "trismooth/smoothing/sweeps/host_targets.h"
 
 #include "catch.h"
 #include "support/naive_mean_ratio.h"
@@ -520,108 +515,6 @@ TEST_CASE("the more sizes weigh, the nearer areas are to the means around them b
     last = deviation(run.xy);
     last_mean = shapes(mesh, run.xy).mean;
   }
-}
-
-TEMPLATE_TEST_CASE("what it aims at is what a plain computation finds, bit for bit, by any number of threads", "",
-                   float, double) {
-  std::vector<test_meshes::NamedMesh> meshes = test_meshes::zoo();
-  meshes.push_back({"large", test_meshes::shuffled(test_meshes::jittered_grid(70, 70, 0.5, 9), 10)});
-  for (const auto& [name, mesh] : meshes) {
-    const auto frame = trismooth::local_frame(mesh.points);
-    std::vector<Point2<double>> local;
-    std::vector<Point2<TestType>> working;
-    for (const auto p : mesh.points) {
-      local.push_back(frame.enter(p));
-      working.push_back({static_cast<TestType>(local.back().x), static_cast<TestType>(local.back().y)});
-    }
-    const MeanRatioOptions options{0.7, name == "large" ? 5 : 0,
-                                   name == "annulus" ? TargetShape::input : TargetShape::uniform};
-    const auto expected =
-        naive::mean_ratio_aims(working, naive::one_rings(mesh.vertex_count(), mesh.triangles), options);
-    for (const int threads : {1, 2, 5}) {
-      CAPTURE(name, threads);
-      trismooth::Workers workers(threads);
-      const auto found = trismooth::find_mesh_rings(local, mesh.triangles, {}, workers);
-      const auto rings = trismooth::pack_rings(found.rings, local, Form::in_place, workers);
-      std::vector<Point2<TestType>> packed;
-      for (const std::int32_t v : rings.input_index) {
-        packed.push_back(working[v]);
-      }
-      std::optional<trismooth::HostTargets<TestType>> targets;
-      workers.run([&] { targets.emplace(packed, rings, options, workers); });
-      const MeanRatioTargets<TestType> view = targets->view();
-      if (rings.free_count() > 0) {
-        REQUIRE(view.scales->size_weight == expected.scales.size_weight);
-        REQUIRE(view.scales->power == expected.scales.power);
-      }
-      REQUIRE((view.edges != nullptr) == (options.target == TargetShape::input));
-      for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
-        const std::int32_t input = rings.input_index[v];
-        CAPTURE(v, input);
-        if (view.edges != nullptr) {
-          REQUIRE(view.edges[v].xx == expected.edges[input].xx);
-          REQUIRE(view.edges[v].xy == expected.edges[input].xy);
-          REQUIRE(view.edges[v].yy == expected.edges[input].yy);
-        }
-        if (v < rings.free_count()) {
-          REQUIRE(view.largest_shares[v] == expected.largest_shares[input]);
-        }
-        if (!(expected.inverse_areas[input] == std::numeric_limits<TestType>::infinity())) {
-          REQUIRE(view.inverse_areas[v] == expected.inverse_areas[input]);
-        }
-      }
-    }
-  }
-}
-
-TEST_CASE("aimed at is the mean area of a vertex's triangles, of a fixed vertex those that may change, each once") {
-  for (const auto& [name, mesh] : test_meshes::zoo()) {
-    const auto frame = trismooth::local_frame(mesh.points);
-    std::vector<Point2<double>> local;
-    for (const auto p : mesh.points) {
-      local.push_back(frame.enter(p));
-    }
-    trismooth::Workers workers(2);
-    const auto found = trismooth::find_mesh_rings(local, mesh.triangles, {}, workers);
-    const auto rings = trismooth::pack_rings(found.rings, local, Form::swap, workers);
-    std::vector<Point2<double>> packed;
-    for (const std::int32_t v : rings.input_index) {
-      packed.push_back(local[v]);
-    }
-    std::optional<trismooth::HostTargets<double>> targets;
-    workers.run([&] { targets.emplace(packed, rings, MeanRatioOptions{}, workers); });
-    std::vector<Real> sums(mesh.points.size());
-    std::vector<int> counts(mesh.points.size());
-    for (const auto& t : mesh.triangles) {
-      if (std::ranges::any_of(t, [&](std::int32_t v) { return found.rings.is_free(v); })) {
-        const Real area =
-            naive::doubled_area(naive::widened(local[t[0]]), naive::widened(local[t[1]]), naive::widened(local[t[2]]));
-        for (const std::int32_t v : t) {
-          sums[v] += std::max(area, 0.0L);
-          ++counts[v];
-        }
-      }
-    }
-    for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
-      const std::int32_t input = rings.input_index[v];
-      CAPTURE(name, input);
-      if (sums[input] > 0) {
-        REQUIRE(1 / targets->view().inverse_areas[v] ==
-                Approx(static_cast<double>(sums[input] / counts[input])).epsilon(1e-9));
-      }
-    }
-  }
-}
-
-TEST_CASE("the larger means of areas, the looser the growth bound; never below the largest share there was") {
-  const trismooth::MeanRatioMesh mesh{0.01, 1, 2, 4};
-  CHECK(trismooth::growth_bound(5.0, 0.02, mesh) == 5.0);
-  // An equilateral triangle of four times the area: doubled area 0.08, squares 2 sqrt(3) times as much.
-  CHECK(trismooth::growth_bound(0.0, 0.02, mesh) == Approx(0.08 * 0.08 * std::sqrt(12.0)));
-  CHECK(trismooth::growth_bound(0.0, 0.001, mesh) == Approx(0.04 * 0.04 * std::sqrt(12.0)));
-  CHECK(trismooth::growth_bound(0.0, 0.0, mesh) == trismooth::growth_bound(0.0, 0.01, mesh));
-  CHECK(trismooth::inverse_target_area(0.25, mesh) == 4);
-  CHECK(trismooth::inverse_target_area(0.0, mesh) == Approx(100));
 }
 
 TEST_CASE("options of the method out of range are refused") {

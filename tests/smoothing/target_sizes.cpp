@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,12 +18,11 @@
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
-#include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/smooth.h"
-#include "trismooth/smoothing/sweeps/host_targets.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 #include "catch.h"
+#include "support/packed_mesh.h"
 #include "support/same_bits.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
@@ -186,25 +184,12 @@ struct Aims {
 };
 template <class T>
 Aims aims_of(const Mesh& mesh, const Doubles& lengths, int threads) {
-  const auto frame = trismooth::local_frame(mesh.points);
-  std::vector<Point2<double>> local;
-  for (const auto p : mesh.points) {
-    local.push_back(frame.enter(p));
-  }
-  trismooth::Workers workers(threads);
-  const auto found = trismooth::find_mesh_rings(local, mesh.triangles, {}, workers);
-  const auto rings = trismooth::pack_rings(found.rings, local, Form::in_place, workers);
-  std::vector<Point2<T>> packed;
-  for (const std::int32_t v : rings.input_index) {
-    packed.push_back({static_cast<T>(local[v].x), static_cast<T>(local[v].y)});
-  }
+  test_meshes::PackedMesh<T> packed(mesh, Form::in_place, threads);
   const SmoothingOptions options = aiming_at(lengths);
-  const Doubles sizes = inverse_sizes(options, found.fixed);
-  std::optional<trismooth::HostTargets<T>> targets;
-  workers.run([&] { targets.emplace(packed, rings, options.mean_ratio, workers, sizes); });
-  Aims aims{Doubles(local.size()), static_cast<double>(targets->view().scales->least_quotient)};
-  for (std::size_t v = 0; v < local.size(); ++v) {
-    aims.areas[rings.input_index[v]] = 1 / static_cast<double>(targets->view().inverse_areas[v]);
+  const auto targets = packed.targets(options.mean_ratio, inverse_sizes(options, packed.found.fixed));
+  Aims aims{Doubles(lengths.size()), static_cast<double>(targets.view().scales->least_quotient)};
+  for (std::size_t v = 0; v < lengths.size(); ++v) {
+    aims.areas[packed.rings.input_index[v]] = 1 / static_cast<double>(targets.view().inverse_areas[v]);
   }
   return aims;
 }
