@@ -1,7 +1,6 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -20,13 +19,13 @@
 #include "catch.h"
 #include "support/fake_backend.h"
 #include "support/naive_smoothing.h"
+#include "support/same_bits.h"
 #include "support/test_meshes.h"
 
 using test_meshes::Mesh;
 using test_meshes::Point;
 using trismooth::Constraints;
 using trismooth::Form;
-using trismooth::MeshError;
 using trismooth::Method;
 using trismooth::plan;
 using trismooth::Precision;
@@ -77,12 +76,6 @@ void for_all_options(const Function& use) {
   }
 }
 
-/// A copy to change.
-std::vector<std::int32_t> index_list(const Mesh& mesh) {
-  const auto indices = mesh.indices();
-  return {indices.begin(), indices.end()};
-}
-
 std::vector<double> times(std::vector<double> xy, double factor) {
   for (double& x : xy) {
     x *= factor;
@@ -103,12 +96,6 @@ double worst_quotient(const Mesh& mesh) {
     worst = std::min(worst, naive::element_quotient(mesh.points, t));
   }
   return worst;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(
-      a, b, {}, [](double x) { return std::bit_cast<std::uint64_t>(x); },
-      [](double x) { return std::bit_cast<std::uint64_t>(x); });
 }
 
 }  // namespace
@@ -276,7 +263,8 @@ TEST_CASE("a plan can be moved, and owns what it needs") {
   const std::vector<double> expected = smoothed(mesh);
   std::vector<SmoothingPlan> plans;
   {
-    std::vector<std::int32_t> indices = index_list(mesh);
+    const auto indices_there = mesh.indices();
+    std::vector<std::int32_t> indices(indices_there.begin(), indices_there.end());
     plans.push_back(plan(mesh.vertex_count(), indices));
     std::ranges::fill(indices, -1);
   }
@@ -386,72 +374,6 @@ TEST_CASE("a free vertex whose whole ring is one point is left in peace or broug
   });
 }
 
-TEST_CASE("coordinates that are not finite are refused, and xy is untouched") {
-  const Mesh mesh = test_meshes::star(5);
-  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity()}) {
-    for (const std::size_t place : {0U, 1U, 6U, 11U}) {
-      std::vector<double> xy = mesh.xy();
-      xy[place] = bad;
-      const std::vector<double> before = xy;
-      const std::string message = "vertex " + std::to_string(place / 2) + " has a coordinate that is not finite";
-      CHECK_THROWS_AS(repeated.smooth(xy), MeshError);
-      CHECK_THROWS_WITH(repeated.smooth(xy), message);
-      CHECK_THROWS_WITH(smooth(xy_points(xy), mesh.indices()), message);
-      CHECK(same_bits(xy, before));
-    }
-  }
-  // The plan is as good as before.
-  std::vector<double> xy = mesh.xy();
-  repeated.smooth(xy);
-  CHECK(xy == smoothed(mesh));
-}
-
-TEST_CASE("arrays of the wrong length are refused, and xy is untouched") {
-  const Mesh mesh = test_meshes::star(5);
-  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
-  for (const std::size_t length : {0U, 10U, 11U, 13U, 14U}) {
-    std::vector<double> xy(length, 0.25);
-    CHECK_THROWS_AS(repeated.smooth(xy), std::invalid_argument);
-    CHECK(xy == std::vector<double>(length, 0.25));
-  }
-  std::vector<double> odd = mesh.xy();
-  odd.push_back(0);
-  const std::vector<double> before = odd;
-  CHECK_THROWS_AS(smooth(xy_points(odd), mesh.indices()), std::invalid_argument);
-  std::vector<std::int32_t> indices = index_list(mesh);
-  indices.pop_back();
-  std::vector<double> xy = mesh.xy();
-  CHECK_THROWS_AS(smooth(xy_points(xy), indices), std::invalid_argument);
-  CHECK_THROWS_AS(plan(mesh.vertex_count(), indices), std::invalid_argument);
-  CHECK(odd == before);
-  CHECK(xy == mesh.xy());
-}
-
-TEST_CASE("triangles that are no mesh, constraints and options that do not fit are refused, and xy is untouched") {
-  const Mesh mesh = test_meshes::star(5);
-  std::vector<double> xy = mesh.xy();
-  const auto refuses_triangle = [&](std::vector<std::int32_t> more) {
-    std::vector<std::int32_t> indices = index_list(mesh);
-    indices.insert(indices.end(), more.begin(), more.end());
-    CHECK_THROWS_AS(smooth(xy_points(xy), indices), MeshError);
-  };
-  refuses_triangle({0, 1, 6});
-  refuses_triangle({0, -1, 2});
-  refuses_triangle({2, 2, 3});
-  const std::vector<std::int32_t> ids{6};
-  Constraints constraints;
-  constraints.fixed_ids = ids;
-  CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), constraints), std::invalid_argument);
-  SmoothingOptions options;
-  options.tolerance = -1;
-  CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), std::invalid_argument);
-  CHECK(xy == mesh.xy());
-  std::vector<double> band = test_meshes::moebius_band(5).xy();
-  CHECK_THROWS_AS(smooth(xy_points(band), test_meshes::moebius_band(5).indices()), MeshError);
-}
-
 TEST_CASE("without a backend in the options it is the CPU's") {
   SmoothingOptions options;
   CHECK(&trismooth::backend_of(options) == &trismooth::cpu_backend());
@@ -484,18 +406,6 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
   CHECK(xy == expected);
 }
 
-TEST_CASE("more threads than a machine can have are refused before any is started, by every call that takes a number") {
-  const Mesh mesh = test_meshes::star(5);
-  std::vector<double> xy = mesh.xy();
-  SmoothingOptions options;
-  for (const int threads : {100000, std::numeric_limits<int>::max(), -1}) {
-    options.threads = threads;
-    CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), std::invalid_argument);
-    CHECK_THROWS_AS(plan(mesh.vertex_count(), mesh.indices(), {}, options), std::invalid_argument);
-  }
-  CHECK(xy == mesh.xy());
-}
-
 TEST_CASE("the time of preparing is that of the call which prepared") {
   const Mesh mesh = test_meshes::jittered_grid(30, 30, 0.3, 1);
   SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices());
@@ -521,20 +431,4 @@ TEST_CASE("a plan that has been moved from says so, and can be made anew") {
   first = plan(mesh.vertex_count(), mesh.indices());
   first.smooth(xy);
   CHECK(xy == smoothed(mesh));
-}
-
-TEST_CASE("arrays of more vertices or triangles than 32 bits number are refused before anybody looks at them") {
-  // No memory is behind all of these numbers.
-  double coordinate = 0;
-  std::int32_t index = 0;
-  constexpr std::size_t vertices = std::size_t{1} << 31U;
-  constexpr std::size_t triangles = 715827883;
-  for (const std::size_t wrapped_around : {vertices, 2 * vertices, 2 * vertices + 3}) {
-    CHECK_THROWS_AS(smooth(xy_points(std::span(&coordinate, 2 * wrapped_around)), std::span<const std::int32_t>{}),
-                    MeshError);
-  }
-  for (const std::size_t wrapped_around : {triangles, 2 * vertices, 2 * vertices + 1}) {
-    CHECK_THROWS_AS(smooth(xy_points(std::span(&coordinate, 2)), std::span(&index, 3 * wrapped_around)), MeshError);
-    CHECK_THROWS_AS(plan(3, std::span(&index, 3 * wrapped_around)), MeshError);
-  }
 }
