@@ -21,6 +21,12 @@ std::string plain(bool binary, const std::string& table = "LOOKUP_TABLE default\
   return file.bytes();
 }
 
+/// The grid with cell data, as it is read.
+MeshDocument with_cell_data(const std::string& attributes) {
+  legacy_test::Builder file = legacy_test::grid_file(false, false);
+  return trismooth::read_mesh(TemporaryFile(file.text("CELL_DATA 7\n" + attributes).bytes(), ".vtk").path());
+}
+
 /// The same mesh as in the plain file, and the same bytes when a coordinate has been moved away and back.
 void check_same_mesh(const std::string& bytes, bool binary) {
   const MeshDocument expected = trismooth::read_mesh(TemporaryFile(plain(binary), ".vtk").path());
@@ -106,24 +112,19 @@ TEST_CASE("legacy VTK: SCALARS may do without the lookup table and the number of
   }
   // The number of components in a line of its own, as VTK reads it.
   dialects::check_same_mesh(dialects::plain(binary, "1\nLOOKUP_TABLE default\n", ""), binary);
-  const std::string pairs = legacy_test::grid_file(false, false).text("CELL_DATA 7\nSCALARS s int 2\n").bytes();
-  const MeshDocument document =
-      trismooth::read_mesh(TemporaryFile(pairs + "1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", ".vtk").path());
+  const MeshDocument document = dialects::with_cell_data("SCALARS s int 2\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n");
   REQUIRE(document.cell_arrays.size() == 1);
   CHECK(document.cell_arrays[0].components == 2);
   CHECK(document.cell_arrays[0].value(6, 1) == 14);
 }
 
 TEST_CASE("legacy VTK: METADATA goes with its array, and what is no METADATA ends it") {
-  const std::string file = legacy_test::grid_file(false, false)
-                               .text(
-                                   "CELL_DATA 7\nVECTORS v int\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 "
-                                   "3\nMETADATA\nCOMPONENT_NAMES\nx%20y  \n\nz\n"
-                                   "INFORMATION 2\nNAME UNITS_LABEL LOCATION vtkDataArray\nDATA m\n"
-                                   "NAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 1\n  \n"
-                                   "SCALARS s int\nLOOKUP_TABLE default\n1 2 3 4 5 6 7\n")
-                               .bytes();
-  const MeshDocument document = trismooth::read_mesh(TemporaryFile(file, ".vtk").path());
+  const MeshDocument document = dialects::with_cell_data(
+      "VECTORS v int\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 3\n"
+      "METADATA\nCOMPONENT_NAMES\nx%20y  \n\nz\n"
+      "INFORMATION 2\nNAME UNITS_LABEL LOCATION vtkDataArray\nDATA m\n"
+      "NAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 1\n  \n"
+      "SCALARS s int\nLOOKUP_TABLE default\n1 2 3 4 5 6 7\n");
   REQUIRE(document.cell_arrays.size() == 2);
   const auto& description = document.cell_arrays[0].description;
   REQUIRE(description != nullptr);
@@ -135,13 +136,9 @@ TEST_CASE("legacy VTK: METADATA goes with its array, and what is no METADATA end
 }
 
 TEST_CASE("legacy VTK: of two lists of names of components the last one holds, as many names as components") {
-  const std::string file = legacy_test::grid_file(false, false)
-                               .text(
-                                   "CELL_DATA 7\nSCALARS pair int 2\nLOOKUP_TABLE default\n"
-                                   "1 2 3 4 5 6 7 8 9 10 11 12 13 14\n"
-                                   "METADATA\nCOMPONENT_NAMES\nold\nnames\nCOMPONENT_NAMES\nnew\nones\n\n")
-                               .bytes();
-  const MeshDocument document = trismooth::read_mesh(TemporaryFile(file, ".vtk").path());
+  const MeshDocument document = dialects::with_cell_data(
+      "SCALARS pair int 2\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n"
+      "METADATA\nCOMPONENT_NAMES\nold\nnames\nCOMPONENT_NAMES\nnew\nones\n\n");
   REQUIRE(document.cell_arrays.size() == 1);
   REQUIRE(document.cell_arrays[0].description != nullptr);
   CHECK(document.cell_arrays[0].description->component_names == std::vector<std::string>{"new", "ones"});
