@@ -35,11 +35,13 @@ __device__ void relocate(const Update& method, const Mesh& mesh, std::int32_t v,
                          double tolerance, SweepTally<T>& tally) {
   const NeighbourPositions<Mesh> ring(mesh, v, from);
   const Point2<T> position = mesh.load(v, from);
-  const Move<T> move = update_with_minimum(method, v, position, ring, mesh.min_quality(v));
+  const VertexMove<T> result =
+      with_squares(update_with_minimum(method, v, position, ring, mesh.min_quality(v)), position, ring);
   ++tally.evaluated;
-  mesh.store(v, to, move.position);
-  if (move.moved) {
-    tally.join(tally_of_move(position, move.position, ring, static_cast<T>(tolerance)));
+  mesh.store(v, to, result.move.position);
+  if (result.move.moved) {
+    add_move(tally, length_of_move(position, result.move.position, ring.size(), result.squares),
+             static_cast<T>(tolerance));
   }
 }
 

@@ -22,7 +22,7 @@ __device__ Point2<T> laplacian_position(const RegisterRing<T, capacity>& ring) {
   return {sum.x * weight, sum.y * weight};
 }
 
-/// The sum of tally_of_move().
+/// VertexMove::squares.
 template <class T, int capacity>
 __device__ T sum_of_squares(Point2<T> position, const RegisterRing<T, capacity>& ring) {
   T sum = 0;

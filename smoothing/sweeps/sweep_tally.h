@@ -28,7 +28,7 @@ struct SweepTally {
 template <class T>
 struct MoveLength {
   T moved;  ///< move^2 * k
-  T sum;    ///< sum |n_i - v|^2, in ring order
+  T sum;    ///< sum |n_i - v|^2, in ring order: VertexMove::squares
 
   constexpr TRISMOOTH_HOST_DEVICE bool is_within(T tolerance) const { return moved <= tolerance * tolerance * sum; }
   constexpr TRISMOOTH_HOST_DEVICE T relative_squared() const { return sum > 0 ? moved / sum : T(0); }
@@ -56,19 +56,6 @@ constexpr TRISMOOTH_HOST_DEVICE void add_move(SweepTally<T, Count>& tally, const
     const T relative = length.relative_squared();
     tally.max_relative_squared = relative > tally.max_relative_squared ? relative : tally.max_relative_squared;
   }
-}
-
-/// The tally of one move, measured by the values that the update read.
-template <class T, class Ring>
-constexpr TRISMOOTH_HOST_DEVICE SweepTally<T> tally_of_move(Point2<T> from, Point2<T> to, const Ring& ring,
-                                                            T tolerance) {
-  T sum = 0;
-  for (int i = 0; i < ring.size(); ++i) {
-    sum += squared_length(ring[i] - from);
-  }
-  SweepTally<T> tally;
-  add_move(tally, length_of_move(from, to, ring.size(), sum), tolerance);
-  return tally;
 }
 
 }  // namespace trismooth

@@ -26,6 +26,14 @@ using namespace update_checks;
 
 namespace {
 
+/// The tally of one move.
+template <class T, class Ring>
+SweepTally<T> tally_of_move(Point2<T> from, Point2<T> to, const Ring& ring, T tolerance) {
+  SweepTally<T> tally;
+  add_move(tally, length_of_move(from, to, ring.size(), sum_of_tally(from, ring)), tolerance);
+  return tally;
+}
+
 /// Moves that one thread tallies one after the other, `length` for each thread.
 template <class T>
 struct MoveSequences {

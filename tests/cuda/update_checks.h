@@ -69,7 +69,7 @@ bool same_bits(const Move<T>& a, const Move<T>& b) {
   return a.moved == b.moved && same_bits(a.position.x, b.position.x) && same_bits(a.position.y, b.position.y);
 }
 
-/// The sum that tally_of_move() makes.
+/// The sum by which a move is measured: see VertexMove.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE T sum_of_tally(Point2<T> position, const Ring& ring) {
   T sum = 0;
