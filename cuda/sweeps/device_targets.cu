@@ -19,20 +19,37 @@ __device__ void add(std::uint64_t& sum, std::uint64_t value) {
   atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(value));
 }
 
+__device__ void add(AreaSum& sum, const AreaSum& more) {
+  for (int i = 0; i < AreaSum::part_count; ++i) {
+    add(sum.parts[i], more.parts[i]);
+  }
+}
+
 __device__ void raise(std::uint64_t& largest, std::uint64_t value) {
   atomicMax(reinterpret_cast<unsigned long long*>(&largest), static_cast<unsigned long long>(value));
+}
+
+/// What the thread `distance` away has in the warp; all threads of it call it.
+__device__ std::uint64_t of_other(std::uint64_t value, int distance) {
+  return __shfl_xor_sync(0xffffffffU, value, distance);
+}
+__device__ AreaSum of_other(const AreaSum& sum, int distance) {
+  AreaSum result{};
+  for (int i = 0; i < AreaSum::part_count; ++i) {
+    result.parts[i] = of_other(sum.parts[i], distance);
+  }
+  return result;
 }
 
 /// Adds up over the block. All its threads call it.
 __device__ void add_in_block(MeanRatioSums own, bool has_sizes, MeanRatioSums& block, MeanRatioSums& all) {
   for (int distance = 16; distance > 0; distance /= 2) {
-    own.areas += __shfl_xor_sync(0xffffffffU, own.areas, distance);
-    own.quotients += __shfl_xor_sync(0xffffffffU, own.quotients, distance);
-    own.count += __shfl_xor_sync(0xffffffffU, own.count, distance);
+    own.areas.add(of_other(own.areas, distance));
+    own.quotients += of_other(own.quotients, distance);
+    own.count += of_other(own.count, distance);
     if (has_sizes) {
-      own.sizes += __shfl_xor_sync(0xffffffffU, own.sizes, distance);
-      own.size_remainders += __shfl_xor_sync(0xffffffffU, own.size_remainders, distance);
-      own.worst_quotient = max(own.worst_quotient, __shfl_xor_sync(0xffffffffU, own.worst_quotient, distance));
+      own.sizes.add(of_other(own.sizes, distance));
+      own.worst_quotient = max(own.worst_quotient, of_other(own.worst_quotient, distance));
     }
   }
   if (threadIdx.x == 0) {
@@ -45,7 +62,6 @@ __device__ void add_in_block(MeanRatioSums own, bool has_sizes, MeanRatioSums& b
     add(sums.count, part.count);
     if (has_sizes) {
       add(sums.sizes, part.sizes);
-      add(sums.size_remainders, part.size_remainders);
       raise(sums.worst_quotient, part.worst_quotient);
     }
   };

@@ -10,51 +10,63 @@
 /// vertices, of which the second needs sums over all of the first.
 namespace trismooth {
 
+/// A sum of areas in integers, so that no order of adding matters.
+struct AreaSum {
+  static constexpr int part_count = 3;
+
+  /// 32 bits of every area each, from the highest on: in units of 2^-30, 2^-62 and 2^-94. The local frame is about 1
+  /// wide; what is 2^-40 times as wide has areas of 14 bits still, and the sum of 2^31 areas of 4 does not overflow.
+  std::uint64_t parts[part_count];
+
+  constexpr TRISMOOTH_HOST_DEVICE void add(double area) {
+    double rest = area * highest_units;
+    for (std::uint64_t& part : parts) {
+      const auto whole = static_cast<std::int64_t>(rest);
+      part += static_cast<std::uint64_t>(whole);
+      rest = (rest - static_cast<double>(whole)) * units_in_higher;
+    }
+  }
+  constexpr TRISMOOTH_HOST_DEVICE void add(const AreaSum& other) {
+    for (int i = 0; i < part_count; ++i) {
+      parts[i] += other.parts[i];
+    }
+  }
+  constexpr TRISMOOTH_HOST_DEVICE double value() const {
+    double units = 0;
+    for (int i = part_count - 1; i >= 0; --i) {
+      units = units * (1 / units_in_higher) + static_cast<double>(parts[i]);
+    }
+    return units * (1 / highest_units);
+  }
+
+ private:
+  static constexpr double highest_units = 0x1p30;  ///< in 1
+  static constexpr double units_in_higher = 0x1p32;
+};
+
 /// Sums over the triangles of all free vertices, each counted once for every free corner. Integers, so that no order of
 /// adding matters.
 struct MeanRatioSums {
-  /// Units of an area and of a quotient. The local frame is about 1 wide, so all areas of a mesh that is not tangled
-  /// sum up to less than 32; of one that is the sum may overflow, and mean nothing.
-  static constexpr double area_unit = 0x1p-56;
   static constexpr double quotient_unit = 0x1p-28;
 
-  std::uint64_t areas;      ///< doubled, of those that are positive
+  AreaSum areas;            ///< doubled, of those that are positive
   std::uint64_t quotients;  ///< shape quotients, of those that are positive
   std::uint64_t count;
-  /// Areas asked for (see relative_sizes.h), in two parts, where sizes are.
-  std::uint64_t sizes;
-  std::uint64_t size_remainders;
+  AreaSum sizes;  ///< areas asked for (see relative_sizes.h), which are above 0 and at most 4, where sizes are
   std::uint64_t
       worst_quotient;  ///< the smallest there, where sizes are asked for: as key_of(), which grows as it falls
 
   constexpr TRISMOOTH_HOST_DEVICE void add(const MeanRatioSums& other) {
-    areas += other.areas;
+    areas.add(other.areas);
     quotients += other.quotients;
     count += other.count;
-    sizes += other.sizes;
-    size_remainders += other.size_remainders;
+    sizes.add(other.sizes);
     worst_quotient = worst_quotient > other.worst_quotient ? worst_quotient : other.worst_quotient;
   }
   static constexpr TRISMOOTH_HOST_DEVICE std::uint64_t key_of(double quotient) {
     return ~std::bit_cast<std::uint64_t>(quotient > 0 ? quotient : 0.0);
   }
   constexpr TRISMOOTH_HOST_DEVICE double least_quotient() const { return std::bit_cast<double>(~worst_quotient); }
-
-  /// Adds an area asked for, which is above 0 and at most 4.
-  constexpr TRISMOOTH_HOST_DEVICE void add_size(double area) {
-    const double units = area * (1 / size_unit);
-    const auto whole = static_cast<std::uint64_t>(units);
-    sizes += whole;
-    size_remainders += static_cast<std::uint64_t>((units - static_cast<double>(whole)) * (1 / remainder_unit));
-  }
-  constexpr TRISMOOTH_HOST_DEVICE double sum_of_sizes() const {
-    return (static_cast<double>(sizes) + static_cast<double>(size_remainders) * remainder_unit) * size_unit;
-  }
-
- private:
-  /// There are up to 2^31 corners: sums of that many do not overflow.
-  static constexpr double size_unit = 0x1p-30;
-  static constexpr double remainder_unit = 0x1p-32;  ///< of a unit
 };
 
 /// What one vertex adds to the sums, and what it keeps: twice the mean area of its triangles (0 where none is positive)
@@ -82,12 +94,12 @@ constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T
       areas += area;
       const T share = share_of_error(area, squares);
       result.largest_share = share > result.largest_share ? share : result.largest_share;
-      result.sums.areas += static_cast<std::uint64_t>(static_cast<double>(area) * (1 / MeanRatioSums::area_unit));
       result.sums.quotients +=
           static_cast<std::uint64_t>(static_cast<double>(area / squares) * (1 / MeanRatioSums::quotient_unit));
     }
     neighbour = next;
   }
+  result.sums.areas.add(static_cast<double>(areas));
   result.mean_area = areas / static_cast<T>(ring.size());
   return result;
 }
@@ -130,7 +142,7 @@ constexpr TRISMOOTH_HOST_DEVICE void add_sizes(std::int32_t v, Point2<T> positio
   T last = inverse_sizes[ring.number(ring.size() - 1)];
   for (int i = 0; i < ring.size(); ++i) {
     const T next = inverse_sizes[ring.number(i)];
-    sums.add_size(static_cast<double>(T(3) / (own + last + next)));
+    sums.sizes.add(static_cast<double>(T(3) / (own + last + next)));
     last = next;
   }
   const std::uint64_t worst = MeanRatioSums::key_of(static_cast<double>(worst_quotient(position, ring)));
@@ -161,13 +173,13 @@ struct MeanRatioMesh {
         shape_constant * (static_cast<double>(sums.quotients) * MeanRatioSums::quotient_unit / count);
     const double trust = (mean_shape * mean_shape) * (mean_shape * mean_shape) * mean_shape;
     const int usual_power = mean_shape >= 0.8 ? 3 : 2;
-    const double areas = static_cast<double>(sums.areas) * MeanRatioSums::area_unit;
+    const double areas = sums.areas.value();
     MeanRatioMesh mesh{areas / count, size_weight * trust / 3, power > 0 ? power : usual_power, 1.5 / trust};
     if (has_sizes) {
       constexpr double a_little_above = 1 + 0x1p-10;  // the guard rounds in another way
       mesh.size_weight = size_weight / 3;
       mesh.allowance = 8;
-      mesh.size_scale = sums.sum_of_sizes() / areas;
+      mesh.size_scale = sums.sizes.value() / areas;
       mesh.least_quotient = sums.count > 0 ? a_little_above * sums.least_quotient() : 0;
     }
     return mesh;

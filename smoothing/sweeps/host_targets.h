@@ -98,6 +98,11 @@ class HostTargets {
   static void add(std::uint64_t& sum, std::uint64_t value) {
     std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
   }
+  static void add(AreaSum& sum, const AreaSum& more) {
+    for (int i = 0; i < AreaSum::part_count; ++i) {
+      add(sum.parts[i], more.parts[i]);
+    }
+  }
   static void raise(std::uint64_t& largest, std::uint64_t value) {
     const std::atomic_ref shared(largest);
     std::uint64_t seen = shared.load(std::memory_order_relaxed);
@@ -138,10 +143,9 @@ class HostTargets {
         });
       }
       add(sums.areas, own.areas);
+      add(sums.sizes, own.sizes);
       add(sums.quotients, own.quotients);
       add(sums.count, own.count);
-      add(sums.sizes, own.sizes);
-      add(sums.size_remainders, own.size_remainders);
       raise(sums.worst_quotient, own.worst_quotient);
     });
     return sums;

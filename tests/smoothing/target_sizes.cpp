@@ -329,6 +329,27 @@ TEST_CASE("only relations of lengths count: times a power of two they give the s
   CHECK(smoothed(large, aiming_at(lengths)).xy == scaled);
 }
 
+TEST_CASE("a mesh beside a triangle that is far larger aims at its sizes all the same") {
+  const Mesh alone = test_meshes::jittered_grid(20, 20, 0.3, 8);
+  const Doubles lengths = ring_of_short_ones(alone);
+  const double before = fit_of(alone, alone.xy(), lengths).rms;
+  const double expected = fit_of(alone, smoothed(alone, aiming_at(lengths)).xy, lengths).rms;
+  REQUIRE(expected < 0.95 * before);
+  for (const int exponent : {10, 20, 27, 34}) {
+    CAPTURE(exponent, before);
+    Mesh mesh = alone;
+    const double far = std::ldexp(1.0, exponent);
+    const std::int32_t first = mesh.vertex_count();
+    mesh.points.insert(mesh.points.end(), {{-far, -far}, {-2 * far, -far}, {-far, -2 * far}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    Doubles all = lengths;
+    all.insert(all.end(), 3, 1);
+    Doubles xy = smoothed(mesh, aiming_at(all)).xy;
+    xy.resize(lengths.size() * 2);
+    CHECK(std::abs(fit_of(alone, xy, lengths).rms - expected) < 0.01 * expected);
+  }
+}
+
 TEST_CASE("a plan reads the lengths anew in every call") {
   const Mesh mesh = test_meshes::jittered_grid(20, 20, 0.3, 8);
   const Doubles ring = ring_of_short_ones(mesh);

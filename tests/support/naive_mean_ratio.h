@@ -143,7 +143,8 @@ MeanRatioAims<T> mean_ratio_aims(const std::vector<Point2<T>>& points,
   // Means around free vertices, largest shares, and sums over the mesh, of which whole units count.
   std::vector<T> mean(size, 0);
   std::vector<T> largest(size, 0);
-  std::uint64_t all_areas = 0;
+  __extension__ using Int128 = __int128;
+  Int128 all_areas = 0;  // in units of 2^-94
   std::uint64_t all_quotients = 0;
   double count = 0;
   struct Corner {
@@ -162,7 +163,6 @@ MeanRatioAims<T> mean_ratio_aims(const std::vector<Point2<T>>& points,
       ++count;
       if (found > 0) {
         largest[v] = std::max(largest[v], found * squares(v, a, b));
-        all_areas += static_cast<std::uint64_t>(std::ldexp(static_cast<double>(found), 56));
         all_quotients += static_cast<std::uint64_t>(std::ldexp(static_cast<double>(found / squares(v, a, b)), 28));
       }
       const bool a_is_fixed = rings[a].empty();
@@ -176,6 +176,7 @@ MeanRatioAims<T> mean_ratio_aims(const std::vector<Point2<T>>& points,
         around_fixed[b].push_back({static_cast<double>(found), times});
       }
     }
+    all_areas += static_cast<Int128>(std::ldexp(static_cast<Real>(sum), 94));
     mean[v] = ring.empty() ? T(0) : sum / static_cast<T>(ring.size());
   }
   for (std::size_t v = 0; v < size; ++v) {
@@ -199,7 +200,7 @@ MeanRatioAims<T> mean_ratio_aims(const std::vector<Point2<T>>& points,
   count = std::max(count, 1.0);
   const double mean_shape = sqrt_12 * (std::ldexp(static_cast<double>(all_quotients), -28) / count);
   const double trust = mean_shape * mean_shape * (mean_shape * mean_shape) * mean_shape;
-  const auto mesh_area = static_cast<T>(std::ldexp(static_cast<double>(all_areas), -56) / count);
+  const auto mesh_area = static_cast<T>(std::ldexp(static_cast<double>(all_areas), -94) / count);
   MeanRatioAims<T> aims;
   aims.scales.size_weight = static_cast<T>(options.size_weight * trust / 3);
   aims.scales.power = options.power > 0 ? options.power : (mean_shape >= 0.8 ? 3 : 2);
