@@ -112,7 +112,7 @@ class Run {
     std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
     enter_frame();
     find_sizes();
-    regions_ = find_regions(document_, mesh_, options_.region_arrays, result_.input.size_array);
+    regions_ = find_regions(document_, mesh_, options_.region_arrays, sizes_.of_cells ? sizes_.array : "");
     result_.notes.insert(result_.notes.begin(), regions_.notes.begin(), regions_.notes.end());
     const FixedArray named = find_fixed_array(document_, options_.fixed_array);
     const std::vector<std::int32_t> ids =

@@ -90,6 +90,20 @@ class Sizes(tool.ToolTest):
                 self.run_tool(*arguments, "--report", "run.html")
                 self.assertIn("Sizes off those asked for", self.read("run.html").decode())
 
+    def test_materials_whose_array_has_the_name_of_the_sizes_at_points_keep_their_interface(self):
+        n = POINTS_WIDE - 1
+        materials = [1 + (t // 2 % n >= n // 2) for t in range(len(self.triangles))]
+        values = "".join(f"{material}\n" for material in materials)
+        self.write("in.vtk", self.vtk().replace("SCALARS edge_length", "SCALARS material").replace(
+            "\nPOINT_DATA", f"\nSCALARS material int 1\nLOOKUP_TABLE default\n{values}POINT_DATA"))
+        report = self.report("smooth", "in.vtk", "out.vtk", "--method", "mean-ratio", "--size-array", "material")
+        self.assertEqual(report["size_array"], {"name": "material", "values": "lengths_at_points"})
+        self.assertEqual(report["input"]["regions"], 2)
+        smoothed = mesh_reader.read(self.path("out.vtk")).points
+        interface = range(n // 2, len(self.points), n + 1)
+        self.assertEqual([list(smoothed[v]) for v in interface], [self.points[v] for v in interface])
+        self.assertNotEqual(list(smoothed[n + 2]), self.points[n + 2])
+
     def test_only_relations_count(self):
         self.write("in.vtk", self.vtk())
         arguments = ("smooth", "in.vtk", "out.vtk", "--method", "mean-ratio", "--size-array", "edge_length")
