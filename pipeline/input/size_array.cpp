@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -55,9 +56,15 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
   require_one_component(array, "cell");
   std::vector<double> areas(mesh.triangles.size());
   double largest = 0;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    areas[t] = size_at(array, static_cast<std::size_t>(mesh.cells[t]), "cell", "cell");
-    largest = std::max(largest, areas[t]);
+  for (std::size_t begin = 0, end = 0; begin < areas.size(); begin = end) {
+    // A strip has several triangles, one after the other, and its area is that of all of them.
+    while (end < areas.size() && mesh.cells[end] == mesh.cells[begin]) {
+      ++end;
+    }
+    const double area = size_at(array, static_cast<std::size_t>(mesh.cells[begin]), "cell", "cell");
+    std::fill(areas.begin() + static_cast<std::ptrdiff_t>(begin), areas.begin() + static_cast<std::ptrdiff_t>(end),
+              area / static_cast<double>(end - begin));
+    largest = std::max(largest, areas[begin]);
   }
   // By the largest, sums are within the range of double.
   const int exponent = std::ilogb(largest);

@@ -71,6 +71,17 @@ TEST_CASE("an array of cells has the areas: vertices get the edges of the mean o
   CHECK(std::isfinite(find_size_array(large.document, large.mesh, "area").lengths[0]));
 }
 
+TEST_CASE("a strip's area is that of all its triangles") {
+  Sample strip;
+  strip.mesh.cells = {1, 1};
+  strip.at_cells("area", {9, 6, 9});
+  Sample singly;
+  singly.mesh.cells = {0, 1};
+  singly.at_cells("area", {3, 3, 9});
+  CHECK(find_size_array(strip.document, strip.mesh, "area").lengths ==
+        find_size_array(singly.document, singly.mesh, "area").lengths);
+}
+
 TEST_CASE("of two arrays of a name that at points counts") {
   Sample sample;
   sample.at_cells("h", {9, 9, 9});
