@@ -248,6 +248,16 @@ class Run {
     }
   }
 
+  void warn_of_folds_put_back(const SmoothingResult& smoothing) {
+    const auto& untangling = smoothing.untangling;
+    if (untangling && untangling->inverted_after > untangling->inverted_untangled && smoothing.reverted_vertices > 0) {
+      warn(
+          fmt::format("the never-worse check put vertices back whose moves had inverted valid triangles: {} triangles "
+                      "are not valid now, {} were after the untangling; --guard off leaves them moved",
+                      untangling->inverted_after, untangling->inverted_untangled));
+    }
+  }
+
   void warn(std::string warning) {
     result_.warnings.push_back(std::move(warning));
     if (options_.warned) {
@@ -275,6 +285,7 @@ class Run {
         found_.reversed[t] ^= smoothing.untangling->turned[t];
       }
     }
+    warn_of_folds_put_back(smoothing);
     hash_coordinates(smoothing);
     compare_sizes({input.points, mesh_.triangles, input_reversed, input.frame.exponent});
     result_.timings_ms.topology += smoothing.timings.prepare;

@@ -15,7 +15,7 @@ namespace trismooth {
 enum class StopReason : std::uint8_t {
   fixed_point,     ///< no vertex moved in the last sweep
   tolerance,       ///< every move of the last sweep was within the tolerance
-  few_moves,       ///< so few vertices still moved that nothing is left to gain (the mean-ratio method)
+  few_moves,       ///< so few vertices still moved that next to nothing is left to gain (the mean-ratio method)
   sweep_limit,     ///< max_sweeps were done
   time_limit,      ///< the time was up
   quality_target,  ///< the smallest shape reached the target

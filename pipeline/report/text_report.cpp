@@ -182,7 +182,7 @@ std::string_view describe(StopReason reason) {
     case StopReason::tolerance:
       return "every move was within the tolerance";
     case StopReason::few_moves:
-      return "few moves: nothing is left to gain";
+      return "few moves: next to nothing is left to gain";
     case StopReason::sweep_limit:
       return "the sweep limit was reached";
     case StopReason::time_limit:

@@ -4,6 +4,7 @@ import datetime
 import json
 import math
 import os
+import random
 import re
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -110,6 +111,32 @@ class Reports(tool.ToolTest):
             self.assertEqual(["trismooth: warning: " + text for text in warnings], outcome.err.splitlines())
             self.assertEqual([words in text for text in warnings], [True] if words else [])
         self.assertEqual(self.report("smooth", "plate.off", "out.off")["warnings"], [])
+
+    def test_folds_that_the_guard_puts_back_are_warned_of(self):
+        # An L of three quarters of a grid, and a vertex held where the fourth was: some triangles stay folded.
+        n = 10
+        column = lambda v: v % (n + 1)
+        row = lambda v: v // (n + 1)
+        in_fourth = lambda v: column(v) >= n // 2 and row(v) >= n // 2
+        grid = sample_meshes.Grid(n)
+        grid.cells = [cell for cell in grid.cells if not all(map(in_fourth, cell[1]))]
+        draw = random.Random(8)
+        for v, (x, y, _) in enumerate(grid.points):
+            if 0 < column(v) < n and 0 < row(v) < n and not in_fourth(v):
+                grid.points[v] = (x + draw.gauss(0, 1), y + draw.gauss(0, 1), 0.0)
+        held = (n + 1) + 6
+        grid.points[held] = (n - 1.0, n - 1.0, 0.0)
+        self.write("held.txt", f"{held}")
+        self.write("folded.off", sample_meshes.off(grid))
+        arguments = ("smooth", "folded.off", "out.off", "--method", "mean-ratio", "--fixed-ids", "held.txt")
+        guarded = self.report(*arguments)
+        found = guarded["smoothing"]["untangling"]
+        self.assertGreater(found["inverted_after"], found["inverted_untangled"])
+        words = f"{found['inverted_after']} triangles are not valid now, {found['inverted_untangled']} were after the untangling"
+        self.assertEqual([words in text for text in guarded["warnings"]], [True])
+        free = self.report(*arguments, "--guard", "off")
+        self.assertEqual(free["warnings"], [])
+        self.assertLess(free["after"]["inverted"], guarded["after"]["inverted"])
 
     def test_the_uncommitted_hash_is_that_without_the_guard(self):
         self.run_tool("generate", "random.off", "--vertices", "2000")
