@@ -44,7 +44,9 @@ struct MoveSequences {
   std::vector<Point2<T>> to;
   std::vector<T> tolerances;  ///< of each sequence
 
-  std::size_t place(int sequence, int i) const { return static_cast<std::size_t>(sequence * length + i); }
+  std::size_t place(int sequence, int i) const {
+    return static_cast<std::size_t>(sequence) * length + static_cast<std::size_t>(i);
+  }
 
   /// Of vertices of all kinds.
   static MoveSequences of_any_length(std::uint64_t seed) {

@@ -428,7 +428,8 @@ struct Layers {
     for (const auto& t : mesh.triangles) {
       double layer = 0;
       for (const std::int32_t v : t) {
-        layer += v / side / 3.0;  // of the grid, wherever the vertex is now
+        const int row = v / side;  // of the grid, wherever the vertex is now
+        layer += row / 3.0;
       }
       for (const std::int32_t v : t) {
         const double x = xy[2 * static_cast<std::size_t>(v)];
