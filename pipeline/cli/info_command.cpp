@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/instruction_set.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_support.h"
@@ -16,23 +17,28 @@ namespace trismooth {
 
 namespace {
 
-/// The instructions that the compiler was allowed to use.
-constexpr std::string_view simd_level() {
+/// The instructions that the compiler was allowed to use, and those that the sweeps use on this processor.
+std::string simd_level() {
 #if defined(__AVX512F__)
-  return "avx512";
+  const std::string_view baseline = "avx512";
 #elif defined(__AVX2__)
-  return "avx2";
+  const std::string_view baseline = "avx2";
 #elif defined(__AVX__)
-  return "avx";
+  const std::string_view baseline = "avx";
 #elif defined(__SSE4_2__)
-  return "sse4.2";
+  const std::string_view baseline = "sse4.2";
 #elif defined(__SSE2__)
-  return "sse2 (x86-64 baseline)";
+  const std::string_view baseline = "sse2 (x86-64 baseline)";
 #elif defined(__ARM_NEON)
-  return "neon";
+  const std::string_view baseline = "neon";
 #else
-  return "none known";
+  const std::string_view baseline = "none known";
 #endif
+  const InstructionSet used = instruction_set();
+  return std::string(baseline) +
+         (used == InstructionSet::baseline
+              ? ""
+              : fmt::format("; sweeps: {}", instruction_set_names[static_cast<std::size_t>(used)]));
 }
 
 std::string compiler() {

@@ -158,9 +158,6 @@ class MeanRatio {
     }
   }
 
-  /// What is read of a neighbour beside its position.
-  const T* also_reads(std::int32_t neighbour) const { return targets_.inverse_areas + neighbour; }
-
  private:
   static constexpr int most_tries = 4;
 

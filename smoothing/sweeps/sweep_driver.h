@@ -21,7 +21,7 @@
 #include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
-#include "trismooth/smoothing/sweeps/vertex_groups.h"
+#include "trismooth/smoothing/sweeps/vertex_list.h"
 #include "trismooth/smoothing/sweeps/vertex_visits.h"
 
 namespace trismooth {
@@ -79,9 +79,8 @@ class SweepDriver {
   std::optional<StopReason> run_stage(const Update& method, std::vector<Point2<T>>& points, Stages& stages,
                                       double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
     const bool swaps = options_.form == Form::swap;
-    const auto free_count = static_cast<std::size_t>(rings_.free_count());
-    marked_.assign(free_count, 1);
-    other_marked_.assign(swaps ? free_count : 0, 0);
+    marked_.assign(points.size(), 1);
+    other_marked_.assign(swaps ? points.size() : 0, 0);
     for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
       const SweepTally<T> tally = swaps ? sweep(method, points, other_points_, marked_, other_marked_)
                                         : sweep(method, points, points, marked_, marked_);
@@ -153,60 +152,35 @@ class SweepDriver {
                                      std::span<const Point2<T>> from, std::span<Point2<T>> to,
                                      std::span<std::uint8_t> marked, std::span<std::uint8_t> marked_next,
                                      SweepTally<T>& tally) {
-    using Visits = VertexVisits<T, Update>;
-    Visits visits(method, view_, from);
-    VertexGroups<Visits::lanes> groups(view_, marked, options_.evaluation == Evaluation::all, begin, end);
+    VertexVisits<T, Update> visits(method, view_, from);
+    VertexList list(marked, options_.evaluation == Evaluation::all, begin, end);
     const T tolerance = static_cast<T>(options_.tolerance);
-    for (auto group = groups.next(); group.count > 0;) {
-      // A move marks no vertex of its own batch (Form B) or of this sweep (Form A) but itself, so the next ones are
-      // known.
-      const auto following = groups.next();
-      for (int i = 0; i < following.count; ++i) {
-        prefetch_ring(method, from, following.vertices[i]);
-      }
-      visits.visit(group, [&](std::int32_t v, const VertexMove<T>& result) {
-        // No other thread touches this mark now.
-        marked[v] = 0;
-        const Point2<T> position = from[v];
-        to[v] = result.move.position;
-        ++tally.evaluated;
-        if (result.move.moved) {
-          const int neighbours = static_cast<int>(view_[v].size());
-          add_move(tally, length_of_move(position, result.move.position, neighbours, result.squares), tolerance);
-          mark_neighbourhood(v, marked_next);
-        }
-      });
-      group = following;
-    }
-  }
-
-  /// Asks for what is read of a ring's neighbours before they are needed: on large meshes waiting for them is a third
-  /// of the time. Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and
-  /// stores nothing.
-  template <class Update>
-  [[gnu::always_inline]] void prefetch_ring(const Update& method, std::span<const Point2<T>> points,
-                                            std::int32_t v) const {
-    for (const std::int32_t neighbour : view_[v]) {
-      __builtin_prefetch(&points[neighbour]);
-      if constexpr (requires { method.also_reads(neighbour); }) {
-        __builtin_prefetch(method.also_reads(neighbour));
-      }
-    }
-  }
-
-  void mark_neighbourhood(std::int32_t v, std::span<std::uint8_t> marked) const {
-    const auto mark = [&](std::int32_t vertex) {
-      // Threads may mark the same vertex at the same time, with the same value.
-      std::atomic_ref<std::uint8_t> flag(marked[vertex]);
-      if (flag.load(std::memory_order_relaxed) == 0) {
-        flag.store(1, std::memory_order_relaxed);
-      }
+    const auto settle = [&](std::int32_t v, Point2<T> target, T squares) {
+      const int neighbours = static_cast<int>(view_[v].size());
+      add_move(tally, length_of_move(from[v], target, neighbours, squares), tolerance);
+      to[v] = target;
+      mark_neighbourhood(v, marked_next);
     };
+    for (auto vertices = list.next(); !vertices.empty(); vertices = list.next()) {
+      tally.evaluated += static_cast<std::int64_t>(vertices.size());
+      if (from.data() != to.data()) {
+        for (const std::int32_t v : vertices) {
+          to[v] = from[v];
+        }
+      }
+      for_runs_of_one_size(view_, vertices, [&](std::span<const std::int32_t> run, int ring_size) {
+        visits.visit(run, ring_size, settle);
+      });
+    }
+  }
+
+  /// Fixed vertices are marked, too: to ask costs more, and nobody looks there. Threads may mark the same vertex at the
+  /// same time, with the same value. A move marks no other vertex of its own batch (Form B) or of this sweep (Form A).
+  void mark_neighbourhood(std::int32_t v, std::span<std::uint8_t> marked) const {
+    const auto mark = [&](std::int32_t vertex) { std::atomic_ref(marked[vertex]).store(1, std::memory_order_relaxed); };
     mark(v);
     for (const std::int32_t neighbour : view_[v]) {
-      if (neighbour < rings_.free_count()) {
-        mark(neighbour);
-      }
+      mark(neighbour);
     }
   }
 
@@ -237,7 +211,7 @@ class SweepDriver {
   Workers& workers_;
   std::span<const double> inverse_sizes_;
   std::vector<Point2<T>> other_points_;
-  std::vector<std::uint8_t> marked_;
+  std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;
 };
 

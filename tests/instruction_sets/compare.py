@@ -1,11 +1,19 @@
-"""compare.py PROGRAM OTHER: both print the same, and many lines. Ends with 77 where OTHER cannot run on this machine."""
+"""compare.py PROGRAM OTHER [SET]: both print the same, and many lines, OTHER by no better instructions than SET.
 
+Ends with 77 where OTHER cannot run on this machine.
+"""
+
+import os
 import subprocess
 import sys
 
 SKIPPED = 77
 
-one, other = (subprocess.run([program], capture_output=True, text=True, check=False) for program in sys.argv[1:3])
+limit = {"TRISMOOTH_INSTRUCTION_SET": sys.argv[3]} if len(sys.argv) > 3 else {}
+one, other = (
+    subprocess.run([program], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+    for program, environment in zip(sys.argv[1:3], ({}, limit))
+)
 if other.returncode == SKIPPED:
     print(other.stdout, end="")
     sys.exit(SKIPPED)

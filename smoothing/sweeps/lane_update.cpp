@@ -1,0 +1,98 @@
+#include "trismooth/smoothing/sweeps/lane_update.h"
+
+#include <utility>
+
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
+
+// One loop, which calls the method as it is for each lane. It is inlined into a function for each instruction set,
+// whose target attribute says what the compiler may make of it; no code for one set can end up in another's functions.
+namespace trismooth {
+
+namespace {
+
+/// The ring in a lane.
+template <class T, int Size>
+struct RingInLane {
+  const RingLanes<T>& rings;
+  int lane;
+
+  static constexpr int size() { return Size; }
+  constexpr Point2<T> operator[](int i) const { return {rings.x[i][lane], rings.y[i][lane]}; }
+};
+
+/// The method's update of one vertex, but for smart ones around inverted triangles: these take a second look.
+template <class Update, class T, class Ring>
+[[gnu::always_inline]] inline void update_lane(int lane, const Ring& ring, RingLanes<T>& rings) {
+  const Point2<T> position{rings.position_x[lane], rings.position_y[lane]};
+  const Point2<T> target = Update::target(position, ring);
+  bool moves = is_move(position, target);
+  bool is_undecided = false;
+  if constexpr (Update::is_smart) {
+    const T before = worst_quotient(position, ring);
+    moves &= is_better_than(before, target, ring);
+    is_undecided = before < T(0);
+  }
+  rings.target_x[lane] = target.x;
+  rings.target_y[lane] = target.y;
+  rings.squares[lane] = squares_around(position, ring);
+  rings.moves[lane] = moves ? T(1) : T(0);
+  rings.undecided[lane] = is_undecided ? T(1) : T(0);
+}
+
+template <class Update, class T, int Size>
+[[gnu::always_inline]] inline void update_rings(int count, RingLanes<T>& rings) {
+  // To the end of a register: a rest would need code of its own.
+  constexpr int at_once = RingLanes<T>::at_once;
+  const int end = (count + at_once - 1) / at_once * at_once;
+  for (int lane = 0; lane < end; ++lane) {
+    update_lane<Update>(lane, RingInLane<T, Size>{rings, lane}, rings);
+  }
+}
+
+template <class Update, class T, int... offset>
+[[gnu::always_inline]] inline void update_rings_of(int size, int count, RingLanes<T>& rings,
+                                                   std::integer_sequence<int, offset...> /*sizes*/) {
+  constexpr int smallest = RingLanes<T>::smallest_ring;
+  (void)((size == smallest + offset && (update_rings<Update, T, smallest + offset>(count, rings), true)) || ...);
+}
+
+template <class Update, class T>
+[[gnu::always_inline]] inline void update_lanes(int size, int count, RingLanes<T>& rings) {
+  constexpr int sizes = RingLanes<T>::largest_ring - RingLanes<T>::smallest_ring + 1;
+  update_rings_of<Update>(size, count, rings, std::make_integer_sequence<int, sizes>());
+}
+
+template <class Update, class T>
+[[gnu::flatten]] void baseline(int size, int count, RingLanes<T>& rings) {
+  update_lanes<Update>(size, count, rings);
+}
+
+#if defined(__x86_64__)
+template <class Update, class T>
+[[gnu::flatten, gnu::target("avx2")]] void avx2(int size, int count, RingLanes<T>& rings) {
+  update_lanes<Update>(size, count, rings);
+}
+#endif
+
+}  // namespace
+
+template <class Update, class T>
+LaneUpdate<T> lane_update([[maybe_unused]] InstructionSet instructions) {
+#if defined(__x86_64__)
+  if (instructions == InstructionSet::avx2) {
+    return &avx2<Update, T>;
+  }
+#endif
+  return &baseline<Update, T>;
+}
+
+#define INSTANTIATE(Update)                                              \
+  template LaneUpdate<float> lane_update<Update, float>(InstructionSet); \
+  template LaneUpdate<double> lane_update<Update, double>(InstructionSet)
+INSTANTIATE(SmartLaplacian);
+INSTANTIATE(Laplacian);
+INSTANTIATE(WeightedLaplacian);
+
+}  // namespace trismooth

@@ -1,0 +1,141 @@
+#include "trismooth/smoothing/sweeps/vertex_visits.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
+
+#include "catch.h"
+#include "support/random_rings.h"
+#include "support/same_bits.h"
+#include "support/test_meshes.h"
+
+using trismooth::InstructionSet;
+using trismooth::Point2;
+using trismooth::RingView;
+using trismooth::VertexMove;
+
+namespace {
+
+/// Has the process use no better instructions, for as long as it lives.
+class Limited {
+ public:
+  explicit Limited(InstructionSet most) : before_(trismooth::instruction_set()) {
+    trismooth::limit_instruction_set(most);
+  }
+  Limited(const Limited&) = delete;
+  Limited& operator=(const Limited&) = delete;
+  ~Limited() { trismooth::limit_instruction_set(before_); }
+
+ private:
+  InstructionSet before_;
+};
+
+/// Neighbours of a vertex at the origin or beside it: of one kind of difficulty.
+template <class T>
+std::vector<Point2<T>> star(int size, int kind, test_meshes::Random& random) {
+  std::vector<Point2<T>> ring;
+  const double scale = kind == 3 ? std::ldexp(1.0, random.below(200) - 100) : 1;
+  for (int k = 0; k < size; ++k) {
+    const double disorder = kind == 1 ? 2 : 0.4;  // tangled, or not
+    const double angle = 2 * std::numbers::pi * (k + disorder * random.between(-1, 1)) / size;
+    const double radius = kind == 2 ? 1 : random.between(0.4, 1.6);
+    ring.push_back(
+        {static_cast<T>(scale * radius * std::cos(angle)), static_cast<T>(scale * radius * std::sin(angle))});
+  }
+  if (kind == 4) {  // degenerate: some at one place, or none
+    ring[random.below(size)] = ring[0];
+    ring[random.below(size)] = {0, 0};
+  }
+  if (kind == 5) {  // beyond all numbers
+    ring[random.below(size)].x = std::numeric_limits<T>::max();
+    ring[random.below(size)].y = random.below(2) == 0 ? std::numeric_limits<T>::quiet_NaN() : T(-1);
+  }
+  return ring;
+}
+
+/// Vertices with rings of their own, all of one size.
+template <class T>
+struct Stars {
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int32_t> neighbours;
+  std::vector<Point2<T>> points;
+
+  Stars(int count, int size, test_meshes::Random& random) {
+    for (int v = 0; v < count; ++v) {
+      const bool is_centre = random.below(4) == 0;
+      points.push_back({is_centre ? T(0) : static_cast<T>(random.between(-0.3, 0.3)),
+                        is_centre ? T(0) : static_cast<T>(random.between(-0.3, 0.3))});
+    }
+    for (int v = 0; v < count; ++v) {
+      for (const Point2<T> point : star<T>(size, random.below(6), random)) {
+        neighbours.push_back(static_cast<std::int32_t>(points.size()));
+        points.push_back(point);
+      }
+      offsets.push_back(static_cast<std::int64_t>(neighbours.size()));
+    }
+  }
+  RingView rings() const { return {offsets, neighbours, {}}; }
+  /// What the method says of a vertex by itself.
+  template <class Method>
+  VertexMove<T> alone(const Method& method, std::int32_t v) const {
+    random_rings::RingOf<T> ring;
+    for (const std::int32_t neighbour : rings()[v]) {
+      ring.positions.push_back(points[neighbour]);
+    }
+    return trismooth::update_over(method, v, points[v], ring);
+  }
+};
+
+}  // namespace
+
+TEMPLATE_PRODUCT_TEST_CASE(
+    "vertices that are visited side by side get the bits that each gets alone, by all instructions", "", std::tuple,
+    ((trismooth::SmartLaplacian, float), (trismooth::SmartLaplacian, double), (trismooth::Laplacian, float),
+     (trismooth::Laplacian, double), (trismooth::WeightedLaplacian, float), (trismooth::WeightedLaplacian, double))) {
+  using Update = std::tuple_element_t<0, TestType>;
+  using T = std::tuple_element_t<1, TestType>;
+  const Update method;
+  for (const InstructionSet most : {InstructionSet::baseline, InstructionSet::avx2}) {
+    const Limited limited(most);
+    test_meshes::Random random(23);
+    int moved = 0;
+    int stayed = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+      const int size = 3 + trial % 10;
+      const int count = 1 + random.below(70);
+      const Stars<T> stars(count, size, random);
+      const RingView rings = stars.rings();
+      std::vector<std::int32_t> vertices(static_cast<std::size_t>(count));
+      std::iota(vertices.begin(), vertices.end(), 0);
+      std::vector<VertexMove<T>> found(vertices.size());
+      trismooth::VertexVisits<T, Update> visits(method, rings, stars.points);
+      visits.visit(vertices, size, [&](std::int32_t v, Point2<T> target, T squares) {
+        REQUIRE(!found[v].move.moved);
+        found[v] = {{target, true}, squares};
+      });
+      for (const std::int32_t v : vertices) {
+        CAPTURE(trial, size, count, v);
+        const VertexMove<T> alone = stars.alone(method, v);
+        REQUIRE(found[v].move.moved == alone.move.moved);
+        if (alone.move.moved) {
+          REQUIRE(same_bits(found[v].move.position.x, alone.move.position.x));
+          REQUIRE(same_bits(found[v].move.position.y, alone.move.position.y));
+          REQUIRE(same_bits(found[v].squares, alone.squares));
+        }
+        ++(alone.move.moved ? moved : stayed);
+      }
+    }
+    CHECK(moved > 1000);
+    CHECK(stayed > 1000);
+  }
+}
