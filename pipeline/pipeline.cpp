@@ -243,7 +243,8 @@ class Run {
   }
 
   void warn_of_boundary() {
-    if (const CoarseBoundary coarse = find_coarse_boundary(view(), found_.fixed); coarse.any()) {
+    if (const CoarseBoundary coarse = find_coarse_boundary(view(), found_.fixed, options_.smoothing.threads);
+        coarse.any()) {
       warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
     }
   }

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <mutex>
 #include <numeric>
 #include <tuple>
 #include <vector>
 
 #include "trismooth/base/digits.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
@@ -32,7 +35,8 @@ struct Spoke {
 
 class BoundarySearch {
  public:
-  BoundarySearch(const TriangleView& view, std::span<const std::uint8_t> held) : view_(view), held_(held) {}
+  BoundarySearch(const TriangleView& view, std::span<const std::uint8_t> held, int threads)
+      : view_(view), held_(held), workers_(threads) {}
 
   CoarseBoundary find() {
     collect_edges();
@@ -49,18 +53,35 @@ class BoundarySearch {
         squared_length(view_.points[static_cast<std::size_t>(b)] - view_.points[static_cast<std::size_t>(a)]));
   }
 
+  /// What look(triangle, found) finds, in any order.
+  template <class Found, class Look>
+  std::vector<Found> found_in_triangles(const Look& look) {
+    constexpr std::int64_t grain = 16384;
+    std::vector<Found> all;
+    std::mutex joining;
+    workers_.for_blocks(std::ssize(view_.triangles), grain, [&](std::int64_t begin, std::int64_t end) {
+      std::vector<Found> found;
+      for (std::int64_t t = begin; t < end; ++t) {
+        look(static_cast<std::size_t>(t), found);
+      }
+      const std::lock_guard lock(joining);
+      all.insert(all.end(), found.begin(), found.end());
+    });
+    return all;
+  }
+
   /// The edges of one triangle alone. Their ends are all on the boundary, so few others have to be looked at.
   void collect_edges() {
-    std::vector<BoundaryEdge> candidates;
-    for (const Triangle& corners : view_.triangles) {
+    auto candidates = found_in_triangles<BoundaryEdge>([&](std::size_t t, std::vector<BoundaryEdge>& found) {
+      const Triangle& corners = view_.triangles[t];
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t a = corners[i];
         const std::int32_t b = corners[(i + 1) % 3];
         if (on_boundary(a) && on_boundary(b)) {
-          candidates.push_back({std::min(a, b), std::max(a, b), corners[(i + 2) % 3]});
+          found.push_back({std::min(a, b), std::max(a, b), corners[(i + 2) % 3]});
         }
       }
-    }
+    });
     std::ranges::sort(candidates, [](const BoundaryEdge& a, const BoundaryEdge& b) {
       return std::tie(a.low, a.high) < std::tie(b.low, b.high);
     });
@@ -81,14 +102,14 @@ class BoundarySearch {
       const auto apex = static_cast<std::size_t>(edge.apex);
       is_apex[apex] = held_[apex] == 0 ? 1 : 0;
     }
-    for (std::size_t t = 0; t < view_.triangles.size(); ++t) {
+    spokes_ = found_in_triangles<Spoke>([&](std::size_t t, std::vector<Spoke>& found) {
       const Triangle corners = canonical_corners(view_, t);
       for (std::size_t i = 0; i < 3; ++i) {
         if (is_apex[static_cast<std::size_t>(corners[i])] != 0) {
-          spokes_.push_back({corners[i], corners[(i + 1) % 3]});
+          found.push_back({corners[i], corners[(i + 1) % 3]});
         }
       }
-    }
+    });
     std::ranges::sort(spokes_, {}, &Spoke::apex);
   }
 
@@ -164,6 +185,7 @@ class BoundarySearch {
 
   const TriangleView& view_;
   std::span<const std::uint8_t> held_;
+  Workers workers_;
   std::vector<BoundaryEdge> edges_;     ///< of the boundary
   std::vector<Spoke> spokes_;           ///< by apex
   std::vector<std::int32_t> vertices_;  ///< of the boundary, ascending
@@ -172,8 +194,8 @@ class BoundarySearch {
 
 }  // namespace
 
-CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held) {
-  return BoundarySearch(view, held).find();
+CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held, int threads) {
+  return BoundarySearch(view, held, threads).find();
 }
 
 std::string describe(const CoarseBoundary& boundary) {

@@ -29,9 +29,10 @@ inline constexpr double coarse_part = 0.2;
 /// Finds them. `held` says of each vertex why it is held (bits of namespace hold). What lies behind an edge are the
 /// edges at the free vertex opposite of it, but for the two to the edge's own ends: the median of their lengths. So
 /// layers of flat elements along a boundary are no reason for alarm, and the sizes of a graded mesh are not either.
-/// Edges opposite of held vertices are never coarse: nothing there can move away. Complexity: linear, but for sorting
-/// the boundary edges; no memory beside theirs and one byte a vertex.
-CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held);
+/// Edges opposite of held vertices are never coarse: nothing there can move away. The same for every number of threads,
+/// which is as in QualityOptions. Complexity: linear, but for sorting the boundary edges; no memory beside theirs and
+/// one byte a vertex.
+CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held, int threads = 0);
 
 /// A sentence that says what was found, for people. There is something.
 std::string describe(const CoarseBoundary& boundary);

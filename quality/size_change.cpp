@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -38,13 +43,65 @@ void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<
   }
 }
 
-using Values = std::vector<double>;
+/// The ratios that are numbers, by their leading bits: they are not negative, so these stand in their order.
+class RatioCounts {
+ public:
+  explicit RatioCounts(std::span<const double> ratios, Workers& workers) : ratios_(ratios), workers_(workers) {
+    for_parts([&](std::span<const double> part) {
+      std::vector<std::int64_t> counts(counts_.size());
+      for (const double ratio : part) {
+        if (!std::isnan(ratio)) {
+          ++counts[bits_of(ratio)];
+        }
+      }
+      const std::lock_guard lock(joining_);
+      std::ranges::transform(counts_, counts, counts_.begin(), std::plus<>());
+    });
+    total_ = std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
+  }
 
-/// Where the smallest value that `percent` per cent do not exceed stands once all are sorted.
-Values::iterator percentile(Values& values, std::size_t percent) {
-  const std::size_t rank = (values.size() * percent + 99) / 100;
-  return values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-}
+  std::int64_t total() const { return total_; }
+
+  /// The smallest ratio that `percent` per cent do not exceed. There is one.
+  double percentile(std::int64_t percent) {
+    std::int64_t before = 0;  // ratios with smaller leading bits
+    const std::int64_t rank = (total_ * percent + 99) / 100;
+    std::size_t bits = 0;
+    while (before + counts_[bits] < rank) {
+      before += counts_[bits++];
+    }
+    std::vector<double> candidates;
+    for_parts([&](std::span<const double> part) {
+      std::vector<double> found;
+      std::ranges::copy_if(part, std::back_inserter(found),
+                           [&](double ratio) { return !std::isnan(ratio) && bits_of(ratio) == bits; });
+      const std::lock_guard lock(joining_);
+      candidates.insert(candidates.end(), found.begin(), found.end());
+    });
+    const auto place = candidates.begin() + static_cast<std::ptrdiff_t>(rank - before - 1);
+    std::nth_element(candidates.begin(), place, candidates.end());
+    return *place;
+  }
+
+ private:
+  static constexpr std::int64_t grain = 65536;
+  static constexpr int leading_bits = 16;  // sign, exponent and four more: 16 steps an octave
+
+  static std::size_t bits_of(double ratio) { return std::bit_cast<std::uint64_t>(ratio) >> (64U - leading_bits); }
+
+  template <class Body>
+  void for_parts(const Body& body) {
+    workers_.for_blocks(std::ssize(ratios_), grain, [&](std::int64_t begin, std::int64_t end) {
+      body(ratios_.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+    });
+  }
+
+  std::span<const double> ratios_;
+  Workers& workers_;
+  std::mutex joining_;
+  std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(std::size_t{1} << leading_bits);
+  std::int64_t total_ = 0;
+};
 
 }  // namespace
 
@@ -54,9 +111,10 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
     throw std::invalid_argument("size_change: the meshes have different triangles");
   }
   const double unit = std::ldexp(1.0, 2 * (after.exponent - before.exponent));
-  Values ratios(count);
+  std::vector<double> ratios(count);
   std::vector<double> sums((count + triangles_a_block - 1) / triangles_a_block);
-  Workers(threads).for_blocks(static_cast<std::int64_t>(sums.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+  Workers workers(threads);
+  workers.for_blocks(static_cast<std::int64_t>(sums.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     std::array<double, triangles_a_block> areas_before;
     for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
       const std::size_t first = block * triangles_a_block;
@@ -72,22 +130,18 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
       }
     }
   });
-  std::erase_if(ratios, [](double ratio) { return std::isnan(ratio); });
-
+  RatioCounts counts(ratios, workers);
   SizeChange change;
-  change.triangles = static_cast<std::int64_t>(ratios.size());
+  change.triangles = counts.total();
   change.left_out = static_cast<std::int64_t>(count) - change.triangles;
-  if (ratios.empty()) {
+  if (change.triangles == 0) {
     change.rms_log_ratio = change.ratio_p1 = change.ratio_p99 = no_number;
     return change;
   }
-  change.rms_log_ratio = std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(ratios.size()));
-  const auto p1 = percentile(ratios, 1);
-  const auto p99 = percentile(ratios, 99);
-  std::nth_element(ratios.begin(), p1, ratios.end());
-  change.ratio_p1 = *p1;
-  std::nth_element(p1, p99, ratios.end());
-  change.ratio_p99 = *p99;
+  change.rms_log_ratio =
+      std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(change.triangles));
+  change.ratio_p1 = counts.percentile(1);
+  change.ratio_p99 = counts.percentile(99);
   return change;
 }
 

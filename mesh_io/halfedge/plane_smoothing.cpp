@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
@@ -90,12 +93,15 @@ SmoothingResult smooth_in_plane(const MeshRings& mesh, std::span<const Triangle>
     return result;
   }
   SmoothingResult result = smoother->smooth(points, storage, local.frame);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
-    if (const Point2<double> before = plane.project(point); !(before == points[v])) {
-      point = rounded_to(storage, plane.moved(point, before, points[v]));
+  constexpr std::int64_t grain = 8192;
+  Workers(options.threads).for_blocks(std::ssize(points), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+      Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
+      if (const Point2<double> before = plane.project(point); !(before == points[v])) {
+        point = rounded_to(storage, plane.moved(point, before, points[v]));
+      }
     }
-  }
+  });
   return result;
 }
 
