@@ -6,16 +6,15 @@
 #include <numbers>
 #include <utility>
 
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/metric_formulas.h"
+#include "trismooth/quality/metric_lanes.h"
 
 namespace trismooth {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double two_sqrt3 = shape_constant;
-constexpr double two_over_sqrt3 = 2 * std::numbers::inv_sqrt3;
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
+using metric_formulas::infinity;
+using metric_formulas::two_over_sqrt3;
 
 constexpr std::array<MetricInfo, metric_count> metric_table{{
     {Metric::shape, "shape", "", true, 0.25, 1, -1, 1,
@@ -36,96 +35,6 @@ constexpr std::array<MetricInfo, metric_count> metric_table{{
     {Metric::equiangle_skew, "equiangle_skew", "", false, 0, 0.5, 0, 1,
      "largest deviation of an angle from 60 degrees: 0 equilateral, 1 degenerate"},
 }};
-
-struct Edge {
-  Point2<double> vector;
-  double squared_length;
-};
-
-/// A triangle by its edges in order of length, which all metrics but shape are computed from.
-struct SortedEdges {
-  Edge shortest, middle, longest;  ///< vectors all in one sense of rotation
-  double l_min, l_mid, l_max;
-  double doubled_area;  ///< not negative
-  double sign;          ///< of the orientation, as in shape: -1, 0 or 1
-
-  double perimeter() const { return l_min + l_mid + l_max; }
-  bool degenerate() const { return doubled_area == 0; }
-};
-
-SortedEdges sort_edges(Point2<double> a, Point2<double> b, Point2<double> c, double signed_shape) {
-  Edge shortest{b - a, squared_length(b - a)};
-  Edge middle{c - b, squared_length(c - b)};
-  Edge longest{a - c, squared_length(a - c)};
-  const auto order = [](Edge& shorter, Edge& longer) {
-    if (longer.squared_length < shorter.squared_length) {
-      std::swap(shorter, longer);
-    }
-  };
-  order(shortest, middle);
-  order(middle, longest);
-  order(shortest, middle);
-  SortedEdges edges{shortest,
-                    middle,
-                    longest,
-                    std::sqrt(shortest.squared_length),
-                    std::sqrt(middle.squared_length),
-                    std::sqrt(longest.squared_length),
-                    0,
-                    0};
-  // The sign is that of shape, so that the metrics never contradict each other.
-  if (signed_shape != 0 && shortest.squared_length != 0) {
-    // Of the three corners, the one between the shorter edges loses the fewest digits in needles.
-    edges.doubled_area = std::abs(cross(shortest.vector, middle.vector));
-    edges.sign = edges.doubled_area == 0 ? 0 : std::copysign(1.0, signed_shape);
-  }
-  return edges;
-}
-
-/// Interior angle between two edges. The arc tangent keeps its digits near 0 and 180 degrees, unlike the arc cosine.
-double angle_between(const Edge& one, const Edge& other, double doubled_area) {
-  const double dot = -(one.vector.x * other.vector.x + one.vector.y * other.vector.y);
-  return std::atan2(doubled_area, dot) * degrees_per_radian;
-}
-
-double area(const SortedEdges& edges) {
-  return edges.sign * edges.doubled_area / 2;
-}
-
-double min_angle(const SortedEdges& edges) {
-  return edges.degenerate() ? 0 : angle_between(edges.middle, edges.longest, edges.doubled_area);
-}
-
-double max_angle(const SortedEdges& edges) {
-  return edges.degenerate() ? 180 : angle_between(edges.shortest, edges.middle, edges.doubled_area);
-}
-
-double aspect_ratio(const SortedEdges& edges) {
-  return edges.degenerate() ? infinity : edges.l_max * edges.perimeter() / (two_sqrt3 * edges.doubled_area);
-}
-
-double radius_ratio(const SortedEdges& edges) {
-  // Two quotients, since the fourth powers of short lengths would underflow.
-  return edges.degenerate() ? infinity
-                            : edges.l_min * edges.l_mid / edges.doubled_area *
-                                  (edges.l_max * edges.perimeter() / edges.doubled_area) / 4;
-}
-
-double edge_ratio(const SortedEdges& edges) {
-  return edges.l_min == 0 ? infinity : edges.l_max / edges.l_min;
-}
-
-double condition(double signed_shape) {
-  return signed_shape == 0 ? infinity : 1 / signed_shape;
-}
-
-double scaled_jacobian(const SortedEdges& edges) {
-  return edges.degenerate() ? 0 : edges.sign * two_over_sqrt3 * (edges.doubled_area / (edges.l_mid * edges.l_max));
-}
-
-double equiangle_skew(double smallest_angle, double largest_angle) {
-  return std::max({0.0, (largest_angle - 60) / 120, (60 - smallest_angle) / 60});
-}
 
 }  // namespace
 
@@ -152,11 +61,16 @@ std::string metric_names() {
 }
 
 bool is_acceptable(Metric metric, double value) {
-  const MetricInfo& range = info(metric);
-  return range.larger_is_better ? value >= range.acceptable_low : value >= 0 && value <= range.acceptable_high;
+  return acceptable_range(metric).holds(value);
+}
+
+AcceptableRange acceptable_range(Metric metric) {
+  const MetricInfo& of = info(metric);
+  return of.larger_is_better ? AcceptableRange{of.acceptable_low, infinity} : AcceptableRange{0, of.acceptable_high};
 }
 
 double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c) {
+  using namespace metric_formulas;  // NOLINT(google-build-using-namespace): all of them
   const double signed_shape = shape(a, b, c);
   const SortedEdges edges = sort_edges(a, b, c, signed_shape);
   switch (metric) {
@@ -185,15 +99,7 @@ double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double
 }
 
 MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c) {
-  const double signed_shape = shape(a, b, c);
-  const SortedEdges edges = sort_edges(a, b, c, signed_shape);
-  const double smallest_angle = min_angle(edges);
-  const double largest_angle = max_angle(edges);
-  return {signed_shape,           area(edges),
-          smallest_angle,         largest_angle,
-          aspect_ratio(edges),    radius_ratio(edges),
-          edge_ratio(edges),      condition(signed_shape),
-          scaled_jacobian(edges), equiangle_skew(smallest_angle, largest_angle)};
+  return metric_formulas::evaluate_all(a, b, c);
 }
 
 }  // namespace trismooth

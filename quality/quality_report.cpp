@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -30,8 +32,6 @@ void for_each_block(const TriangleView& view, int threads, const Function& funct
                                 }
                               });
 }
-
-using CornerPoints = std::array<Point2<double>, 3>;
 
 CornerPoints corner_points(const TriangleView& view, std::size_t index) {
   const Triangle corners = canonical_corners(view, index);
@@ -118,17 +118,22 @@ Partial evaluate_block(const TriangleView& view, std::size_t block, std::size_t 
   }
 
   std::array<MetricValues, block_size> values;
+  evaluate_all(std::span(corners).first(count), values);
   Partial partial;
   partial.count = static_cast<double>(count);
+  std::array<AcceptableRange, metric_count> acceptable;
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    acceptable[m] = acceptable_range(static_cast<Metric>(m));
+  }
   WorstList worst(std::min(worst_count, count));
   for (std::size_t t = 0; t < count; ++t) {
     const auto [a, b, c] = corners[t];
-    const MetricValues& of_triangle = values[t] = evaluate_all(a, b, c);
+    const MetricValues& of_triangle = values[t];
     for (std::size_t m = 0; m < metric_count; ++m) {
       partial.sum[m] += of_triangle[m];
       partial.min[m] = std::min(partial.min[m], of_triangle[m]);
       partial.max[m] = std::max(partial.max[m], of_triangle[m]);
-      partial.acceptable[m] += is_acceptable(static_cast<Metric>(m), of_triangle[m]) ? 1 : 0;
+      partial.acceptable[m] += acceptable[m].holds(of_triangle[m]) ? 1 : 0;
     }
     const double shape = of_triangle[static_cast<std::size_t>(Metric::shape)];
     count_shape(partial, shape);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "trismooth/quality/metrics.h"
+
+namespace trismooth {
+
+using CornerPoints = std::array<Point2<double>, 3>;
+
+/// evaluate_all() of every triangle, to the bit, several at a time. `values`: one for each of `triangles`.
+void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValues> values);
+
+/// What is_acceptable() of a metric.
+struct AcceptableRange {
+  double low;
+  double high;
+
+  /// (No branch: & is meant.)
+  bool holds(double value) const { return (value >= low) & (value <= high); }
+};
+AcceptableRange acceptable_range(Metric metric);
+
+}  // namespace trismooth
