@@ -15,6 +15,7 @@
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/terminal_line.h"
+#include "trismooth/pipeline/generate/random_document.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/report/labelled_line.h"
 
@@ -28,19 +29,6 @@ struct GenerateSettings {
   std::uint64_t seed = 1;
   RandomMeshOptions options;
 };
-
-/// The mesh as a document, in the plane z = 0.
-MeshDocument to_document(const RandomMesh& mesh) {
-  MeshDocument document;
-  document.points.reserve(3 * mesh.points.size());
-  for (const Point2<double>& point : mesh.points) {
-    document.points.insert(document.points.end(), {point.x, point.y, 0.0});
-  }
-  for (const auto& triangle : mesh.triangles) {
-    document.cells.append(cell_type::triangle, triangle);
-  }
-  return document;
-}
 
 /// What cannot be a mesh file, or cannot be made, is told before the work, not after it.
 void try_output(const std::filesystem::path& output) {
@@ -62,7 +50,7 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   show("making the mesh");
   const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed, settings.options);
   show("writing");
-  write_mesh(settings.output, to_document(mesh));
+  write_mesh(settings.output, document_of(mesh));
   line.reset();
   environment.out << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
                                                              mesh.triangles.size(), settings.seed))
