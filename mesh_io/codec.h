@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -12,11 +15,17 @@ namespace trismooth {
 /// the same format is written by its OriginalFile instead.
 struct Codec {
   /// Reads the file at `path`, whose bytes are `bytes`. Throws ReadError.
-  MeshDocument (*read)(const std::filesystem::path& path, std::string bytes);
+  MeshDocument (*read_shared)(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
   /// Writes the document from scratch to the plain path `path`. Throws WriteError.
   void (*write)(const std::filesystem::path& path, const MeshDocument& document);
   /// What the format cannot hold of the document, one sentence each.
   std::vector<std::string> (*what_is_lost)(const MeshDocument& document);
+
+  /// read_shared() on this thread alone.
+  MeshDocument read(const std::filesystem::path& path, FileBytes bytes) const {
+    Workers alone(1);
+    return read_shared(path, std::move(bytes), FileWorkers(alone));
+  }
 };
 
 /// One codec a format, each in a source file of its name.

@@ -15,6 +15,7 @@
 namespace trismooth {
 
 struct MeshDocument;
+class Workers;
 
 /// The file that a document was read from, as its codec keeps it to write it back with nothing lost.
 class OriginalFile {
@@ -27,10 +28,15 @@ class OriginalFile {
   /// Writes the file that was read to `path`, with the coordinates of `document` in place of those that differ and
   /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (formats that have_arrays() only). Where
   /// any is added, annotations of an earlier run (see annotation_names.h) are left out. All else is as it was read.
-  /// Throws WriteError. The path is plain: no temporary, no renaming.
+  /// Throws WriteError. The path is plain: no temporary, no renaming. The bytes are the same for every number of
+  /// `workers`.
   virtual void write(const std::filesystem::path& path, const MeshDocument& document,
-                     std::span<const DataArray> added_point_arrays,
-                     std::span<const DataArray> added_cell_arrays) const = 0;
+                     std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
+                     Workers& workers) const = 0;
+
+  /// The same on this thread alone.
+  void write(const std::filesystem::path& path, const MeshDocument& document,
+             std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays) const;
 };
 
 /// A mesh as its file states it: every point, cell and array in the file's order, nothing interpreted. Readers

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
@@ -82,9 +83,9 @@ std::string describe_strips(const MeshDocument& document, const MeshDocument& ex
 }
 
 void write_plain(const std::filesystem::path& path, FileFormat format, const MeshDocument& document,
-                 const AddedArrays& added) {
+                 const AddedArrays& added, Workers& workers) {
   if (is_written_back(document, format)) {
-    document.original->write(path, document, added.point_arrays, added.cell_arrays);
+    document.original->write(path, document, added.point_arrays, added.cell_arrays, workers);
     return;
   }
   const bool adds = takes_added_arrays(document, format) && !(added.point_arrays.empty() && added.cell_arrays.empty());
@@ -117,12 +118,18 @@ FileFormat input_format(const std::filesystem::path& path) {
 }
 
 MeshDocument read_mesh(const std::filesystem::path& path) {
+  Workers alone(1);
+  return read_mesh(path, alone);
+}
+
+MeshDocument read_mesh(const std::filesystem::path& path, Workers& workers) {
   const FileFormat format = input_format(path);
-  std::string bytes = read_file_bytes(path);
+  const FileWorkers file_workers(workers);
+  FileBytes bytes = read_file_bytes(path, file_workers);
   if (const auto compression = compression_of(bytes)) {
     throw ReadError(path, describe(*compression));
   }
-  MeshDocument document = codec_of(format).read(path, std::move(bytes));
+  MeshDocument document = codec_of(format).read_shared(path, std::move(bytes), file_workers);
   document.format = format;
   return document;
 }
@@ -143,6 +150,12 @@ FileFormat output_format(const std::filesystem::path& path) {
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
+  Workers alone(1);
+  write_mesh(path, document, added, alone);
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
+                Workers& workers) {
   const FileFormat format = output_format(path);
   for (const auto& arrays : {std::span(document.point_arrays), std::span(added.point_arrays)}) {
     require_rows(path, arrays, document.point_count(), "points");
@@ -152,7 +165,7 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
   }
   OutputFile output(path);
   try {
-    write_plain(output.path(), format, document, added);
+    write_plain(output.path(), format, document, added, workers);
   } catch (const WriteError& error) {
     // Codecs know the temporary file only.
     throw WriteError(path, error.reason);

@@ -8,10 +8,15 @@
 
 namespace trismooth {
 
+class Workers;
+
 /// Reads a mesh file; its extension chooses the format. Nothing is interpreted.
 /// Throws ReadError for an extension that is unknown or not available in this build, a compressed or unreadable file,
 /// or one that breaks its format's rules, with the place in the file. Counts and indices are checked against the file's
 /// size before anything is allocated. Complexity: linear in the file's size.
+/// `workers` (base/workers.h) read the file and decode it in parts, where it is large enough for that. The document and
+/// every error are the same for every number of them. Without `workers`: this thread alone.
+MeshDocument read_mesh(const std::filesystem::path& path, Workers& workers);
 MeshDocument read_mesh(const std::filesystem::path& path);
 
 /// Arrays to add to what a document holds, where the target takes_added_arrays(). Where any is added, annotations of an
@@ -26,6 +31,10 @@ struct AddedArrays {
 /// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
 /// Throws WriteError, also for such an extension, and where an array has not a row for every point or cell.
+/// `workers` encode a document that is written in the format it was read from; the bytes are the same for every number
+/// of them. Without `workers`: this thread alone.
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
+                Workers& workers);
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
 
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as

@@ -96,7 +96,7 @@ class Run {
   }
 
   void read() {
-    document_ = read_mesh(options_.input);
+    document_ = read_mesh(options_.input, workers_);
     result_.losses = document_.losses;
     // What the reader says of the file is said of what another format loses.
     const bool converts = options_.output && output_format(*options_.output) != document_.format;
@@ -338,7 +338,7 @@ class Run {
     if (!annotates && has_arrays(target)) {
       note_old_annotations();
     }
-    write_mesh(path, document_, annotates ? annotations() : AddedArrays{});
+    write_mesh(path, document_, annotates ? annotations() : AddedArrays{}, workers_);
   }
 
   void note_old_annotations() {

@@ -2,6 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "trismooth/mesh_io/errors.h"
 
@@ -21,31 +26,54 @@ MemoryBlock make_block() {
 }  // namespace
 
 BufferedWriter::BufferedWriter(const std::filesystem::path& path)
-    : path_(path), block_(make_block()), file_(std::fopen(path.c_str(), "wb")) {
-  if (file_ == nullptr) {
+    : path_(path),
+      block_(make_block()),
+      descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) {
     fail();
   }
-  // The C library heeds the size only with a buffer of ours.
-  std::setvbuf(file_, reinterpret_cast<char*>(block_.data()), _IOFBF, block_.size());
 }
 
 BufferedWriter::~BufferedWriter() {
-  if (file_ != nullptr) {
-    std::fclose(file_);
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
   }
 }
 
 void BufferedWriter::write(std::string_view bytes) {
-  // fwrite takes no null pointer, not even for no bytes.
-  if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
-    fail();
+  constexpr std::size_t not_worth_a_call = block_bytes / 16;
+  if (bytes.size() >= not_worth_a_call) {
+    flush();
+    write_out(bytes);
+    return;
+  }
+  if (bytes.size() > block_.size() - used_) {
+    flush();
+  }
+  if (!bytes.empty()) {
+    std::memcpy(block_.data() + used_, bytes.data(), bytes.size());
+    used_ += bytes.size();
+  }
+}
+
+void BufferedWriter::flush() {
+  write_out({reinterpret_cast<const char*>(block_.data()), std::exchange(used_, 0)});
+}
+
+void BufferedWriter::write_out(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      fail();
+    }
   }
 }
 
 void BufferedWriter::close() {
-  std::FILE* const file = file_;
-  file_ = nullptr;
-  if (std::fclose(file) != 0) {
+  flush();
+  if (::close(std::exchange(descriptor_, -1)) != 0) {
     fail();
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdio>
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -21,11 +21,14 @@ class BufferedWriter {
   void close();
 
  private:
+  void flush();
+  void write_out(std::string_view bytes);
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   MemoryBlock block_;
-  std::FILE* file_;
+  std::size_t used_ = 0;  ///< of the block
+  int descriptor_;
 };
 
 }  // namespace trismooth

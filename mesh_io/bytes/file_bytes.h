@@ -1,11 +1,42 @@
 #pragma once
 
+#include <concepts>
+#include <cstring>
 #include <filesystem>
-#include <string>
+#include <string_view>
+
+#include "trismooth/mesh_io/bytes/file_workers.h"
+#include "trismooth/mesh_io/bytes/memory_block.h"
 
 namespace trismooth {
 
-/// The bytes of the file. Throws ReadError, also for a folder and where memory does not suffice.
-std::string read_file_bytes(const std::filesystem::path& path);
+/// The bytes of a file, in one piece of memory. Move-only.
+class FileBytes {
+ public:
+  FileBytes() = default;
+  explicit FileBytes(MemoryBlock block) : block_(std::move(block)) {}
+  /// A copy of any text: for bytes that come from no file.
+  template <std::convertible_to<std::string_view> Text>
+  FileBytes(const Text& text) {  // NOLINT(google-explicit-constructor): the same bytes
+    const std::string_view bytes = text;
+    if (!bytes.empty()) {
+      std::memcpy(block_.extend(bytes.size()), bytes.data(), bytes.size());
+    }
+  }
+
+  std::string_view view() const { return {reinterpret_cast<const char*>(block_.data()), block_.size()}; }
+  operator std::string_view() const { return view(); }  // NOLINT(google-explicit-constructor): a view of the same
+  std::size_t size() const { return block_.size(); }
+
+ private:
+  MemoryBlock block_;
+};
+
+/// The bytes of the file, large ones read in parts by all workers. Not mapped: a file that somebody cuts off while it
+/// is read gives fewer bytes, no signal. Throws ReadError, also for a folder and where memory does not suffice.
+FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& workers);
+
+/// The same on this thread alone.
+FileBytes read_file_bytes(const std::filesystem::path& path);
 
 }  // namespace trismooth

@@ -2,11 +2,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
+#include <sys/mman.h>
+
 namespace trismooth {
+
+/// Asks for large pages for memory that is about to be filled: the system hands it out in hundreds of steps less. Small
+/// blocks, and systems without large pages, are left as they are.
+inline void prefer_large_pages(const void* begin, std::size_t bytes) {
+  constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+  const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page * page;
+  if (first < last) {
+    ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  }
+}
 
 /// Bytes from malloc() that can grow at the end and can be handed to a library that calls free() on them.
 class MemoryBlock {
@@ -63,6 +77,7 @@ class MemoryBlock {
     [[maybe_unused]] std::byte* const moved_from = data_.release();
     data_.reset(bytes);
     capacity_ = capacity;
+    prefer_large_pages(bytes, capacity);
   }
 
   std::unique_ptr<std::byte, Free> data_;

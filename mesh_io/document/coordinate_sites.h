@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {
@@ -26,6 +27,6 @@ struct CoordinateSites {
 /// `points` (x, y, z of every vertex, representable in their types), every other byte as it is, and then `suffix`.
 /// Text coordinates get the shortest text that reads back to the same value. Throws WriteError.
 void write_patched(const std::filesystem::path& path, std::string_view bytes, const CoordinateSites& sites,
-                   std::span<const double> points, std::string_view suffix = {});
+                   std::span<const double> points, std::string_view suffix, const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -228,7 +228,7 @@ class ObjReader {
 
 }  // namespace
 
-MeshDocument read_obj(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read_obj(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
   auto [document, sites] = ObjReader(bytes, path).read();
   document.original = make_patched_original(std::move(bytes), std::move(sites));
   return std::move(document);

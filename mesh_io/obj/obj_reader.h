@@ -1,8 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -14,6 +15,6 @@ namespace trismooth {
 /// first; only where the file has such statements. Every other statement stays in the bytes that are written back,
 /// and a note names it.
 /// Throws ReadError for whatever breaks the rules, also for a file that is no OBJ file at all.
-MeshDocument read_obj(const std::filesystem::path& path, std::string bytes);
+MeshDocument read_obj(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/off/off_binary_reader.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -59,9 +61,11 @@ class UniformRows {
 
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const std::filesystem::path& path)
+  OffReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
       : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
+                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+        workers_(workers.workers),
+        plain_rows_(bytes, workers) {}
 
   std::pair<MeshDocument, CoordinateSites> read() {
     read_keyword();
@@ -128,9 +132,32 @@ class OffReader {
                  bytes_left() + 1 - vertex_count_ * 2 * numbers_each);
   }
 
+  /// Vertices that are three coordinates each, a line each or more, nothing else.
+  bool read_plain_vertices() {
+    const auto end = plain_rows_.read(
+        scanner_.offset(), vertex_count_, 3, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+          bool plain = true;
+          for (std::size_t vertex = first; vertex < last && plain; ++vertex) {
+            for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
+              plain = plain && numbers.next(document_.points[i]) && std::isfinite(document_.points[i]);
+              sites_.offsets[i] = numbers.token_offset();
+            }
+            plain = plain && numbers.at_end_of_line();
+          }
+          return plain;
+        });
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+
   void read_vertices() {
-    document_.points.resize(3 * vertex_count_);
-    sites_.offsets.resize(3 * vertex_count_);
+    shared_resize(document_.points, 3 * vertex_count_, workers_);
+    shared_resize(sites_.offsets, 3 * vertex_count_, workers_);
+    if (vertex_count_ > 0 && keyword_.least_extras() == 0 && read_plain_vertices()) {
+      return;
+    }
     std::vector<double> normals;
     std::vector<double> texture_coordinates;
     normals.reserve(keyword_.normals ? 3 * vertex_count_ : 0);
@@ -176,7 +203,47 @@ class OffReader {
     }
   }
 
+  /// Faces of one kind without colours.
+  bool read_plain_faces() {
+    PlainNumbers first_face(scanner_.text(), scanner_.offset());
+    std::size_t degree = 0;
+    if (!first_face.next(degree) || degree < 3 || degree > bytes_left() / 2 / face_count_) {
+      return false;
+    }
+    CellList& cells = document_.cells;
+    shared_resize(cells.connectivity, degree * face_count_, workers_);
+    shared_resize(cells.offsets, face_count_ + 1, workers_);
+    shared_resize(cells.types, face_count_, workers_);
+    const auto end =
+        plain_rows_.read(scanner_.offset(), face_count_, degree + 1,
+                         [this, degree, &cells](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+                           const auto vertices = static_cast<std::int32_t>(vertex_count_);
+                           bool plain = true;
+                           for (std::size_t face = first; face < last && plain; ++face) {
+                             std::size_t corners = 0;
+                             plain = numbers.next(corners) && corners == degree;
+                             for (std::size_t i = degree * face; i < degree * (face + 1) && plain; ++i) {
+                               std::int32_t& vertex = cells.connectivity[i];
+                               plain = numbers.next(vertex) && vertex >= 0 && vertex < vertices;
+                             }
+                             plain = plain && numbers.at_end_of_line();
+                             cells.offsets[face + 1] = static_cast<std::int64_t>(degree * (face + 1));
+                             cells.types[face] = cell_type::of_face(degree);
+                           }
+                           return plain;
+                         });
+    if (!end) {
+      cells = {};
+      return false;
+    }
+    scanner_.resume(end->last_number, end->offset);
+    return true;
+  }
+
   void read_faces() {
+    if (face_count_ > 0 && read_plain_faces()) {
+      return;
+    }
     CellList& cells = document_.cells;
     cells.offsets.reserve(face_count_ + 1);
     cells.types.reserve(face_count_);
@@ -274,6 +341,8 @@ class OffReader {
   static constexpr std::size_t least_face_numbers = 4;  // the degree, and three vertices
 
   TextScanner scanner_;
+  Workers& workers_;
+  PlainRows plain_rows_;
   OffKeyword keyword_;
   bool is_binary_ = false;
   bool has_vertex_colours_ = false;
@@ -286,8 +355,8 @@ class OffReader {
 
 }  // namespace
 
-MeshDocument read_off(const std::filesystem::path& path, std::string bytes) {
-  auto [document, sites] = OffReader(bytes, path).read();
+MeshDocument read_off(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  auto [document, sites] = OffReader(bytes, path, workers).read();
   document.original = make_patched_original(std::move(bytes), std::move(sites));
   return std::move(document);
 }

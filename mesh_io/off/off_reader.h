@@ -1,8 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -15,6 +16,6 @@ namespace trismooth {
 /// Throws ReadError for homogeneous (4) and n-dimensional (n) files and for whatever breaks the rules; more
 /// faces or vertices than the counts declare are refused too, since they mean that the counts are wrong.
 /// Memory beside the result: none that grows with the file.
-MeshDocument read_off(const std::filesystem::path& path, std::string bytes);
+MeshDocument read_off(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 }  // namespace trismooth

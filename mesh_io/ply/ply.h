@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -21,7 +23,7 @@ namespace trismooth {
 /// Throws ReadError where the file breaks the format's rules, and for coordinates of an integer type, faces and
 /// strips of less than three vertices, and where another row follows those that the header declares. Linear in the
 /// file's size.
-MeshDocument read_ply(const std::filesystem::path& path, std::string bytes);
+MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 /// Writes the document as little-endian PLY: double coordinates (float where point_type is float32), faces, then
 /// lines as element edge, and every point and cell array as scalar properties. Throws WriteError.

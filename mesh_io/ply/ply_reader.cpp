@@ -458,7 +458,7 @@ void check_vertex_element(const std::filesystem::path& path, const PlyHeader& he
 
 }  // namespace
 
-MeshDocument read_ply(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
   const PlyHeader header = parse_ply_header(path, bytes);
   check_vertex_element(path, header);
   auto [document, sites] =

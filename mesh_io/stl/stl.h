@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -19,7 +21,7 @@ namespace trismooth {
 /// in the original's bytes as they are.
 ///
 /// Throws ReadError where the file breaks the format's rules. Linear in the file's size.
-MeshDocument read_stl(const std::filesystem::path& path, std::string bytes);
+MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 /// Writes the document's triangles as one solid of ASCII STL (binary STL would round coordinates to float32), in the
 /// shortest texts that read back to the same float64, each with its unit normal, which is 0 0 0 for a degenerate

@@ -61,7 +61,7 @@ class FacetCollector {
 
   std::size_t facets() const { return document_.cells.size(); }
 
-  MeshDocument finish(std::string bytes) {
+  MeshDocument finish(FileBytes bytes) {
     document_.points = welder_.take_points();
     document_.original = make_patched_original(std::move(bytes), std::move(sites_));
     return std::move(document_);
@@ -74,7 +74,7 @@ class FacetCollector {
   PointWelder welder_;
 };
 
-MeshDocument read_binary(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes) {
   FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
   const auto count = number_at<std::uint32_t>(bytes, title_bytes);
   std::vector<std::uint16_t> attributes(count);
@@ -109,7 +109,7 @@ std::size_t begin_of_text(std::string_view bytes) {
 
 class TextReader {
  public:
-  TextReader(const std::filesystem::path& path, std::string bytes)
+  TextReader(const std::filesystem::path& path, FileBytes bytes)
       : bytes_(std::move(bytes)),
         scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)),
         collector_(path, CoordinateEncoding::text, ScalarType::float64) {}
@@ -236,7 +236,8 @@ class TextReader {
       return true;
     }
     const std::size_t before = scanner_.text().find_last_not_of(" \t\v\f", scanner_.offset() - 1);
-    return before == bytes_.npos || bytes_[before] == '\n' || bytes_[before] == '\r';
+    const std::string_view text = scanner_.text();
+    return before == text.npos || text[before] == '\n' || text[before] == '\r';
   }
 
   static bool is_unknown(std::string_view token) {
@@ -258,7 +259,7 @@ class TextReader {
 
   static constexpr std::size_t most_words_named = 8;
 
-  std::string bytes_;
+  FileBytes bytes_;
   TextScanner scanner_;
   FacetCollector collector_;
   std::set<std::string_view> unknown_;  ///< first words of lines that were passed over
@@ -298,7 +299,7 @@ bool has_zero_byte(std::string_view bytes) {
 
 }  // namespace
 
-MeshDocument read_stl(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
   const bool may_be_binary = bytes.size() >= binary_header_bytes;
   const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, title_bytes) : 0;
   const std::uint64_t end = binary_header_bytes + count * binary_facet_bytes;

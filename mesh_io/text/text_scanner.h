@@ -45,6 +45,11 @@ class TextScanner {
   std::size_t token_offset() const { return token_offset_; }
   std::size_t offset() const { return offset_; }
   void seek(std::size_t offset) { offset_ = offset; }
+  /// Goes on at `offset`; the token at `token_offset` counts as the one that was read last.
+  void resume(std::size_t token_offset, std::size_t offset) {
+    token_offset_ = token_offset;
+    offset_ = offset;
+  }
   std::string_view text() const { return text_; }
   const std::filesystem::path& path() const { return path_; }
 

@@ -21,13 +21,15 @@ using Section = VtkLegacyLayout::Section;
 
 class VtkLegacyFile : public OriginalFile {
  public:
-  explicit VtkLegacyFile(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit VtkLegacyFile(FileBytes bytes) : bytes_(std::move(bytes)) {}
 
-  MeshDocument read(const std::filesystem::path& path) { return read_vtk_legacy(path, bytes_, layout_); }
+  MeshDocument read(const std::filesystem::path& path, const FileWorkers& workers) {
+    return read_vtk_legacy(path, bytes_, workers, layout_);
+  }
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
-             std::span<const DataArray> added_point_arrays,
-             std::span<const DataArray> added_cell_arrays) const override {
+             std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
+             Workers& workers) const override {
     if (document.points.size() != layout_.coordinates.offsets.size() || document.cells.size() != layout_.cell_count) {
       throw WriteError(path, "the file that was read has " + std::to_string(layout_.coordinates.offsets.size() / 3) +
                                  " points and " + std::to_string(layout_.cell_count) +
@@ -43,14 +45,15 @@ class VtkLegacyFile : public OriginalFile {
       sites = &promotion.coordinates;
     }
     if (added_point_arrays.empty() && added_cell_arrays.empty()) {
-      write_patched(path, bytes, *sites, document.points);
+      write_patched(path, bytes, *sites, document.points, {}, FileWorkers(workers));
       return;
     }
     // All that is edited stands behind the coordinates.
     const auto& edits = layout_.without_annotations;
     const std::size_t unedited = edits.empty() ? bytes_.size() : edits.front().begin;
     write_patched(path, bytes.substr(0, bytes.size() - (bytes_.size() - unedited)), *sites, document.points,
-                  edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays));
+                  edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays),
+                  FileWorkers(workers));
   }
 
  private:
@@ -90,13 +93,13 @@ class VtkLegacyFile : public OriginalFile {
     return text;
   }
 
-  std::string bytes_;
+  FileBytes bytes_;
   VtkLegacyLayout layout_;
 };
 
-MeshDocument read(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
   const auto file = std::make_shared<VtkLegacyFile>(std::move(bytes));
-  MeshDocument document = file->read(path);
+  MeshDocument document = file->read(path, workers);
   document.original = file;
   return document;
 }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/cell_size.h"
 
 namespace trismooth {
@@ -40,6 +41,9 @@ class CellsReader {
                   std::to_string(size) + " integers");
     }
     input_.begin_values(size, size_of(default_integer), "integers in " + std::string(section_));
+    if (read_plain_cells(cell_count, size)) {
+      return;
+    }
     cells_.offsets.reserve(cell_count + 1);
     cells_.connectivity.reserve(size - cell_count);
     auto left = static_cast<std::int64_t>(size);
@@ -58,6 +62,42 @@ class CellsReader {
       input_.fail(std::string(section_) + " declares a size of " + std::to_string(size) + ", but its " +
                   std::to_string(cell_count) + " cells take " + std::to_string(static_cast<std::int64_t>(size) - left));
     }
+  }
+
+  /// Cells of one size each.
+  bool read_plain_cells(std::uint64_t cell_count, std::uint64_t size) {
+    if (input_.is_binary() || cell_count == 0 || size % cell_count != 0) {
+      return false;
+    }
+    const std::uint64_t degree = size / cell_count - 1;
+    shared_resize(cells_.connectivity, size - cell_count, input_.workers());
+    shared_resize(cells_.offsets, cell_count + 1, input_.workers());
+    const bool plain = input_.read_plain_rows(
+        cell_count, degree + 1, [this, degree](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+          for (std::size_t cell = first; cell < last; ++cell) {
+            std::uint64_t vertices = 0;
+            if (!numbers.next(vertices) || vertices != degree ||
+                !read_plain_vertices(numbers, degree * cell, degree * (cell + 1))) {
+              return false;
+            }
+            cells_.offsets[cell + 1] = static_cast<std::int64_t>(degree * (cell + 1));
+          }
+          return true;
+        });
+    if (!plain) {
+      cells_ = {};
+    }
+    return plain;
+  }
+
+  bool read_plain_vertices(PlainNumbers& numbers, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      std::int32_t& vertex = cells_.connectivity[i];
+      if (!numbers.next(vertex) || vertex < 0 || vertex >= point_count_) {
+        return false;
+      }
+    }
+    return true;
   }
 
   void read_offsets(std::uint64_t offset_count, std::uint64_t connectivity_count) {
@@ -87,7 +127,15 @@ class CellsReader {
     input_.expect_keyword("connectivity");
     const ScalarType type = next_integer_type();
     input_.begin_values(connectivity_count, size_of(type), "vertices of cells");
-    cells_.connectivity.reserve(connectivity_count);
+    shared_resize(cells_.connectivity, connectivity_count, input_.workers());
+    if (input_.read_plain_rows(connectivity_count, 1,
+                               [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+                                 return read_plain_vertices(numbers, first, last);
+                               })) {
+      input_.read_metadata(1);
+      return;
+    }
+    cells_.connectivity.clear();
     for (std::size_t cell = 0; cell + 1 < cells_.offsets.size(); ++cell) {
       read_vertices(cell, cells_.offsets[cell + 1] - cells_.offsets[cell], type);
     }
@@ -138,7 +186,19 @@ void read_vtk_legacy_cell_types(VtkLegacyInput& input, CellList& cells) {
     input.fail("declares " + std::to_string(type_count) + " cell types for " + std::to_string(cell_count) + " cells");
   }
   input.begin_values(type_count, size_of(default_integer), "cell types");
-  cells.types.reserve(cell_count);
+  shared_resize(cells.types, cell_count, input.workers());
+  if (input.read_plain_rows(cell_count, 1, [&cells](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+        for (std::size_t cell = first; cell < last; ++cell) {
+          std::uint8_t& type = cells.types[cell];
+          if (!numbers.next(type) || type == polyhedron || !cell_size_of(type).allows(cells[cell].size())) {
+            return false;
+          }
+        }
+        return true;
+      })) {
+    return;
+  }
+  cells.types.clear();
   for (std::size_t cell = 0; cell < cell_count; ++cell) {
     const std::int64_t type = input.next_integer(default_integer, "a cell type");
     if (type < 0 || type > std::numeric_limits<std::uint8_t>::max()) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/big_endian.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/blanks.h"
@@ -18,7 +19,8 @@
 
 namespace trismooth {
 
-VtkLegacyInput::VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path) : scanner_(bytes, path) {
+VtkLegacyInput::VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
+    : scanner_(bytes, path), workers_(workers.workers), plain_rows_(bytes, workers) {
   read_header();
 }
 
@@ -235,7 +237,15 @@ std::int64_t VtkLegacyInput::next_integer(ScalarType type, std::string_view what
 template <class T>
 std::vector<T> VtkLegacyInput::read_values(std::uint64_t count, std::string_view what) {
   begin_values(count, sizeof(T), what);
-  std::vector<T> values(count);
+  std::vector<T> values;
+  shared_resize(values, count, workers_);
+  if (read_plain_rows(count, 1, [&values](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+        return std::all_of(values.begin() + static_cast<std::ptrdiff_t>(first),
+                           values.begin() + static_cast<std::ptrdiff_t>(last),
+                           [&numbers](T& value) { return numbers.next(value); });
+      })) {
+    return values;
+  }
   for (T& value : values) {
     value = next_value<T>(what);
   }

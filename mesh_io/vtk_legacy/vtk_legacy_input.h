@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_names.h"
 
@@ -22,7 +24,7 @@ namespace trismooth {
 class VtkLegacyInput {
  public:
   /// Reads the header: version, title, encoding. Stands before the DATASET keyword then.
-  VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path);
+  VtkLegacyInput(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers);
 
   bool is_binary() const { return binary_; }
   std::string_view bytes() const { return scanner_.text(); }
@@ -75,6 +77,19 @@ class VtkLegacyInput {
   /// The same for single bits, as 0 and 1: eight a byte in BINARY files, the first one in the highest bit.
   std::vector<std::uint8_t> read_bits(std::uint64_t count, std::string_view what);
 
+  /// Tries to read rows of plain numbers of an ASCII file by all workers, as PlainRows::read() does. Where it answers
+  /// false, the input stands where it stood, and `body` may have written anything.
+  template <class Body>
+  bool read_plain_rows(std::uint64_t rows, std::uint64_t columns, const Body& body) {
+    const auto end = binary_ || rows == 0 ? std::nullopt : plain_rows_.read(scanner_.offset(), rows, columns, body);
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+  /// Who shares the work.
+  Workers& workers() const { return workers_; }
+
   /// Reads `count` strings: one a line in ASCII files, behind their length in BINARY ones. Views of the bytes as they
   /// are, in ASCII files encoded.
   std::vector<std::string_view> read_strings(std::uint64_t count, std::string_view what);
@@ -103,6 +118,8 @@ class VtkLegacyInput {
   std::uint64_t next_string_length(std::string_view what);
 
   TextScanner scanner_;
+  Workers& workers_;
+  PlainRows plain_rows_;
   bool binary_ = false;
   std::size_t place_ = 0;  ///< byte offset of the token or BINARY value that was read last
 };

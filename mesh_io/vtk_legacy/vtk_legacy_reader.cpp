@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/exact_integers.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/cell_size.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_attributes.h"
@@ -140,8 +141,11 @@ class GeometryReader {
   template <class T>
   void read_coordinates(std::uint64_t count) {
     input_.begin_values(count, sizeof(T), "coordinates");
-    document_.points.reserve(count);
-    layout_.coordinates.offsets.reserve(count);
+    shared_resize(document_.points, count, input_.workers());
+    shared_resize(layout_.coordinates.offsets, count, input_.workers());
+    if (read_plain_coordinates<T>(count)) {
+      return;
+    }
     for (std::uint64_t i = 0; i < count; ++i) {
       const T value = input_.next_value<T>("a coordinate");
       const auto coordinate = static_cast<double>(value);
@@ -153,9 +157,27 @@ class GeometryReader {
         input_.fail("a coordinate of point " + std::to_string(i / 3) + " is " + std::to_string(value) +
                     ", which double precision does not hold");
       }
-      document_.points.push_back(coordinate);
-      layout_.coordinates.offsets.push_back(input_.value_offset());
+      document_.points[i] = coordinate;
+      layout_.coordinates.offsets[i] = input_.value_offset();
     }
+  }
+
+  template <class T>
+  bool read_plain_coordinates(std::uint64_t count) {
+    return input_.read_plain_rows(count, 1, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+      bool plain = true;
+      for (std::size_t i = first; i < last && plain; ++i) {
+        T value{};
+        plain = numbers.next(value) && std::isfinite(static_cast<double>(value));
+        const auto coordinate = static_cast<double>(value);
+        if constexpr (!std::is_floating_point_v<T>) {
+          plain = plain && holds_exactly<T>(coordinate) && static_cast<T>(coordinate) == value;
+        }
+        document_.points[i] = coordinate;
+        layout_.coordinates.offsets[i] = numbers.token_offset();
+      }
+      return plain;
+    });
   }
 
   void read_poly_data_cells(std::size_t section, std::string_view token) {
@@ -201,10 +223,11 @@ class GeometryReader {
 
 }  // namespace
 
-MeshDocument read_vtk_legacy(const std::filesystem::path& path, std::string_view bytes, VtkLegacyLayout& layout) {
+MeshDocument read_vtk_legacy(const std::filesystem::path& path, std::string_view bytes, const FileWorkers& workers,
+                             VtkLegacyLayout& layout) {
   MeshDocument document;
   document.format = FileFormat::vtk;
-  VtkLegacyInput input(bytes, path);
+  VtkLegacyInput input(bytes, path, workers);
   layout.binary = input.is_binary();
   GeometryReader(input, document, layout).read();
   read_vtk_legacy_attributes(input, document, layout);

@@ -19,10 +19,10 @@ constexpr std::array<std::uint8_t, 256> base64_values() {
   return values;
 }
 
-constexpr std::array<std::uint8_t, 256> value_of = base64_values();
+constexpr std::array<std::uint8_t, 256> base64_value_of = base64_values();
 
-std::uint8_t value_at(const char* character) {
-  return value_of[static_cast<unsigned char>(*character)];
+std::uint8_t base64_value_at(const char* character) {
+  return base64_value_of[static_cast<unsigned char>(*character)];
 }
 
 void store(std::byte* bytes, std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
@@ -60,7 +60,7 @@ bool EncodedBytes::decode_group(std::byte* bytes, std::size_t& count) {
       ++padding;
       continue;
     }
-    value = value_at(&character);
+    value = base64_value_at(&character);
     if (value == not_base64 || padding != 0) {
       return false;
     }
@@ -99,10 +99,10 @@ bool EncodedBytes::read(std::byte* bytes, std::size_t count) {
     const char* text = text_.data() + position_;
     std::size_t groups = padded_ ? 0 : std::min(count / 3, (text_.size() - position_) / 4);
     while (groups > 0) {
-      const std::uint8_t a = value_at(text);
-      const std::uint8_t b = value_at(text + 1);
-      const std::uint8_t c = value_at(text + 2);
-      const std::uint8_t d = value_at(text + 3);
+      const std::uint8_t a = base64_value_at(text);
+      const std::uint8_t b = base64_value_at(text + 1);
+      const std::uint8_t c = base64_value_at(text + 2);
+      const std::uint8_t d = base64_value_at(text + 3);
       if ((a | b | c | d) > 63) {
         break;
       }

@@ -100,8 +100,8 @@ class VtkXmlOriginal : public OriginalFile {
   explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {}
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
-             std::span<const DataArray> added_point_arrays,
-             std::span<const DataArray> added_cell_arrays) const override {
+             std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
+             Workers& /*workers*/) const override {
     const vtkSmartPointer<vtkPointSet> copy = shallow_copy(*file_.data);
     vtkDataArray* const old_points = file_.data->GetPoints()->GetData();
     const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
@@ -226,13 +226,13 @@ std::vector<LabelArray> labels_of(vtkFieldData& fields) {
 }
 
 template <VtkXmlKind kind>
-MeshDocument read(const std::filesystem::path& path, std::string bytes) {
+MeshDocument read(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
   try {
     constexpr std::size_t for_buffers = std::size_t{4} << 20;
     require_host_memory(2 * bytes.size() + for_buffers);  // what VTK's arrays take at least
     VtkXmlFile file = read_vtk_xml(path, bytes, kind);
     // The bytes go before the cells come: not both in memory at once.
-    std::string().swap(bytes);
+    bytes = FileBytes();
     MeshDocument document;
     document.losses = std::move(file.losses);
     document.notes = std::move(file.notes);

@@ -190,13 +190,19 @@ void check_xml_tail(const std::filesystem::path& path, std::string_view bytes, c
   const std::size_t declaration = bytes.starts_with("<?xml") ? std::min(bytes.find("?>"), bytes.size() - 2) + 2 : 0;
   std::string document(bytes.substr(0, declaration));
   document.append("<").append(root.name).append("><").append(stop.name).append(">").append(bytes.substr(tail));
-  const auto lines_in = [&](std::size_t size) {
-    return static_cast<std::size_t>(std::ranges::count(bytes.substr(0, size), '\n'));
+  const auto check = [&](std::size_t lines_before) {
+    const XmlHead parsed = parse(path, document, {}, {}, lines_before);
+    if (parsed.root.children.size() > 1) {
+      const XmlElement& extra = parsed.root.children[1];
+      throw ReadError(path, extra.line, "<" + extra.name + "> stands behind <" + stop.name + ">, the last element");
+    }
   };
-  const XmlHead parsed = parse(path, document, {}, {}, lines_in(tail) - lines_in(declaration));
-  if (parsed.root.children.size() > 1) {
-    const XmlElement& extra = parsed.root.children[1];
-    throw ReadError(path, extra.line, "<" + extra.name + "> stands behind <" + stop.name + ">, the last element");
+  try {
+    check(0);
+  } catch (const ReadError&) {
+    // Its line is found then alone: the bytes between are many.
+    check(static_cast<std::size_t>(std::ranges::count(bytes.substr(declaration, tail - declaration), '\n')));
+    throw;
   }
 }
 

@@ -6,7 +6,7 @@
 namespace trismooth {
 
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count) {
-  const std::string bytes = read_file_bytes(path);
+  const FileBytes bytes = read_file_bytes(path);
   TextScanner scanner(bytes, path, TextScanner::Comments::hash);
   std::vector<std::int32_t> ids;
   while (!scanner.at_end()) {

@@ -20,6 +20,7 @@
 #include "document_checks.h"
 #include "memory_file.h"
 #include "smoothing_checks.h"
+#include "support/readings.h"
 #include "targets.h"
 
 /// A file that may be anything: it is read or refused; what was read keeps all promises, is written back as it was, is
@@ -202,6 +203,17 @@ void check_added_arrays(const MeshDocument& document) {
   require_equal(difference(expected, again, Comparison::converted), "with arrays added");
 }
 
+/// In parts of any size, the reader says what it says number by number.
+void check_parts(FileFormat format, const std::string& bytes) {
+  trismooth::Workers alone(1);
+  using trismooth::FileWorkers;
+  const std::string serial = test_support::reading_of(codec_of(format), bytes, FileWorkers(alone, FileWorkers::serial));
+  for (const std::size_t part_bytes : {std::size_t{1}, 2 + bytes.size() % 61, FileWorkers::whole}) {
+    require(test_support::reading_of(codec_of(format), bytes, FileWorkers(alone, part_bytes)) == serial,
+            "in parts of " + std::to_string(part_bytes) + " bytes, another document or error");
+  }
+}
+
 void check_conversion(const MeshDocument& document, FileFormat target) {
   const std::string what = "as " + std::string(to_string(target));
   const MemoryFile file;
@@ -228,6 +240,7 @@ void check_conversion(const MeshDocument& document, FileFormat target) {
 void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   const std::string bytes(input.begin(), input.end());
   MeshDocument document;
+  check_parts(format, bytes);
   try {
     document = codec_of(format).read(input_path, bytes);
   } catch (const ReadError&) {

@@ -14,6 +14,7 @@
 
 using trismooth::CoordinateEncoding;
 using trismooth::CoordinateSites;
+using trismooth::FileWorkers;
 using trismooth::ScalarType;
 using trismooth::write_patched;
 
@@ -22,8 +23,15 @@ namespace {
 std::string patched(const std::string& bytes, const CoordinateSites& sites, const std::vector<double>& points,
                     std::string_view suffix = {}) {
   const ScratchFolder folder;
-  write_patched(folder / "out", bytes, sites, points, suffix);
-  return bytes_of(folder / "out");
+  trismooth::Workers alone(1);
+  write_patched(folder / "out", bytes, sites, points, suffix, FileWorkers(alone));
+  std::string whole = bytes_of(folder / "out");
+  trismooth::Workers two(2);
+  for (const std::size_t part_bytes : {1, 40, 100}) {
+    write_patched(folder / "parts", bytes, sites, points, suffix, FileWorkers(two, part_bytes));
+    CHECK(bytes_of(folder / "parts") == whole);
+  }
+  return whole;
 }
 
 /// The bytes of a number, most significant first where `big` is set; by shifts, on any machine.
@@ -114,10 +122,11 @@ TEST_CASE("binary coordinates keep their width and byte order") {
 
 TEST_CASE("a place that cannot be written is named") {
   const ScratchFolder folder;
-  const std::string message =
-      message_of<trismooth::WriteError>([&] { write_patched(folder / "none/out", "0 0 0", {}, {}); });
+  trismooth::Workers alone(1);
+  const std::string message = message_of<trismooth::WriteError>(
+      [&] { write_patched(folder / "none/out", "0 0 0", {}, {}, {}, FileWorkers(alone)); });
   CHECK(message.find((folder / "none/out").string()) == 0);
   if (std::filesystem::exists("/dev/full")) {
-    CHECK_THROWS_AS(write_patched("/dev/full", "0 0 0", {}, {}), trismooth::WriteError);
+    CHECK_THROWS_AS(write_patched("/dev/full", "0 0 0", {}, {}, {}, FileWorkers(alone)), trismooth::WriteError);
   }
 }

@@ -32,7 +32,7 @@ constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 class FailingOriginal : public trismooth::OriginalFile {
  public:
   void write(const fs::path& path, const MeshDocument&, std::span<const trismooth::DataArray>,
-             std::span<const trismooth::DataArray>) const override {
+             std::span<const trismooth::DataArray>, trismooth::Workers&) const override {
     std::ofstream(path) << "half of it";
     throw WriteError(path, "the disk is full");
   }

@@ -9,6 +9,7 @@
 #include "vtk_legacy_files.h"
 
 using namespace legacy_test;
+using trismooth::FileWorkers;
 using trismooth::MeshDocument;
 using trismooth::read_mesh;
 using trismooth::read_vtk_legacy;
@@ -39,7 +40,8 @@ std::string error_of(const std::string& bytes) {
 void read_hostile(const std::string& bytes) {
   try {
     trismooth::VtkLegacyLayout layout;
-    const MeshDocument document = read_vtk_legacy("hostile.vtk", bytes, layout);
+    trismooth::Workers alone(1);
+    const MeshDocument document = read_vtk_legacy("hostile.vtk", bytes, FileWorkers(alone, 64), layout);
     REQUIRE(document.cells.offsets.size() == document.cells.size() + 1);
     REQUIRE(std::ranges::is_sorted(document.cells.offsets));
     REQUIRE(document.cells.offsets.back() == static_cast<std::int64_t>(document.cells.connectivity.size()));
@@ -214,7 +216,9 @@ TEST_CASE("legacy VTK: a file that ends anywhere is read with all points and cel
   for (std::size_t size = 0; size < file.bytes().size(); ++size) {
     try {
       trismooth::VtkLegacyLayout layout;
-      const MeshDocument document = read_vtk_legacy("cut.vtk", file.bytes().substr(0, size), layout);
+      trismooth::Workers alone(1);
+      const MeshDocument document =
+          read_vtk_legacy("cut.vtk", file.bytes().substr(0, size), FileWorkers(alone, 64), layout);
       REQUIRE(document.point_count() == 9);
       REQUIRE(document.cells.size() == 7);
       REQUIRE(document.cells.offsets.size() == 8);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <sys/mman.h>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/bytes/memory_block.h"
+
+namespace trismooth {
+
+/// Makes the system hand out memory that is to be filled, by all workers: what costs most of the time of filling new
+/// memory. Changes no byte. Without effect where the system cannot do it.
+inline void populate_memory(const void* begin, std::size_t bytes, Workers& workers) {
+  prefer_large_pages(begin, bytes);
+#ifdef MADV_POPULATE_WRITE
+  constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+  const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page;
+  if (workers.count() > 1 && first + 1 < last) {
+    workers.for_blocks(static_cast<std::int64_t>(last - first), 1, [first](std::int64_t from, std::int64_t to) {
+      const std::uintptr_t at = (first + static_cast<std::uintptr_t>(from)) * page;
+      ::madvise(reinterpret_cast<void*>(at), static_cast<std::size_t>(to - from) * page, MADV_POPULATE_WRITE);
+    });
+  }
+#endif
+}
+
+/// values.resize(size) for many values.
+template <class T>
+void shared_resize(std::vector<T>& values, std::size_t size, Workers& workers) {
+  if (size > values.capacity()) {
+    values.reserve(size);
+    populate_memory(values.data() + values.size(), (size - values.size()) * sizeof(T), workers);
+  }
+  values.resize(size);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,14 @@
+#include "trismooth/mesh_io/mesh_document.h"
+
+#include "trismooth/base/workers.h"
+
+namespace trismooth {
+
+void OriginalFile::write(const std::filesystem::path& path, const MeshDocument& document,
+                         std::span<const DataArray> added_point_arrays,
+                         std::span<const DataArray> added_cell_arrays) const {
+  Workers alone(1);
+  write(path, document, added_point_arrays, added_cell_arrays, alone);
+}
+
+}  // namespace trismooth
