@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
+
 namespace trismooth {
 
 namespace {
@@ -29,6 +31,21 @@ void store(std::byte* bytes, std::uint8_t a, std::uint8_t b, std::uint8_t c, std
   bytes[0] = static_cast<std::byte>((a << 2) | (b >> 4));
   bytes[1] = static_cast<std::byte>(((b & 15) << 4) | (c >> 2));
   bytes[2] = static_cast<std::byte>(((c & 3) << 6) | d);
+}
+
+/// Decodes groups of four characters up to the first one that holds another character; how many those are.
+std::size_t decode_plain_groups(const char* text, std::size_t groups, std::byte* bytes) {
+  for (std::size_t group = 0; group < groups; ++group, text += 4, bytes += 3) {
+    const std::uint8_t a = base64_value_at(text);
+    const std::uint8_t b = base64_value_at(text + 1);
+    const std::uint8_t c = base64_value_at(text + 2);
+    const std::uint8_t d = base64_value_at(text + 3);
+    if ((a | b | c | d) > 63) {
+      return group;
+    }
+    store(bytes, a, b, c, d);
+  }
+  return groups;
 }
 
 bool is_space(char c) {
@@ -96,23 +113,11 @@ bool EncodedBytes::read(std::byte* bytes, std::size_t count) {
       continue;
     }
     // Whole groups without white space or padding, which is nearly all there is.
-    const char* text = text_.data() + position_;
-    std::size_t groups = padded_ ? 0 : std::min(count / 3, (text_.size() - position_) / 4);
-    while (groups > 0) {
-      const std::uint8_t a = base64_value_at(text);
-      const std::uint8_t b = base64_value_at(text + 1);
-      const std::uint8_t c = base64_value_at(text + 2);
-      const std::uint8_t d = base64_value_at(text + 3);
-      if ((a | b | c | d) > 63) {
-        break;
-      }
-      store(bytes, a, b, c, d);
-      text += 4;
-      bytes += 3;
-      count -= 3;
-      --groups;
-    }
-    position_ = static_cast<std::size_t>(text - text_.data());
+    const std::size_t groups = padded_ ? 0 : std::min(count / 3, (text_.size() - position_) / 4);
+    const std::size_t decoded = decode_plain_groups(text_.data() + position_, groups, bytes);
+    bytes += 3 * decoded;
+    count -= 3 * decoded;
+    position_ += 4 * decoded;
     if (count > 0) {
       carried_begin_ = 0;
       if (!decode_group(carried_.data(), carried_end_)) {
@@ -121,6 +126,36 @@ bool EncodedBytes::read(std::byte* bytes, std::size_t count) {
     }
   }
   return true;
+}
+
+/// Decodes whole groups of four characters where they all are plain; the bytes that this gave.
+std::size_t EncodedBytes::decode_groups(std::byte* bytes, std::size_t groups, const FileWorkers& workers) {
+  const char* const text = text_.data() + position_;
+  const bool plain = all_file_blocks(workers, groups, 4, [&](std::size_t begin, std::size_t end) {
+    return decode_plain_groups(text + 4 * begin, end - begin, bytes + 3 * begin) == end - begin;
+  });
+  if (!plain) {
+    return 0;
+  }
+  position_ += 4 * groups;
+  return 3 * groups;
+}
+
+bool EncodedBytes::append_to(MemoryBlock& block, std::size_t count, const FileWorkers& workers) {
+  if (encoding_ == Encoding::raw && count <= text_.size() - position_) {
+    append_shared(block, text_.data() + position_, count, workers);
+    position_ += count;
+    return true;
+  }
+  block.reserve_more(count);
+  std::byte* const bytes = block.extend(count);
+  const std::size_t carried = std::min(count, carried_end_ - carried_begin_);
+  if (encoding_ == Encoding::raw || padded_ || !read(bytes, carried)) {
+    return read(bytes, count);
+  }
+  const std::size_t groups = std::min((count - carried) / 3, (text_.size() - position_) / 4);
+  const std::size_t decoded = carried + decode_groups(bytes + carried, groups, workers);
+  return read(bytes + decoded, count - decoded);
 }
 
 std::string_view EncodedBytes::view(std::size_t count) {

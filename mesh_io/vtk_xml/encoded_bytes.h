@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <string_view>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
+#include "trismooth/mesh_io/bytes/memory_block.h"
+
 namespace trismooth {
 
 /// Reads bytes that stand in a text as base64 or as they are. White space within base64 is skipped. Every read says
@@ -21,6 +24,9 @@ class EncodedBytes {
   /// Copies the next `count` bytes to `bytes`.
   bool read(std::byte* bytes, std::size_t count);
 
+  /// The same to the end of `block`, by all workers. The block is `count` bytes longer then, in any case.
+  bool append_to(MemoryBlock& block, std::size_t count, const FileWorkers& workers);
+
   /// The next `count` bytes where they stand, for raw bytes only.
   std::string_view view(std::size_t count);
 
@@ -35,6 +41,7 @@ class EncodedBytes {
   std::string_view rest() const { return text_.substr(position_); }
 
  private:
+  std::size_t decode_groups(std::byte* bytes, std::size_t groups, const FileWorkers& workers);
   bool decode_group(std::byte* bytes, std::size_t& count);
 
   std::string_view text_;

@@ -74,21 +74,34 @@ OutputStreamBuffer::pos_type OutputStreamBuffer::seekpos(pos_type position, std:
   return position;
 }
 
+std::streamsize OutputStreamBuffer::xsputn(const char* characters, std::streamsize count) {
+  if (count < static_cast<std::streamsize>(block_.size())) {
+    return std::streambuf::xsputn(characters, count);
+  }
+  write_block();
+  write_out(characters, static_cast<std::size_t>(count));
+  return count;
+}
+
 void OutputStreamBuffer::write_block() {
-  const char* from = pbase();
-  off_type at = block_start_;
-  while (error_ == 0 && from != pptr()) {
-    const ssize_t written = ::pwrite(descriptor_, from, static_cast<std::size_t>(pptr() - from), at);
+  write_out(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+  setp(block_.data(), block_.data() + block_.size());
+}
+
+/// Writes where the block goes, and moves that place on.
+void OutputStreamBuffer::write_out(const char* from, std::size_t count) {
+  const off_type end = block_start_ + static_cast<off_type>(count);
+  while (error_ == 0 && block_start_ != end) {
+    const ssize_t written = ::pwrite(descriptor_, from, static_cast<std::size_t>(end - block_start_), block_start_);
     if (written >= 0) {
       from += written;
-      at += written;
+      block_start_ += written;
     } else if (errno != EINTR) {
       error_ = errno;
     }
   }
-  block_start_ = position();
+  block_start_ = end;
   size_ = std::max(size_, block_start_);
-  setp(block_.data(), block_.data() + block_.size());
 }
 
 }  // namespace trismooth

@@ -21,12 +21,14 @@ class OutputStreamBuffer final : public std::streambuf {
 
  protected:
   int_type overflow(int_type character) override;
+  std::streamsize xsputn(const char* characters, std::streamsize count) override;
   pos_type seekoff(off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode which) override;
   pos_type seekpos(pos_type position, std::ios_base::openmode which) override;
 
  private:
   off_type position() const { return block_start_ + (pptr() - pbase()); }
   void write_block();
+  void write_out(const char* from, std::size_t count);
 
   std::filesystem::path path_;
   std::vector<char> block_;

@@ -5,21 +5,29 @@
 
 #include <vtkCellArray.h>
 
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
+
 namespace trismooth {
 
 namespace {
 
 template <class Index>
-void append_indices(std::span<const Index> offsets, std::span<const Index> connectivity, CellList& cells) {
-  const auto base = static_cast<std::int64_t>(cells.connectivity.size());
-  cells.offsets.reserve(cells.offsets.size() + offsets.size() - 1);
-  for (const Index offset : offsets.subspan(1)) {
-    cells.offsets.push_back(base + static_cast<std::int64_t>(offset));
-  }
-  cells.connectivity.reserve(cells.connectivity.size() + connectivity.size());
-  for (const Index vertex : connectivity) {
-    cells.connectivity.push_back(static_cast<std::int32_t>(vertex));
-  }
+void append_indices(std::span<const Index> offsets, std::span<const Index> connectivity, const FileWorkers& workers,
+                    CellList& cells) {
+  const std::size_t base = cells.connectivity.size();
+  const std::size_t first_cell = cells.offsets.size();
+  shared_resize(cells.offsets, first_cell + offsets.size() - 1, workers.workers);
+  for_file_blocks(workers, offsets.size() - 1, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      cells.offsets[first_cell + i] = static_cast<std::int64_t>(base) + static_cast<std::int64_t>(offsets[i + 1]);
+    }
+  });
+  shared_resize(cells.connectivity, base + connectivity.size(), workers.workers);
+  for_file_blocks(workers, connectivity.size(), sizeof(std::int32_t), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      cells.connectivity[base + i] = static_cast<std::int32_t>(connectivity[i]);
+    }
+  });
 }
 
 template <class Array>
@@ -28,14 +36,14 @@ auto values_of(Array* array) {
   return std::span<const Value>(array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfValues()));
 }
 
-void append_indices(vtkCellArray& from, CellList& cells) {
+void append_indices(vtkCellArray& from, const FileWorkers& workers, CellList& cells) {
   if (from.GetNumberOfCells() == 0) {
     return;
   }
   if (from.IsStorage64Bit()) {
-    append_indices(values_of(from.GetOffsetsArray64()), values_of(from.GetConnectivityArray64()), cells);
+    append_indices(values_of(from.GetOffsetsArray64()), values_of(from.GetConnectivityArray64()), workers, cells);
   } else {
-    append_indices(values_of(from.GetOffsetsArray32()), values_of(from.GetConnectivityArray32()), cells);
+    append_indices(values_of(from.GetOffsetsArray32()), values_of(from.GetConnectivityArray32()), workers, cells);
   }
 }
 
@@ -79,14 +87,15 @@ std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices) {
   return vertices == 3 ? cell_type::triangle : vertices == 4 ? cell_type::quad : cell_type::polygon;
 }
 
-void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, CellList& cells) {
-  append_indices(from, cells);
+void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, const FileWorkers& workers,
+                  CellList& cells) {
+  append_indices(from, workers, cells);
   cells.types.insert(cells.types.end(), types.begin(), types.end());
 }
 
-void append_cells(vtkCellArray& from, PolyDataGroup group, CellList& cells) {
+void append_cells(vtkCellArray& from, PolyDataGroup group, const FileWorkers& workers, CellList& cells) {
   const std::size_t first = cells.size();
-  append_indices(from, cells);
+  append_indices(from, workers, cells);
   cells.types.reserve(cells.offsets.size() - 1);
   for (std::size_t cell = first; cell + 1 < cells.offsets.size(); ++cell) {
     cells.types.push_back(cell_type_of(group, static_cast<std::size_t>(cells.offsets[cell + 1] - cells.offsets[cell])));

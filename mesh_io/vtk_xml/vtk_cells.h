@@ -8,6 +8,7 @@
 
 #include <vtkCellArray.h>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -26,7 +27,7 @@ std::optional<PolyDataGroup> poly_data_group_of(std::uint8_t type);
 std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices);
 
 /// Appends the cells of a VTK cell array whose indices fit 32 bits; one type a cell, or those of the group.
-void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, CellList& cells);
-void append_cells(vtkCellArray& from, PolyDataGroup group, CellList& cells);
+void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, const FileWorkers& workers, CellList& cells);
+void append_cells(vtkCellArray& from, PolyDataGroup group, const FileWorkers& workers, CellList& cells);
 
 }  // namespace trismooth

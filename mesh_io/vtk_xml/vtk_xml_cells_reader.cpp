@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/document/cell_size.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -32,6 +34,53 @@ bool is_unsupported(std::uint8_t type) {
 template <class Index>
 std::span<Index> values_from(MemoryBlock& block, std::size_t first) {
   return std::span(reinterpret_cast<Index*>(block.data()), block.size() / sizeof(Index)).subspan(first);
+}
+
+template <class Index>
+bool rise_from_zero(std::span<const Index> offsets, const FileWorkers& workers) {
+  return all_file_blocks(workers, offsets.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
+    Index last = begin == 0 ? Index{0} : offsets[begin - 1];
+    bool rise = true;
+    for (const Index offset : offsets.subspan(begin, end - begin)) {
+      rise = rise && last <= offset;
+      last = offset;
+    }
+    return rise;
+  });
+}
+
+template <class Index>
+bool are_below(std::span<const Index> indices, std::uint64_t limit, const FileWorkers& workers) {
+  using Unsigned = std::make_unsigned_t<Index>;
+  return all_file_blocks(workers, indices.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
+    Unsigned highest = 0;  // a negative one is higher than any limit
+    for (const Index index : indices.subspan(begin, end - begin)) {
+      highest = std::max(highest, static_cast<Unsigned>(index));
+    }
+    return begin == end || highest < limit;
+  });
+}
+
+/// True where every cell is of a type that is supported and has as many vertices as that asks for.
+template <class Index>
+bool have_their_sizes(const Index* offsets, std::span<const std::uint8_t> types, const FileWorkers& workers) {
+  return all_file_blocks(workers, types.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      const auto vertices = static_cast<std::size_t>(offsets[cell + 1] - offsets[cell]);
+      if (is_unsupported(types[cell]) || !cell_size_of(types[cell]).allows(vertices)) {
+        return false;
+      }
+    }
+    return true;
+  });
+}
+
+bool have_their_sizes(vtkCellArray& cells, std::span<const std::uint8_t> types, const FileWorkers& workers) {
+  if (types.empty() || cells.GetNumberOfCells() != static_cast<vtkIdType>(types.size())) {
+    return types.empty();
+  }
+  return cells.IsStorage64Bit() ? have_their_sizes(cells.GetOffsetsArray64()->GetPointer(0), types, workers)
+                                : have_their_sizes(cells.GetOffsetsArray32()->GetPointer(0), types, workers);
 }
 
 }  // namespace
@@ -114,7 +163,12 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::join_cells(const std::string& s
       append_integers<Index>(*arrays.offsets, counts[i], offsets, VtkXmlDecoder::Surplus::refused);
       Index last = 0;
       std::size_t cell = 0;
-      for (Index& offset : values_from<Index>(offsets, first_offset)) {
+      std::span<Index> to_check = values_from<Index>(offsets, first_offset);
+      if (first_index == 0 && rise_from_zero<Index>(to_check, workers_)) {
+        last = to_check.back();
+        to_check = {};
+      }
+      for (Index& offset : to_check) {
         if (offset < last) {
           throw ReadError(path_, arrays.offsets->line,
                           "the offsets of <" + section + "> fall from " + std::to_string(last) + " to " +
@@ -130,7 +184,11 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::join_cells(const std::string& s
       }
       append_integers<Index>(*arrays.connectivity, static_cast<std::uint64_t>(last), connectivity,
                              VtkXmlDecoder::Surplus::noted);
-      for (Index& vertex : values_from<Index>(connectivity, first_index)) {
+      to_check = values_from<Index>(connectivity, first_index);
+      if (first_point == 0 && are_below<Index>(to_check, pieces_[i].points, workers_)) {
+        to_check = {};
+      }
+      for (Index& vertex : to_check) {
         if (std::cmp_less(vertex, 0) || std::cmp_greater_equal(vertex, pieces_[i].points)) {
           throw ReadError(path_, arrays.connectivity->line,
                           "a cell of <" + section + "> has the point index " + std::to_string(vertex) + "; there are " +
@@ -215,7 +273,8 @@ vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray
     losses_.emplace_back("the cell types are written as UInt8");
   }
   const std::span<const std::uint8_t> values = values_from<std::uint8_t>(types, 0);
-  for (std::size_t cell = 0; cell < values.size(); ++cell) {
+  const bool all_fit = have_their_sizes(cells, values, workers_);
+  for (std::size_t cell = 0; cell < values.size() && !all_fit; ++cell) {
     const auto vertices = static_cast<std::size_t>(cells.GetCellSize(static_cast<vtkIdType>(cell)));
     if (is_unsupported(values[cell])) {
       throw ReadError(path_, "cell " + std::to_string(cell) + " has type " + std::to_string(values[cell]) +

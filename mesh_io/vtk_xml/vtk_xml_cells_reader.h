@@ -21,8 +21,8 @@ class VtkXmlCellsReader {
  public:
   /// All arguments must outlive the reader. What cannot be kept as it was gives a sentence in `losses`.
   VtkXmlCellsReader(const std::filesystem::path& path, std::span<const VtkXmlPiece> pieces, VtkXmlDecoder& decoder,
-                    std::vector<std::string>& losses)
-      : path_(path), pieces_(pieces), decoder_(decoder), losses_(losses) {}
+                    const FileWorkers& workers, std::vector<std::string>& losses)
+      : path_(path), pieces_(pieces), decoder_(decoder), workers_(workers), losses_(losses) {}
 
   /// The cells in the elements of that name ("Cells", "Polys", ...), of which piece i has counts[i]. Offsets rise,
   /// and every index is one of a point. 32-bit indices where the file has no others. Throws ReadError.
@@ -49,6 +49,7 @@ class VtkXmlCellsReader {
   const std::filesystem::path& path_;
   std::span<const VtkXmlPiece> pieces_;
   VtkXmlDecoder& decoder_;
+  FileWorkers workers_;
   std::vector<std::string>& losses_;
 };
 

@@ -27,6 +27,7 @@
 
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
@@ -97,7 +98,12 @@ void set_points_and_arrays(vtkPointSet& data, const MeshDocument& document, std:
 
 class VtkXmlOriginal : public OriginalFile {
  public:
-  explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {}
+  /// The document holds the coordinates: here is kept what else the file says of them.
+  explicit VtkXmlOriginal(VtkXmlFile file) : file_(std::move(file)) {
+    vtkDataArray* const points = file_.data->GetPoints()->GetData();
+    point_value_count_ = points->GetNumberOfValues();
+    points->Initialize();
+  }
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
@@ -105,7 +111,7 @@ class VtkXmlOriginal : public OriginalFile {
     const vtkSmartPointer<vtkPointSet> copy = shallow_copy(*file_.data);
     vtkDataArray* const old_points = file_.data->GetPoints()->GetData();
     const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
-    if (points->GetNumberOfValues() != old_points->GetNumberOfValues()) {
+    if (points->GetNumberOfValues() != point_value_count_) {
       throw WriteError(path, "the mesh has not the points of the file that was read");
     }
     points->SetName(old_points->GetName());
@@ -127,37 +133,44 @@ class VtkXmlOriginal : public OriginalFile {
 
  private:
   VtkXmlFile file_;
+  vtkIdType point_value_count_;
 };
 
-void copy_points(const std::filesystem::path& path, vtkPointSet& data, MeshDocument& document) {
+void copy_points(const std::filesystem::path& path, vtkPointSet& data, const FileWorkers& workers,
+                 MeshDocument& document) {
   vtkDataArray* const array = data.GetPoints()->GetData();
   const std::optional<DataArray> view = view_as_data_array(array);
   document.point_type = view->type;
   document.points_description = view->description;
-  document.points.resize(view->bytes.size() / size_of(view->type));
-  if (view->type == ScalarType::float64) {
-    std::ranges::copy(view->as<double>(), document.points.begin());
-  } else {
-    std::ranges::copy(view->as<float>(), document.points.begin());
-  }
-  const auto bad = std::ranges::find_if_not(document.points, [](double x) { return std::isfinite(x); });
-  if (bad != document.points.end()) {
-    throw ReadError(path, "point " + std::to_string((bad - document.points.begin()) / 3) + " is not finite");
-  }
+  shared_resize(document.points, view->bytes.size() / size_of(view->type), workers.workers);
+  const auto copy = [&](auto values) {
+    const auto is_finite = [](auto x) { return std::isfinite(x); };
+    const bool all_finite =
+        all_file_blocks(workers, values.size(), sizeof(double), [&](std::size_t begin, std::size_t end) {
+          const auto block = values.subspan(begin, end - begin);
+          std::ranges::copy(block, document.points.begin() + static_cast<std::ptrdiff_t>(begin));
+          return std::ranges::all_of(block, is_finite);
+        });
+    if (!all_finite) {
+      const auto bad = std::ranges::find_if_not(values, is_finite);
+      throw ReadError(path, "point " + std::to_string((bad - values.begin()) / 3) + " is not finite");
+    }
+  };
+  view->type == ScalarType::float64 ? copy(view->as<double>()) : copy(view->as<float>());
 }
 
-void copy_cells(vtkPointSet& data, CellList& cells) {
+void copy_cells(vtkPointSet& data, const FileWorkers& workers, CellList& cells) {
   if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(&data)) {
     vtkUnsignedCharArray* const types = grid->GetCellTypesArray();
     const auto count = static_cast<std::size_t>(types->GetNumberOfValues());
-    append_cells(*grid->GetCells(), std::span(types->GetPointer(0), count), cells);
+    append_cells(*grid->GetCells(), std::span(types->GetPointer(0), count), workers, cells);
     return;
   }
   auto& poly_data = *vtkPolyData::SafeDownCast(&data);
-  append_cells(*poly_data.GetVerts(), PolyDataGroup::verts, cells);
-  append_cells(*poly_data.GetLines(), PolyDataGroup::lines, cells);
-  append_cells(*poly_data.GetPolys(), PolyDataGroup::polys, cells);
-  append_cells(*poly_data.GetStrips(), PolyDataGroup::strips, cells);
+  append_cells(*poly_data.GetVerts(), PolyDataGroup::verts, workers, cells);
+  append_cells(*poly_data.GetLines(), PolyDataGroup::lines, workers, cells);
+  append_cells(*poly_data.GetPolys(), PolyDataGroup::polys, workers, cells);
+  append_cells(*poly_data.GetStrips(), PolyDataGroup::strips, workers, cells);
 }
 
 /// What of the descriptions a data set does not get, found by giving them to arrays without numbers of their own.
@@ -226,18 +239,18 @@ std::vector<LabelArray> labels_of(vtkFieldData& fields) {
 }
 
 template <VtkXmlKind kind>
-MeshDocument read(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
+MeshDocument read(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
   try {
     constexpr std::size_t for_buffers = std::size_t{4} << 20;
     require_host_memory(2 * bytes.size() + for_buffers);  // what VTK's arrays take at least
-    VtkXmlFile file = read_vtk_xml(path, bytes, kind);
+    VtkXmlFile file = read_vtk_xml(path, bytes, kind, workers);
     // The bytes go before the cells come: not both in memory at once.
     bytes = FileBytes();
     MeshDocument document;
     document.losses = std::move(file.losses);
     document.notes = std::move(file.notes);
-    copy_points(path, *file.data, document);
-    copy_cells(*file.data, document.cells);
+    copy_points(path, *file.data, workers, document);
+    copy_cells(*file.data, workers, document.cells);
     document.point_arrays = views_of(*file.data->GetPointData(), "point", file.encoding.mode, document.notes);
     document.cell_arrays = views_of(*file.data->GetCellData(), "cell", file.encoding.mode, document.notes);
     document.cell_labels = labels_of(*file.data->GetCellData());

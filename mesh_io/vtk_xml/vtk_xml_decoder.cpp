@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +16,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
 
@@ -105,10 +108,11 @@ std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
 }  // namespace
 
 VtkXmlDecoder::VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header,
-                             std::vector<std::string>& losses)
+                             const FileWorkers& workers, std::vector<std::string>& losses)
     : path_(std::move(path)),
       bytes_(bytes),
       header_(header),
+      workers_(workers),
       losses_(losses),
       compressor_(make_vtk_compressor(header.encoding.compressor)) {
   if (compressor_ != nullptr) {
@@ -216,8 +220,8 @@ bool VtkXmlDecoder::read_plain(const XmlElement& array, EncodedBytes& source, st
     fail(array,
          "declares " + counted(size) + " bytes of data, but has " + counted(source.most_available()) + " at most");
   }
-  bytes.reserve_more(size);
-  if (!source.read(bytes.extend(size), size) || !source.end_run()) {
+  const bool complete = source.append_to(bytes, size, workers_);
+  if (!complete || !source.end_run()) {
     fail(array, "is not base64 of its " + counted(size) + " bytes");
   }
   return expected && size > *expected;
@@ -258,6 +262,80 @@ void VtkXmlDecoder::uncompress_block(const XmlElement& array, EncodedBytes& sour
   }
 }
 
+/// Uncompresses the first blocks, `wanted` at most, on all workers; how many those were. At the first one with anything
+/// wrong in it, or before, it leaves off, and `source` stands there.
+std::size_t VtkXmlDecoder::uncompress_shared(EncodedBytes& source, const std::vector<std::uint64_t>& compressed_sizes,
+                                             std::uint64_t block_size, std::uint64_t last_size, std::size_t wanted,
+                                             MemoryBlock& bytes) const {
+  constexpr std::size_t blocks_a_worker = 8;  // at a time: no more memory is taken than what has been decoded asks for
+  constexpr std::uint64_t most_block_bytes = std::uint64_t{1} << 24;  // more than any writer makes of one block
+  if (workers_.part_bytes == FileWorkers::whole || workers_.part_bytes == FileWorkers::serial ||
+      block_size > most_block_bytes || block_size == 0) {
+    return 0;
+  }
+  struct Uncompressor {
+    vtkSmartPointer<vtkDataCompressor> compressor;
+    VtkMessages messages;
+  };
+  std::vector<std::unique_ptr<Uncompressor>> uncompressors;
+  for (int i = 0; i < workers_.workers.count(); ++i) {
+    uncompressors.push_back(std::make_unique<Uncompressor>());
+    uncompressors.back()->compressor = make_vtk_compressor(header_.encoding.compressor);
+    uncompressors.back()->messages.watch(uncompressors.back()->compressor);
+  }
+  for (std::size_t done = 0;;) {
+    const std::size_t count = std::min(blocks_a_worker * uncompressors.size(), wanted - done);
+    const EncodedBytes source_before = source;
+    const std::size_t size_before = bytes.size();
+    std::vector<std::size_t> compressed_begins{0};
+    std::vector<std::size_t> begins{0};
+    bool sound = true;
+    for (std::size_t block = done; block < done + count && sound; ++block) {
+      const std::uint64_t compressed_size = compressed_sizes[block];
+      const std::uint64_t size = block + 1 == compressed_sizes.size() ? last_size : block_size;
+      sound = compressed_size <= most_block_bytes &&
+              compressed_size <= source.most_available() - compressed_begins.back() && size > 0 &&
+              size <= saturating_product(compressed_size, most_expansion(header_.encoding.compressor)) + 64;
+      compressed_begins.push_back(compressed_begins.back() + compressed_size);
+      begins.push_back(begins.back() + size);
+    }
+    if (count == 0 || !sound) {
+      return done;
+    }
+    MemoryBlock compressed;
+    if (source.append_to(compressed, compressed_begins.back(), workers_)) {
+      auto* const target = reinterpret_cast<unsigned char*>(bytes.extend(begins.back()));
+      const auto* const from = reinterpret_cast<const unsigned char*>(compressed.data());
+      std::atomic<std::size_t> next_block = 0;
+      std::atomic<bool> failed = false;
+      const auto uncompress = [&](Uncompressor& one) {
+        for (std::size_t i = next_block++; i < count && !failed; i = next_block++) {
+          const std::size_t size = begins[i + 1] - begins[i];
+          one.messages.clear();
+          if (one.compressor->Uncompress(from + compressed_begins[i], compressed_begins[i + 1] - compressed_begins[i],
+                                         target + begins[i], size) != size ||
+              !one.messages.first_error().empty()) {
+            failed = true;
+          }
+        }
+      };
+      workers_.workers.for_blocks(static_cast<std::int64_t>(uncompressors.size()), 1,
+                                  [&](std::int64_t first, std::int64_t last) {
+                                    for (std::int64_t i = first; i < last; ++i) {
+                                      uncompress(*uncompressors[static_cast<std::size_t>(i)]);
+                                    }
+                                  });
+      if (!failed) {
+        done += count;
+        continue;
+      }
+    }
+    bytes.truncate(size_before);
+    source = source_before;
+    return done;
+  }
+}
+
 bool VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
                                     std::optional<std::uint64_t> expected, MemoryBlock& bytes) {
   const std::vector<std::uint64_t> header = read_header_words(array, source, 3);
@@ -275,7 +353,10 @@ bool VtkXmlDecoder::read_compressed(const XmlElement& array, EncodedBytes& sourc
   const std::uint64_t total = blocks == 0 ? 0 : whole_blocks + std::min(last_size, ~whole_blocks);
   check_size(array, total, word_size, expected);
   const std::size_t begin = bytes.size();
-  for (std::size_t block = 0; block < blocks; ++block) {
+  const std::uint64_t wanted = expected && block_size > 0 ? *expected / block_size : blocks;
+  std::size_t block = uncompress_shared(source, compressed_sizes, block_size, last_size,
+                                        static_cast<std::size_t>(std::min(wanted, blocks)), bytes);
+  for (; block < blocks; ++block) {
     if (expected && bytes.size() - begin >= *expected) {
       compressed_block(array, source, compressed_sizes[block]);  // of what nobody asked for
       continue;
@@ -351,6 +432,23 @@ void VtkXmlDecoder::check_empty_arrays() {
   }
 }
 
+/// Exactly `count` numbers; false, and nothing done, where there is anything else or more.
+template <class T>
+bool VtkXmlDecoder::read_plain_numbers(const XmlElement& array, std::uint64_t count, MemoryBlock& numbers) {
+  const std::size_t size_before = numbers.size();
+  auto* const values = reinterpret_cast<T*>(numbers.extend(count * sizeof(T)));
+  PlainRows rows(text_of(array), workers_);
+  const auto end = rows.read(0, count, 1, [values](PlainNumbers& text, std::size_t first, std::size_t last) {
+    return std::all_of(values + first, values + last, [&text](T& value) { return text.next(value); });
+  });
+  std::string_view rest = text_of(array).substr(end ? end->offset : 0);
+  if (!end || !take_token(rest).empty()) {
+    numbers.truncate(size_before);
+    return false;
+  }
+  return true;
+}
+
 template <class T>
 void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers,
                                       Surplus surplus) {
@@ -361,6 +459,9 @@ void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std
   }
   if (count) {
     numbers.reserve_more(*count * sizeof(T));
+    if (read_plain_numbers<T>(array, *count, numbers)) {
+      return;
+    }
   }
   std::uint64_t read = 0;
   for (std::string_view token = take_token(text); !token.empty(); token = take_token(text)) {

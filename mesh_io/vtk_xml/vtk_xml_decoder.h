@@ -12,6 +12,7 @@
 #include <vtkDataCompressor.h>
 #include <vtkSmartPointer.h>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
@@ -30,10 +31,10 @@ class VtkXmlDecoder {
   /// What to do with numbers behind those that were asked for. VTK drops them.
   enum class Surplus : bool { noted, refused };
 
-  /// `bytes`, the whole file, and `losses` must outlive the decoder. What of an array is not read gives a sentence in
-  /// `losses`.
+  /// `bytes`, the whole file, `workers` and `losses` must outlive the decoder. What of an array is not read gives a
+  /// sentence in `losses`.
   VtkXmlDecoder(std::filesystem::path path, std::string_view bytes, const VtkXmlHeader& header,
-                std::vector<std::string>& losses);
+                const FileWorkers& workers, std::vector<std::string>& losses);
   ~VtkXmlDecoder();
   VtkXmlDecoder(const VtkXmlDecoder&) = delete;
   VtkXmlDecoder& operator=(const VtkXmlDecoder&) = delete;
@@ -69,6 +70,9 @@ class VtkXmlDecoder {
                   std::optional<std::uint64_t> expected, MemoryBlock& bytes);
   bool read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
                        std::optional<std::uint64_t> expected, MemoryBlock& bytes);
+  std::size_t uncompress_shared(EncodedBytes& source, const std::vector<std::uint64_t>& compressed_sizes,
+                                std::uint64_t block_size, std::uint64_t last_size, std::size_t wanted,
+                                MemoryBlock& bytes) const;
   const unsigned char* compressed_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size);
   void uncompress_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size,
                         std::uint64_t size, MemoryBlock& bytes);
@@ -84,12 +88,15 @@ class VtkXmlDecoder {
   [[noreturn]] void fail_at(const XmlElement& array, const char* place, const std::string& message) const;
 
   template <class T>
+  bool read_plain_numbers(const XmlElement& array, std::uint64_t count, MemoryBlock& numbers);
+  template <class T>
   void read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers,
                          Surplus surplus);
 
   std::filesystem::path path_;
   std::string_view bytes_;
   VtkXmlHeader header_;
+  FileWorkers workers_;
   std::vector<std::string>& losses_;
   std::optional<bool> sizes_apart_;
   VtkMessages messages_;

@@ -124,11 +124,12 @@ void set_component_names(const XmlElement& element, vtkAbstractArray& array) {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind)
+  Reader(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind, const FileWorkers& workers)
       : path_(path),
+        workers_(workers),
         head_(parse_xml_head(path, bytes, "AppendedData", {"InformationKey", "Value"})),
         header_(read_vtk_xml_header(path, bytes, head_, kind)),
-        decoder_(path, bytes, header_, file_.losses) {
+        decoder_(path, bytes, header_, workers, file_.losses) {
     file_.kind = kind;
     file_.encoding = header_.encoding;
     file_.attributes = head_.root.attributes;
@@ -149,6 +150,7 @@ class Reader {
   std::vector<std::uint64_t> poly_data_cell_order() const;
 
   const std::filesystem::path& path_;
+  FileWorkers workers_;
   VtkXmlFile file_;
   XmlHead head_;
   VtkXmlHeader header_;
@@ -326,7 +328,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
     counts.push_back(piece.cells);
   }
   const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
-  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
+  VtkXmlCellsReader reader(path_, pieces_, decoder_, workers_, file_.losses);
   const vtkSmartPointer<vtkCellArray> cells = reader.read_cells("Cells", counts);
   grid->SetCells(reader.read_types(*cells), cells);
   return grid;
@@ -334,7 +336,7 @@ vtkSmartPointer<vtkPointSet> Reader::read_unstructured_grid() {
 
 vtkSmartPointer<vtkPointSet> Reader::read_poly_data() {
   const vtkSmartPointer<vtkPolyData> data = make_poly_data();
-  VtkXmlCellsReader reader(path_, pieces_, decoder_, file_.losses);
+  VtkXmlCellsReader reader(path_, pieces_, decoder_, workers_, file_.losses);
   for (std::size_t i = 0; i < poly_data_groups; ++i) {
     const auto group = static_cast<PolyDataGroup>(i);
     std::vector<std::uint64_t> counts;
@@ -411,8 +413,9 @@ VtkXmlFile Reader::read() {
 
 }  // namespace
 
-VtkXmlFile read_vtk_xml(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind) {
-  return Reader(path, bytes, kind).read();
+VtkXmlFile read_vtk_xml(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind,
+                        const FileWorkers& workers) {
+  return Reader(path, bytes, kind, workers).read();
 }
 
 }  // namespace trismooth

@@ -8,6 +8,7 @@
 #include <vtkPointSet.h>
 #include <vtkSmartPointer.h>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 #include "trismooth/mesh_io/vtk_xml/xml_tree.h"
 
@@ -29,6 +30,7 @@ struct VtkXmlFile {
 /// Points are float32 or float64; whole numbers become float64. Numbers behind those that are asked for and arrays that
 /// are not in every piece are left out. Refused: time steps, polyhedra. Throws ReadError; complexity linear in the
 /// size.
-VtkXmlFile read_vtk_xml(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind);
+VtkXmlFile read_vtk_xml(const std::filesystem::path& path, std::string_view bytes, VtkXmlKind kind,
+                        const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -15,6 +15,7 @@
 #include "trismooth/mesh_io/errors.h"
 
 #include "catch.h"
+#include "support/readings.h"
 #include "support/sanitized.h"
 #include "vtk_xml_samples.h"
 
@@ -297,4 +298,38 @@ TEST_CASE("arrays that share their appended data are refused") {
   const std::string again = R"(<DataArray type="UInt8" Name="b" format="appended" offset="0"/></PointData>)";
   CHECK(message_of(VtkXmlKind::unstructured_grid, replaced(good_raw, "</PointData>", again)).find("overlaps") !=
         std::string::npos);
+}
+
+TEST_CASE("VTU and VTP give the same document in parts of any size, and the same errors when they are damaged") {
+  using test_support::reading_of;
+  using trismooth::FileWorkers;
+  const Silence silence;
+  const VtkXmlKind kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
+  const trismooth::Codec& codec = kind == VtkXmlKind::unstructured_grid ? trismooth::vtu_codec : trismooth::vtp_codec;
+  trismooth::Workers alone(1);
+  trismooth::Workers two(2);
+  for (const VtkXmlEncoding& encoding : some_encodings()) {
+    INFO(to_string(encoding));
+    const std::string bytes = file_of(kind, encoding);
+    const std::string expected = reading_of(codec, bytes, FileWorkers(alone, FileWorkers::serial));
+    CHECK(expected.find("error") == std::string::npos);
+    for (const std::size_t part_bytes : {1UL, 2UL, 3UL, 5UL, 8UL, 20UL, 33UL, 64UL, 100UL, FileWorkers::whole}) {
+      INFO(part_bytes);
+      CHECK(reading_of(codec, bytes, FileWorkers(alone, part_bytes)) == expected);
+      CHECK(reading_of(codec, bytes, FileWorkers(two, part_bytes)) == expected);
+    }
+    std::uint64_t state = 1;
+    const auto below = [&state](std::size_t limit) {
+      state = state * 6364136223846793005U + 1442695040888963407U;
+      return static_cast<std::size_t>(state >> 33) % limit;
+    };
+    for (int round = 0; round < 200; ++round) {
+      std::string damaged = bytes;
+      damaged[below(damaged.size())] = static_cast<char>(below(256));
+      const std::string serial = reading_of(codec, damaged, FileWorkers(alone, FileWorkers::serial));
+      for (const std::size_t part_bytes : {1 + below(8), 1 + below(200), FileWorkers::whole}) {
+        REQUIRE(reading_of(codec, damaged, FileWorkers(alone, part_bytes)) == serial);
+      }
+    }
+  }
 }
