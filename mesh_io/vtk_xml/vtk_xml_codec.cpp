@@ -107,7 +107,7 @@ class VtkXmlOriginal : public OriginalFile {
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
-             Workers& /*workers*/) const override {
+             Workers& workers) const override {
     const vtkSmartPointer<vtkPointSet> copy = shallow_copy(*file_.data);
     vtkDataArray* const old_points = file_.data->GetPoints()->GetData();
     const vtkSmartPointer<vtkDataArray> points = make_points_array(document);
@@ -128,7 +128,7 @@ class VtkXmlOriginal : public OriginalFile {
     }
     add_arrays(added_point_arrays, *copy->GetPointData());
     add_arrays(added_cell_arrays, *copy->GetCellData());
-    write_vtk_xml(path, *copy, file_.encoding, file_.attributes);
+    write_vtk_xml(path, *copy, file_.encoding, file_.attributes, workers);
   }
 
  private:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <ostream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 
 #include <tbb/task_arena.h>
 #include <vtkBase64OutputStream.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -25,6 +28,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -212,9 +216,43 @@ void escape_names(vtkFieldData& fields) {
   }
 }
 
+/// The bytes of the large arrays of the data set that the writer compresses where they stand.
+std::vector<std::span<const std::byte>> numbers_of(vtkPointSet& data) {
+  std::vector<std::span<const std::byte>> all;
+  const auto add = [&all](vtkAbstractArray* array) {
+    if (const auto view = array == nullptr ? std::nullopt : view_as_data_array(array)) {
+      all.push_back(view->bytes);
+    }
+  };
+  add(data.GetPoints()->GetData());
+  for (vtkFieldData* const fields :
+       {static_cast<vtkFieldData*>(data.GetPointData()), static_cast<vtkFieldData*>(data.GetCellData())}) {
+    for (int i = 0; i < fields->GetNumberOfArrays(); ++i) {
+      add(fields->GetAbstractArray(i));
+    }
+  }
+  const auto add_cells = [&add](vtkCellArray* cells) {
+    if (cells == nullptr) {
+      return;
+    }
+    add(cells->GetOffsetsArray());
+    add(cells->GetConnectivityArray());
+  };
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(&data)) {
+    add_cells(grid->GetCells());
+    add(grid->GetCellTypesArray());
+  } else if (auto* const poly_data = vtkPolyData::SafeDownCast(&data)) {
+    for (vtkCellArray* const cells :
+         {poly_data->GetVerts(), poly_data->GetLines(), poly_data->GetPolys(), poly_data->GetStrips()}) {
+      add_cells(cells);
+    }
+  }
+  return all;
+}
+
 template <class Writer>
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, Workers& workers) {
   const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
   VtkMessages messages;
   messages.watch(writer);
@@ -229,7 +267,8 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetEncodeAppendedData(encoding.appended_base64);
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
-  writer->SetCompressor(make_vtk_compressor(encoding.compressor));
+  writer->SetCompressor(workers.count() == 1 ? make_vtk_compressor(encoding.compressor)
+                                             : make_vtk_compressor(encoding.compressor, numbers_of(data), workers));
   writer->set_file_attributes(attributes);
   if (encoding.sizes_apart) {
     writer->encode_sizes_apart();
@@ -245,7 +284,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 }
 
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, Workers& workers) {
   const vtkSmartPointer<vtkPointSet> copy = shallow_copy(data);
   for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
                                      static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
@@ -259,9 +298,9 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
     copy->SetPoints(escaped);
   }
   if (vtkUnstructuredGrid::SafeDownCast(copy) != nullptr) {
-    write_to_stream<vtkXMLUnstructuredGridWriter>(stream, path, *copy, encoding, attributes);
+    write_to_stream<vtkXMLUnstructuredGridWriter>(stream, path, *copy, encoding, attributes, workers);
   } else {
-    write_to_stream<vtkXMLPolyDataWriter>(stream, path, *copy, encoding, attributes);
+    write_to_stream<vtkXMLPolyDataWriter>(stream, path, *copy, encoding, attributes, workers);
   }
 }
 
@@ -269,6 +308,12 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 
 void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
                    const XmlAttributes& attributes) {
+  Workers alone(1);
+  write_vtk_xml(path, data, encoding, attributes, alone);
+}
+
+void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
+                   const XmlAttributes& attributes, Workers& workers) {
   constexpr std::size_t for_buffers = std::size_t{4} << 20;
   constexpr std::size_t kibibyte = 1024;  // what VTK counts in
   require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
@@ -277,7 +322,7 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     // VTK's writer goes back and forth in what it writes; a pipe or a device cannot.
     std::ostringstream text;
-    write_to_stream(text, path, data, encoding, attributes);
+    write_to_stream(text, path, data, encoding, attributes, workers);
     if (!text) {
       throw std::bad_alloc();  // which a string stream keeps to itself
     }
@@ -288,7 +333,7 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
   }
   OutputStreamBuffer file(path);
   std::ostream stream(&file);
-  write_to_stream(stream, path, data, encoding, attributes);
+  write_to_stream(stream, path, data, encoding, attributes, workers);
   file.close();
 }
 

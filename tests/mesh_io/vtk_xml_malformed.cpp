@@ -13,6 +13,7 @@
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
 #include "support/readings.h"
@@ -331,5 +332,25 @@ TEST_CASE("VTU and VTP give the same document in parts of any size, and the same
         REQUIRE(reading_of(codec, damaged, FileWorkers(alone, part_bytes)) == serial);
       }
     }
+  }
+}
+
+TEST_CASE("VTU and VTP are written in the same bytes by any number of threads") {
+  const Silence silence;
+  const VtkXmlKind kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
+  trismooth::Workers alone(1);
+  trismooth::Workers three(3);
+  for (const VtkXmlEncoding& encoding : some_encodings()) {
+    INFO(to_string(encoding));
+    const TemporaryPath file(extension_of(kind));
+    write_with_vtk(*make_grid(kind, 80), file.path(), encoding);  // two blocks and more of 32 KiB
+    MeshDocument document = trismooth::read_mesh(file.path());
+    document.points[0] += 0.125;
+    const TemporaryPath by_one(extension_of(kind));
+    const TemporaryPath by_three(extension_of(kind));
+    trismooth::write_mesh(by_one.path(), document, {}, alone);
+    trismooth::write_mesh(by_three.path(), document, {}, three);
+    CHECK(read_bytes(by_one.path()) == read_bytes(by_three.path()));
+    CHECK(trismooth::read_mesh(by_three.path(), three).points == document.points);
   }
 }
