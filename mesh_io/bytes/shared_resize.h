@@ -28,14 +28,38 @@ inline void populate_memory(const void* begin, std::size_t bytes, Workers& worke
 #endif
 }
 
-/// values.resize(size) for many values.
+/// Room for that many values: values.resize() costs little then.
 template <class T>
-void shared_resize(std::vector<T>& values, std::size_t size, Workers& workers) {
+void shared_reserve(std::vector<T>& values, std::size_t size, Workers& workers) {
   if (size > values.capacity()) {
     values.reserve(size);
     populate_memory(values.data() + values.size(), (size - values.size()) * sizeof(T), workers);
   }
+}
+
+/// values.resize(size) for many values.
+template <class T>
+void shared_resize(std::vector<T>& values, std::size_t size, Workers& workers) {
+  shared_reserve(values, size, workers);
   values.resize(size);
+}
+
+/// The same for two vectors, side by side: one thread alone fills a vector.
+template <class A, class B>
+void shared_resize(std::vector<A>& a, std::size_t size_of_a, std::vector<B>& b, std::size_t size_of_b,
+                   Workers& workers) {
+  constexpr std::size_t worth_two_threads = std::size_t{1} << 17;
+  shared_reserve(a, size_of_a, workers);
+  shared_reserve(b, size_of_b, workers);
+  const std::int64_t grain = size_of_a + size_of_b < worth_two_threads ? 2 : 1;
+  workers.for_blocks(2, grain, [&](std::int64_t first, std::int64_t last) {
+    if (first == 0) {
+      a.resize(size_of_a);
+    }
+    if (last == 2) {
+      b.resize(size_of_b);
+    }
+  });
 }
 
 }  // namespace trismooth

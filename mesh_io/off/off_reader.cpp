@@ -153,8 +153,7 @@ class OffReader {
   }
 
   void read_vertices() {
-    shared_resize(document_.points, 3 * vertex_count_, workers_);
-    shared_resize(sites_.offsets, 3 * vertex_count_, workers_);
+    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_);
     if (vertex_count_ > 0 && keyword_.least_extras() == 0 && read_plain_vertices()) {
       return;
     }
@@ -211,8 +210,7 @@ class OffReader {
       return false;
     }
     CellList& cells = document_.cells;
-    shared_resize(cells.connectivity, degree * face_count_, workers_);
-    shared_resize(cells.offsets, face_count_ + 1, workers_);
+    shared_resize(cells.connectivity, degree * face_count_, cells.offsets, face_count_ + 1, workers_);
     shared_resize(cells.types, face_count_, workers_);
     const auto end =
         plain_rows_.read(scanner_.offset(), face_count_, degree + 1,

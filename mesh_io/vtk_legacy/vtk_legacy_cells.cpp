@@ -70,8 +70,7 @@ class CellsReader {
       return false;
     }
     const std::uint64_t degree = size / cell_count - 1;
-    shared_resize(cells_.connectivity, size - cell_count, input_.workers());
-    shared_resize(cells_.offsets, cell_count + 1, input_.workers());
+    shared_resize(cells_.connectivity, size - cell_count, cells_.offsets, cell_count + 1, input_.workers());
     const bool plain = input_.read_plain_rows(
         cell_count, degree + 1, [this, degree](PlainNumbers& numbers, std::size_t first, std::size_t last) {
           for (std::size_t cell = first; cell < last; ++cell) {

@@ -141,8 +141,7 @@ class GeometryReader {
   template <class T>
   void read_coordinates(std::uint64_t count) {
     input_.begin_values(count, sizeof(T), "coordinates");
-    shared_resize(document_.points, count, input_.workers());
-    shared_resize(layout_.coordinates.offsets, count, input_.workers());
+    shared_resize(document_.points, count, layout_.coordinates.offsets, count, input_.workers());
     if (read_plain_coordinates<T>(count)) {
       return;
     }

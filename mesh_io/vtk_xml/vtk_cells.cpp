@@ -16,13 +16,13 @@ void append_indices(std::span<const Index> offsets, std::span<const Index> conne
                     CellList& cells) {
   const std::size_t base = cells.connectivity.size();
   const std::size_t first_cell = cells.offsets.size();
-  shared_resize(cells.offsets, first_cell + offsets.size() - 1, workers.workers);
+  shared_resize(cells.offsets, first_cell + offsets.size() - 1, cells.connectivity, base + connectivity.size(),
+                workers.workers);
   for_file_blocks(workers, offsets.size() - 1, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       cells.offsets[first_cell + i] = static_cast<std::int64_t>(base) + static_cast<std::int64_t>(offsets[i + 1]);
     }
   });
-  shared_resize(cells.connectivity, base + connectivity.size(), workers.workers);
   for_file_blocks(workers, connectivity.size(), sizeof(std::int32_t), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       cells.connectivity[base + i] = static_cast<std::int32_t>(connectivity[i]);
