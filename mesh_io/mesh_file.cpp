@@ -117,13 +117,9 @@ FileFormat input_format(const std::filesystem::path& path) {
   throw ReadError(path, unknown_extension(path));
 }
 
-MeshDocument read_mesh(const std::filesystem::path& path) {
-  Workers alone(1);
-  return read_mesh(path, alone);
-}
-
-MeshDocument read_mesh(const std::filesystem::path& path, Workers& workers) {
+MeshDocument read_mesh(const std::filesystem::path& path, int threads) {
   const FileFormat format = input_format(path);
+  Workers workers(threads);
   const FileWorkers file_workers(workers);
   FileBytes bytes = read_file_bytes(path, file_workers);
   if (const auto compression = compression_of(bytes)) {
@@ -149,14 +145,10 @@ FileFormat output_format(const std::filesystem::path& path) {
   return *format;
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added) {
-  Workers alone(1);
-  write_mesh(path, document, added, alone);
-}
-
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
-                Workers& workers) {
+                int threads) {
   const FileFormat format = output_format(path);
+  Workers workers(threads);
   for (const auto& arrays : {std::span(document.point_arrays), std::span(added.point_arrays)}) {
     require_rows(path, arrays, document.point_count(), "points");
   }

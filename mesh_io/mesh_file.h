@@ -8,16 +8,14 @@
 
 namespace trismooth {
 
-class Workers;
-
 /// Reads a mesh file; its extension chooses the format. Nothing is interpreted.
 /// Throws ReadError for an extension that is unknown or not available in this build, a compressed or unreadable file,
 /// or one that breaks its format's rules, with the place in the file. Counts and indices are checked against the file's
 /// size before anything is allocated. Complexity: linear in the file's size.
-/// `workers` (base/workers.h) read the file and decode it in parts, where it is large enough for that. The document and
-/// every error are the same for every number of them. Without `workers`: this thread alone.
-MeshDocument read_mesh(const std::filesystem::path& path, Workers& workers);
-MeshDocument read_mesh(const std::filesystem::path& path);
+/// `threads` read the file and decode it in parts, where it is large enough for that; 0: one for each core. The
+/// document and every error are the same for every number of them. Throws std::invalid_argument for a number out of
+/// range.
+MeshDocument read_mesh(const std::filesystem::path& path, int threads = 1);
 
 /// Arrays to add to what a document holds, where the target takes_added_arrays(). Where any is added, annotations of an
 /// earlier run (see annotation_names.h) that the document holds are left out: what they show is no more.
@@ -31,11 +29,10 @@ struct AddedArrays {
 /// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
 /// Throws WriteError, also for such an extension, and where an array has not a row for every point or cell.
-/// `workers` encode a document that is written in the format it was read from; the bytes are the same for every number
-/// of them. Without `workers`: this thread alone.
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
-                Workers& workers);
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {});
+/// `threads`, as of read_mesh(), encode a document that is written in the format it was read from; the bytes are the
+/// same for every number of them.
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {},
+                int threads = 1);
 
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as
 /// properties, unless the document was read from PLY (its bytes are written back then).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -96,7 +97,7 @@ class Run {
   }
 
   void read() {
-    document_ = read_mesh(options_.input, workers_);
+    document_ = read_mesh(options_.input, options_.smoothing.threads);
     result_.losses = document_.losses;
     // What the reader says of the file is said of what another format loses.
     const bool converts = options_.output && output_format(*options_.output) != document_.format;
@@ -271,14 +272,13 @@ class Run {
       input_points_ = document_.points;
       metrics_before_ = metrics_of_cells("_before");
     }
-    const std::vector<Point2<double>> input_points = mesh_.points;
     SmoothingResult smoothing = smooth_in_plane(found_, mesh_.triangles, mesh_.plane, document_.points, mesh_.points,
                                                 local_, storage_of(document_), smoothing_);
     smoothing.backend_note = joined_notes(found_.note, smoothing.backend_note);
     if (smoothing.stop_reason == StopReason::cancelled) {
       throw Cancelled();
     }
-    const LocalPoints input = entered(local_.frame, input_points);
+    const LocalPoints input = std::exchange(local_, {});
     const std::vector<std::uint8_t> input_reversed = found_.reversed;
     enter_frame();
     if (smoothing.untangling) {
@@ -338,7 +338,7 @@ class Run {
     if (!annotates && has_arrays(target)) {
       note_old_annotations();
     }
-    write_mesh(path, document_, annotates ? annotations() : AddedArrays{}, workers_);
+    write_mesh(path, document_, annotates ? annotations() : AddedArrays{}, options_.smoothing.threads);
   }
 
   void note_old_annotations() {
