@@ -29,17 +29,11 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> stay(Point2<T> position) {
   return {position, false};
 }
 
-/// Whether `target` is a finite point, and another one than where the vertex is. (No branches: & and | are meant.)
-template <class T>
-constexpr TRISMOOTH_HOST_DEVICE bool is_move(Point2<T> position, Point2<T> target) {
-  const bool is_finite = (target.x - target.x == T(0)) & (target.y - target.y == T(0));
-  return is_finite & ((target.x != position.x) | (target.y != position.y));
-}
-
-/// A move to `target`, unless it is none.
+/// A move to `target`, unless that is where the vertex is or no finite point.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE Move<T> move_to(Point2<T> position, Point2<T> target) {
-  return is_move(position, target) ? Move<T>{target, true} : stay(position);
+  const bool finite = target.x - target.x == T(0) && target.y - target.y == T(0);
+  return finite && !(target == position) ? Move<T>{target, true} : stay(position);
 }
 
 /// The Laplacian position: the mean of the neighbours, summed in ring order (the paper's equations 1 and 2).
@@ -74,19 +68,13 @@ struct VertexMove {
   T squares;
 };
 
-/// That sum.
-template <class T, class Ring>
-constexpr TRISMOOTH_HOST_DEVICE T squares_around(Point2<T> position, const Ring& ring) {
-  T sum = 0;
-  for (int i = 0; i < ring.size(); ++i) {
-    sum += squared_length(ring[i] - position);
-  }
-  return sum;
-}
-
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> with_squares(const Move<T>& move, Point2<T> position, const Ring& ring) {
-  return {move, move.moved ? squares_around(position, ring) : T(0)};
+  VertexMove<T> result{move, T(0)};
+  for (int i = 0; i < ring.size() && move.moved; ++i) {
+    result.squares += squared_length(ring[i] - position);
+  }
+  return result;
 }
 
 /// The update of vertex v with what measures it. A method that has come by that sum has a function vertex_move().

@@ -1,13 +1,15 @@
 #include "trismooth/smoothing/sweeps/lane_update.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/methods/weighted_laplacian.h"
 
-// One loop, which calls the method as it is for each lane. It is inlined into a function for each instruction set,
-// whose target attribute says what the compiler may make of it; no code for one set can end up in another's functions.
+// One loop, which calls the methods' own functions for each lane. It is inlined into a function for each instruction
+// set, whose target attribute says what the compiler may make of it; no code for one set can end up in another's
+// functions.
 namespace trismooth {
 
 namespace {
@@ -22,14 +24,42 @@ struct RingInLane {
   constexpr Point2<T> operator[](int i) const { return {rings.x[i][lane], rings.y[i][lane]}; }
 };
 
+/// Where a method would have a vertex.
+template <class Update, class T, class Ring>
+constexpr Point2<T> target_of(Update /*method*/, Point2<T> /*position*/, const Ring& ring) {
+  return laplacian_position<T>(ring);
+}
+template <class T, class Ring>
+constexpr Point2<T> target_of(WeightedLaplacian /*method*/, Point2<T> position, const Ring& ring) {
+  return length_weighted_position(position, ring);
+}
+
+/// Whether move_to() moves. (No branches, which loops over lanes cannot have: & and | are meant.)
+template <class T>
+constexpr bool is_move(Point2<T> position, Point2<T> target) {
+  const bool is_finite = (target.x - target.x == T(0)) & (target.y - target.y == T(0));
+  return is_finite & ((target.x != position.x) | (target.y != position.y));
+}
+
+/// VertexMove::squares.
+template <class T, class Ring>
+constexpr T squares_around(Point2<T> position, const Ring& ring) {
+  T sum = 0;
+  for (int i = 0; i < ring.size(); ++i) {
+    sum += squared_length(ring[i] - position);
+  }
+  return sum;
+}
+
 /// The method's update of one vertex, but for smart ones around inverted triangles: these take a second look.
 template <class Update, class T, class Ring>
 [[gnu::always_inline]] inline void update_lane(int lane, const Ring& ring, RingLanes<T>& rings) {
+  constexpr bool is_smart = !std::is_same_v<Update, Laplacian>;
   const Point2<T> position{rings.position_x[lane], rings.position_y[lane]};
-  const Point2<T> target = Update::target(position, ring);
+  const Point2<T> target = target_of(Update{}, position, ring);
   bool moves = is_move(position, target);
   bool is_undecided = false;
-  if constexpr (Update::is_smart) {
+  if constexpr (is_smart) {
     const T before = worst_quotient(position, ring);
     moves &= is_better_than(before, target, ring);
     is_undecided = before < T(0);

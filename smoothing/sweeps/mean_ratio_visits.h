@@ -63,7 +63,7 @@ class VertexVisits<T, MeanRatio<T, shaped, is_last>> {
       const Point2<T> target{found.target.x[lane], found.target.y[lane]};
       if (alone[lane]) {
         visit_alone(v, settle);
-      } else if (found.moved[lane] && is_move(position, target)) {
+      } else if (found.moved[lane] && move_to(position, target).moved) {
         settle(v, target, found.squares[lane]);
       }
     }

@@ -52,7 +52,7 @@ class VertexVisits {
       const bool is_decided = lanes_.undecided[lane] == T(0);
       are_decided &= is_decided;
       moving[movers] = lane;
-      movers += is_decided & (lanes_.moves[lane] != T(0)) ? 1 : 0;
+      movers += (is_decided & (lanes_.moves[lane] != T(0))) ? 1 : 0;
     }
     for (int i = 0; i < movers; ++i) {
       const int lane = moving[i];
