@@ -11,10 +11,10 @@ namespace trismooth {
 /// number of threads and every size of the parts.
 struct FileWorkers {
   /// Parts that are worth sharing out; with one thread the whole file is one part.
-  explicit FileWorkers(Workers& workers_) : FileWorkers(workers_, workers_.count() == 1 ? whole : default_part_bytes) {}
+  explicit FileWorkers(Workers& all) : FileWorkers(all, all.count() == 1 ? whole : default_part_bytes) {}
   /// Parts of that many bytes, also with one thread: for tests. `serial`: every number by the careful way that serves
   /// where anything is unusual.
-  FileWorkers(Workers& workers_, std::size_t part_bytes_) : workers(workers_), part_bytes(part_bytes_) {}
+  FileWorkers(Workers& all, std::size_t part) : workers(all), part_bytes(part) {}
 
   static constexpr std::size_t serial = 0;
   static constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();

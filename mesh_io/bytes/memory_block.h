@@ -18,6 +18,7 @@ inline void prefer_large_pages(const void* begin, std::size_t bytes) {
   const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
   const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page * page;
   if (first < last) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): nobody reads through it
     ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
   }
 }

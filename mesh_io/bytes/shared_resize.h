@@ -22,6 +22,7 @@ inline void populate_memory(const void* begin, std::size_t bytes, Workers& worke
   if (workers.count() > 1 && first + 1 < last) {
     workers.for_blocks(static_cast<std::int64_t>(last - first), 1, [first](std::int64_t from, std::int64_t to) {
       const std::uintptr_t at = (first + static_cast<std::uintptr_t>(from)) * page;
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): nobody reads through it
       ::madvise(reinterpret_cast<void*>(at), static_cast<std::size_t>(to - from) * page, MADV_POPULATE_WRITE);
     });
   }
