@@ -85,11 +85,11 @@ class VertexVisits {
     }
   }
 
+  RingLanes<T> lanes_;
   const Method& method_;
   const RingView& rings_;
   std::span<const Point2<T>> points_;
   LaneUpdate<T> update_ = lane_update<Method, T>(instruction_set());
-  RingLanes<T> lanes_;
   RingGatherer<T> gatherer_;
 };
 
