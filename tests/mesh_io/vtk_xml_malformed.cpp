@@ -97,6 +97,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
+// NOLINTNEXTLINE(bugprone-throwing-static-initialization): a test without memory is none
 const std::string good_vtu = R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
 <UnstructuredGrid>
@@ -111,6 +112,7 @@ const std::string good_vtu = R"(<?xml version="1.0"?>
 </Piece></UnstructuredGrid></VTKFile>
 )";
 
+// NOLINTNEXTLINE(bugprone-throwing-static-initialization): likewise
 const std::string good_raw = std::string(R"(<VTKFile type="UnstructuredGrid" version="1.0" header_type="UInt32">
 <UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="0">
 <PointData><DataArray type="UInt8" Name="a" format="appended" offset="0"/></PointData>

@@ -53,6 +53,7 @@ std::string differences(vtkPointSet& a, vtkPointSet& b);
 std::vector<trismooth::VtkXmlEncoding> all_encodings();
 std::string to_string(const trismooth::VtkXmlEncoding& encoding);
 
+// NOLINTNEXTLINE(modernize-use-string-view): callers add to it
 inline std::string extension_of(trismooth::VtkXmlKind kind) {
   return kind == trismooth::VtkXmlKind::unstructured_grid ? ".vtu" : ".vtp";
 }
