@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <string>
+#include <utility>
 
+#include "trismooth/base/edge_matching.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/parity_forest.h"
+#include "trismooth/base/prefix_sums.h"
+#include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
@@ -14,211 +20,207 @@ namespace {
 
 constexpr std::int64_t topology_grain = 4096;
 
-struct HalfedgeEnd {
-  std::int32_t larger;  ///< the edge's larger label; the smaller one names the bucket
-  std::int32_t halfedge;
-};
-
-/// All halfedges, bucketed by the smaller label of their two vertices.
-struct EdgeBuckets {
-  std::vector<std::int32_t> offsets;  ///< bucket b holds ends[offsets[b] .. offsets[b + 1])
-  std::vector<HalfedgeEnd> ends;
-};
-
-/// A label for each corner's vertex: the vertices numbered as the triangles first name them. Files number vertices at
-/// random more often than triangles, so what is near in this numbering is near in memory too.
-std::vector<std::int32_t> label_corners(std::int32_t vertex_count, std::span<const Triangle> triangles) {
-  std::vector<std::int32_t> label(static_cast<std::size_t>(vertex_count), -1);
-  std::vector<std::int32_t> labels(3 * triangles.size());
-  std::int32_t next = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      std::int32_t& own = label[triangles[t][i]];
-      own = own < 0 ? next++ : own;
-      labels[3 * t + i] = own;
-    }
-  }
-  return labels;
-}
-
-EdgeBuckets bucket_edges(std::int32_t vertex_count, std::span<const Triangle> triangles) {
-  const std::vector<std::int32_t> labels = label_corners(vertex_count, triangles);
-  const auto halfedge_count = static_cast<std::int32_t>(labels.size());
-  const auto ends_of = [&](std::int32_t h) { return std::minmax(labels[h], labels[h % 3 == 2 ? h - 2 : h + 1]); };
-  EdgeBuckets buckets;
-  buckets.offsets.assign(static_cast<std::size_t>(vertex_count) + 2, 0);
-  for (std::int32_t h = 0; h < halfedge_count; ++h) {
-    ++buckets.offsets[ends_of(h).first + 2];
-  }
-  for (std::size_t end = 2; end < buckets.offsets.size(); ++end) {
-    buckets.offsets[end] += buckets.offsets[end - 1];
-  }
-  // While they are filled, offsets[b + 1] is where bucket b goes on; in the end, where it ends.
-  buckets.ends.resize(labels.size());
-  for (std::int32_t h = 0; h < halfedge_count; ++h) {
-    const auto [smaller, larger] = ends_of(h);
-    buckets.ends[buckets.offsets[smaller + 1]++] = {larger, h};
-  }
-  return buckets;
-}
-
-/// Pairs the halfedges of each edge, and marks the vertices of boundary and non-manifold edges.
-void pair_edges(EdgeBuckets& buckets, std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
-  const auto mark_ends = [&](std::int32_t h, std::uint8_t bit) {
-    for (const std::int32_t vertex : {triangles[h / 3][h % 3], triangles[h / 3][(h % 3 + 1) % 3]}) {
-      std::atomic_ref(sides.hold[vertex]).fetch_or(bit, std::memory_order_relaxed);
-    }
-  };
+/// Checks the triangles, and finds the lowest corner of every vertex.
+void find_corners(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
   workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const auto bucket =
-          std::span(buckets.ends).subspan(buckets.offsets[b], buckets.offsets[b + 1] - buckets.offsets[b]);
-      std::ranges::sort(bucket, [](HalfedgeEnd x, HalfedgeEnd y) {
-        return x.larger != y.larger ? x.larger < y.larger : x.halfedge < y.halfedge;
-      });
-      for (std::size_t i = 0; i < bucket.size();) {
-        std::size_t j = i + 1;
-        while (j < bucket.size() && bucket[j].larger == bucket[i].larger) {
-          ++j;
+    std::fill(sides.corner.begin() + begin, sides.corner.begin() + end, -1);
+  });
+  std::atomic<bool> faulty{false};
+  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      if (is_faulty(sides.vertex_count, triangles[t])) {
+        faulty = true;
+        return;
+      }
+      for (std::int32_t i = 0; i < 3; ++i) {
+        lower_relaxed(sides.corner[triangles[t][i]], static_cast<std::int32_t>(3 * t + i));
+      }
+    }
+  });
+  if (faulty) {
+    check_triangles(sides.vertex_count, triangles);
+  }
+}
+
+/// Marks isolated vertices and those of boundary and non-manifold edges.
+void mark_held(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
+  workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      sides.hold[v] = sides.corner[v] < 0 ? hold::isolated : std::uint8_t{0};
+    }
+  });
+  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      for (std::int32_t i = 0; i < 3; ++i) {
+        if (const std::int32_t twin = sides.twins[3 * t + i]; twin < 0) {
+          const std::uint8_t bit = twin == MatchedSides::no_twin ? hold::boundary : hold::non_manifold;
+          set_bits_relaxed(sides.hold[triangles[t][i]], bit);
+          set_bits_relaxed(sides.hold[triangles[t][(i + 1) % 3]], bit);
         }
-        if (j - i == 2) {
-          sides.twins[bucket[i].halfedge] = bucket[i + 1].halfedge;
-          sides.twins[bucket[i + 1].halfedge] = bucket[i].halfedge;
-        } else {
-          const bool single = j - i == 1;
-          for (std::size_t k = i; k < j; ++k) {
-            sides.twins[bucket[k].halfedge] = single ? MatchedSides::no_twin : MatchedSides::many_twins;
-          }
-          mark_ends(bucket[i].halfedge, single ? hold::boundary : hold::non_manifold);
-        }
-        i = j;
       }
     }
   });
 }
 
-/// Union-find over triangles that also knows whether a triangle is listed against its root.
-class ParityForest {
- public:
-  explicit ParityForest(std::size_t size) : parent_(size), parity_(size, 0) {
-    for (std::size_t i = 0; i < size; ++i) {
-      parent_[i] = static_cast<std::int32_t>(i);
-    }
-  }
+/// Whether the triangles on both sides of a halfedge are listed against each other (1) or alike (0): then they run
+/// through their edge in opposite directions.
+std::uint32_t are_against(std::span<const Triangle> triangles, std::int64_t halfedge, std::int32_t twin) {
+  return triangles[halfedge / 3][halfedge % 3] == triangles[twin / 3][twin % 3] ? 1 : 0;
+}
 
-  struct Root {
-    std::int32_t triangle;
-    std::uint8_t parity;
-  };
-
-  Root find(std::int32_t triangle) {
-    std::uint8_t parity = 0;
-    while (parent_[triangle] != triangle) {
-      const std::int32_t up = parent_[triangle];
-      parity ^= parity_[triangle];
-      // Path halving: point at the grandparent, with the parity of both steps.
-      parity_[triangle] ^= parity_[up];
-      parent_[triangle] = parent_[up];
-      parity ^= parity_[up];
-      triangle = parent_[triangle];
-    }
-    return {triangle, parity};
-  }
-
-  /// Joins two triangles, listed alike (0) or against each other (1). The lower root stays, so every component's root
-  /// is its lowest triangle. False where they are joined already the other way round.
-  bool join(std::int32_t a, std::int32_t b, std::uint8_t against) {
-    const Root root_a = find(a);
-    const Root root_b = find(b);
-    const auto parity = static_cast<std::uint8_t>(root_a.parity ^ root_b.parity ^ against);
-    if (root_a.triangle == root_b.triangle) {
-      return parity == 0;
-    }
-    const auto [low, high] = std::minmax(root_a.triangle, root_b.triangle);
-    parent_[high] = low;
-    parity_[high] = parity;
-    return true;
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-  std::vector<std::uint8_t> parity_;
-};
-
-void find_components(std::span<const Triangle> triangles, MatchedSides& sides) {
-  ParityForest forest(triangles.size());
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(sides.twins.size()); ++h) {
-    const std::int32_t twin = sides.twins[h];
-    if (twin > h) {
-      // Two neighbours are listed alike if they run through their edge in opposite directions.
-      const bool against = triangles[h / 3][h % 3] == triangles[twin / 3][twin % 3];
-      if (!forest.join(h / 3, twin / 3, against ? 1 : 0)) {
-        throw MeshError("the triangles connected with triangle " + std::to_string(h / 3) +
-                        " cannot be oriented consistently (a one-sided surface)");
+/// Joins the two triangles of every edge whose lower triangle is in [begin, end). False where an edge contradicts the
+/// others.
+bool join_neighbours(const ParityForest& forest, std::span<const Triangle> triangles,
+                     std::span<const std::int32_t> twins, std::int64_t begin, std::int64_t end) {
+  for (std::int64_t t = begin; t < end; ++t) {
+    for (std::int64_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::int32_t twin = twins[h];
+      if (twin > h && forest.join(static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(twin / 3),
+                                  are_against(triangles, h, twin)) == ParityForest::Join::contradicted) {
+        return false;
       }
     }
   }
-  sides.parity.resize(triangles.size());
-  sides.component.resize(triangles.size());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles.size()); ++t) {
-    const auto root = forest.find(t);
-    sides.parity[t] = root.parity;
-    sides.component[t] = root.triangle == t ? sides.components++ : sides.component[root.triangle];
-  }
+  return true;
 }
 
-void find_corners(std::span<const Triangle> triangles, TriangleTopology& topology) {
-  topology.degree.assign(static_cast<std::size_t>(topology.vertex_count), 0);
-  topology.corner.assign(static_cast<std::size_t>(topology.vertex_count), -1);
-  for (std::int32_t t = static_cast<std::int32_t>(triangles.size()) - 1; t >= 0; --t) {
-    for (std::int32_t i = 2; i >= 0; --i) {
-      ++topology.degree[triangles[t][i]];
-      topology.corner[triangles[t][i]] = 3 * t + i;
-    }
+/// Throws the error of a component that cannot be oriented. Which edge contradicts the others depends on the order: the
+/// one to name is found in that of the halfedges.
+[[noreturn]] void throw_one_sided(const ParityForest& forest, std::span<const Triangle> triangles,
+                                  std::span<const std::int32_t> twins) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    forest.plant(static_cast<std::uint32_t>(t));
   }
-  for (std::int32_t v = 0; v < topology.vertex_count; ++v) {
-    if (topology.corner[v] < 0) {
-      topology.hold[v] |= hold::isolated;
-    }
+  std::int64_t h = 0;
+  while (twins[h] <= h || forest.join(static_cast<std::uint32_t>(h / 3), static_cast<std::uint32_t>(twins[h] / 3),
+                                      are_against(triangles, h, twins[h])) != ParityForest::Join::contradicted) {
+    ++h;
   }
+  throw MeshError("the triangles connected with triangle " + std::to_string(h / 3) +
+                  " cannot be oriented consistently (a one-sided surface)");
+}
+
+void find_components(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
+  const std::int64_t count = std::ssize(triangles);
+  BulkVector<std::uint32_t> words(triangles.size());
+  const ParityForest forest{words.data()};
+  workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      forest.plant(static_cast<std::uint32_t>(t));
+    }
+  });
+  std::atomic<bool> contradicted{false};
+  workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    if (!join_neighbours(forest, triangles, sides.twins, begin, end)) {
+      contradicted = true;
+    }
+  });
+  if (contradicted) {
+    throw_one_sided(forest, triangles, sides.twins);
+  }
+  sides.parity.resize(triangles.size());
+  sides.component.resize(triangles.size());
+  std::atomic<bool> against{false};
+  workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t any = 0;
+    for (std::int64_t t = begin; t < end; ++t) {
+      const auto root = forest.find(static_cast<std::uint32_t>(t));
+      sides.parity[t] = static_cast<std::uint8_t>(root.parity);
+      sides.component[t] = static_cast<std::int32_t>(root.element);
+      any |= root.parity;
+    }
+    if (any != 0) {
+      against = true;
+    }
+  });
+  sides.alike = !against;
+  // A root's word has served, and takes its component's number.
+  sides.components = static_cast<std::int32_t>(for_each_numbered(
+      count, [&](std::int64_t t) { return sides.component[t] == t; },
+      [&](std::int64_t number, std::int64_t t) { words[t] = static_cast<std::uint32_t>(number); }, workers));
+  workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      sides.component[t] = static_cast<std::int32_t>(words[sides.component[t]]);
+    }
+  });
 }
 
 /// The corners of the fan that `first` is in.
-std::int32_t fan_size(const TriangleTopology& topology, std::span<const Triangle> triangles, std::int32_t first) {
+template <class Corners>
+std::int32_t fan_size(const Corners& corners, std::int32_t first) {
   std::int32_t size = 1;
-  std::int32_t corner = next_corner(topology, triangles, topology.parity, first);
-  for (; corner >= 0 && corner != first; corner = next_corner(topology, triangles, topology.parity, corner)) {
+  std::int32_t corner = corners.after(first);
+  for (; corner >= 0 && corner != first; corner = corners.after(corner)) {
     ++size;
   }
   if (corner < 0) {
     // An open fan: walk to its other end as well.
-    corner = previous_corner(topology, triangles, topology.parity, first);
-    for (; corner >= 0; corner = previous_corner(topology, triangles, topology.parity, corner)) {
+    for (corner = corners.before(first); corner >= 0; corner = corners.before(corner)) {
       ++size;
     }
   }
   return size;
 }
 
-/// Marks vertices whose triangles form more than one fan. Walks in the order of the triangles: files list them with
-/// more locality than vertices.
-void find_bow_ties(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
-  workers.for_blocks(
-      static_cast<std::int64_t>(triangles.size()), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto corner = static_cast<std::int32_t>(3 * begin); corner < 3 * end; ++corner) {
-          const std::int32_t v = triangles[corner / 3][corner % 3];
-          if (topology.corner[v] == corner && fan_size(topology, triangles, corner) != topology.degree[v]) {
-            topology.hold[v] |= hold::bow_tie;
-          }
+/// Calls visit(vertex, corner) for the lowest corner of every vertex. In the order of the triangles: files list them
+/// with more locality than vertices.
+template <class Visit>
+void for_lowest_corners(std::span<const Triangle> triangles, const MatchedSides& sides, Workers& workers,
+                        const Visit& visit) {
+  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      for (std::int32_t i = 0; i < 3; ++i) {
+        const std::int32_t v = triangles[t][i];
+        if (const auto corner = static_cast<std::int32_t>(3 * t + i); sides.corner[v] == corner) {
+          visit(v, corner);
         }
-      });
+      }
+    }
+  });
+}
+
+/// Counts the triangles of each vertex, and marks vertices whose triangles form more than one fan.
+void find_fans(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
+  topology.degree.resize(static_cast<std::size_t>(topology.vertex_count));
+  workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::fill(topology.degree.begin() + begin, topology.degree.begin() + end, 0);
+  });
+  with_corners(topology, triangles, topology.parity, workers, [&](const auto& corners) {
+    for_lowest_corners(triangles, topology, workers,
+                       [&](std::int32_t v, std::int32_t corner) { topology.degree[v] = fan_size(corners, corner); });
+  });
+  std::atomic<std::int64_t> in_fans{0};
+  workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    in_fans.fetch_add(std::accumulate(topology.degree.begin() + begin, topology.degree.begin() + end, std::int64_t{0}),
+                      std::memory_order_relaxed);
+  });
+  if (in_fans == 3 * std::ssize(triangles)) {
+    return;
+  }
+  // There are corners outside of the first fans of their vertices.
+  BulkVector<std::int32_t> fan = std::move(topology.degree);
+  topology.degree.assign(static_cast<std::size_t>(topology.vertex_count), 0);
+  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      for (const std::int32_t v : triangles[t]) {
+        std::atomic_ref(topology.degree[v]).fetch_add(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      if (fan[v] != topology.degree[v]) {
+        topology.hold[v] |= hold::bow_tie;
+      }
+    }
+  });
 }
 
 }  // namespace
 
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles[t];
+    const auto& [a, b, c] = triangles[t];
     for (const std::int32_t v : {a, b, c}) {
       if (v < 0 || v >= vertex_count) {
         throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
@@ -230,25 +232,41 @@ void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triang
   }
 }
 
+Uniform uniform(std::span<const std::uint8_t> flags, Workers& workers) {
+  std::atomic<bool> has_zero{false};
+  std::atomic<bool> has_one{false};
+  workers.for_blocks(std::ssize(flags), 8 * topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t ones = 0;
+    for (std::int64_t i = begin; i < end; ++i) {
+      ones += flags[i] != 0 ? 1 : 0;
+    }
+    if (ones > 0) {
+      has_one = true;
+    }
+    if (ones < end - begin) {
+      has_zero = true;
+    }
+  });
+  return {!has_one, !has_zero};
+}
+
 MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
   check_mesh_size(vertex_count, std::ssize(triangles));
-  check_triangles(vertex_count, triangles);
   MatchedSides sides;
   sides.vertex_count = vertex_count;
+  sides.corner.resize(static_cast<std::size_t>(vertex_count));
+  find_corners(triangles, sides, workers);
   sides.twins.resize(3 * triangles.size());
-  sides.hold.assign(static_cast<std::size_t>(vertex_count), 0);
-  {
-    EdgeBuckets buckets = bucket_edges(vertex_count, triangles);
-    pair_edges(buckets, triangles, sides, workers);
-  }
-  find_components(triangles, sides);
+  match_edges(triangles, sides.corner, sides.twins, workers);
+  sides.hold.resize(static_cast<std::size_t>(vertex_count));
+  mark_held(triangles, sides, workers);
+  find_components(triangles, sides, workers);
   return sides;
 }
 
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
-  TriangleTopology topology{match_sides(vertex_count, triangles, workers), {}, {}};
-  find_corners(triangles, topology);
-  find_bow_ties(triangles, topology, workers);
+  TriangleTopology topology{match_sides(vertex_count, triangles, workers), {}};
+  find_fans(triangles, topology, workers);
   return topology;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
@@ -15,9 +16,10 @@ class Workers;
 
 /// The components of a mesh: triangles connected through edges with exactly two triangles.
 struct TriangleComponents {
-  std::vector<std::uint8_t> parity;     ///< per triangle: 1 where it is listed against its component's lowest triangle
-  std::vector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
+  std::vector<std::uint8_t> parity;    ///< per triangle: 1 where it is listed against its component's lowest triangle
+  BulkVector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
   std::int32_t components = 0;
+  bool alike = false;  ///< no triangle is listed against its component's lowest one; false says nothing
 };
 
 /// The sides of triangles, matched where they are the same edge: what a topology is built from, TriangleTopology as
@@ -27,22 +29,31 @@ struct MatchedSides : TriangleComponents {
   static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
 
   std::int32_t vertex_count = 0;
-  std::vector<std::int32_t> twins;  ///< per halfedge: the other triangle's halfedge on the edge
-  std::vector<std::uint8_t> hold;   ///< per vertex: bits boundary, non_manifold
+  BulkVector<std::int32_t> twins;   ///< per halfedge: the other triangle's halfedge on the edge
+  BulkVector<std::int32_t> corner;  ///< per vertex: the lowest halfedge that starts there; -1: isolated
+  std::vector<std::uint8_t> hold;   ///< per vertex: bits boundary, non_manifold, isolated
 };
 
-/// How the triangles of flat arrays hang together. `hold` has the bits bow_tie and isolated as well.
+/// How the triangles of flat arrays hang together. `hold` has the bit bow_tie as well.
 struct TriangleTopology : MatchedSides {
-  std::vector<std::int32_t> corner;  ///< per vertex: the lowest halfedge that starts there; -1: isolated
-  std::vector<std::int32_t> degree;  ///< per vertex: its triangles
+  BulkVector<std::int32_t> degree;  ///< per vertex: its triangles
 };
+
+/// Where check_triangles() would throw.
+inline bool is_faulty(std::int32_t vertex_count, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  const auto is_vertex = [vertex_count](std::int32_t v) {
+    return static_cast<std::uint32_t>(v) < static_cast<std::uint32_t>(vertex_count);
+  };
+  return !is_vertex(a) || !is_vertex(b) || !is_vertex(c) || a == b || b == c || c == a;
+}
 
 /// Throws MeshError for an index that is not of a vertex 0 .. vertex_count - 1 and a triangle that repeats a vertex.
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles);
 
 /// Matches the sides of triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index
 /// out of range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
-/// linear, but for sorting the edges of each vertex.
+/// linear.
 MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
 
 /// Connects the triangles around each vertex as well. Arguments, errors and complexity are those of match_sides().
@@ -50,7 +61,7 @@ TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Tr
 
 /// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative
 /// value where there is none. A corner is named by the halfedge that starts there.
-inline std::int32_t corner_across(const TriangleTopology& topology, std::span<const Triangle> triangles,
+inline std::int32_t corner_across(const MatchedSides& topology, std::span<const Triangle> triangles,
                                   std::int32_t vertex, std::int32_t across) {
   const std::int32_t twin = topology.twins[across];
   if (twin < 0) {
@@ -63,7 +74,7 @@ inline std::int32_t corner_across(const TriangleTopology& topology, std::span<co
 
 /// The corner after `corner` around its vertex, counter-clockwise in the orientation `reversed` (either `parity` or
 /// Orientation::reversed), or a negative value at the end of an open fan.
-inline std::int32_t next_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+inline std::int32_t next_corner(const MatchedSides& topology, std::span<const Triangle> triangles,
                                 std::span<const std::uint8_t> reversed, std::int32_t corner) {
   const std::int32_t t = corner / 3;
   const std::int32_t i = corner % 3;
@@ -71,7 +82,7 @@ inline std::int32_t next_corner(const TriangleTopology& topology, std::span<cons
 }
 
 /// The same, clockwise.
-inline std::int32_t previous_corner(const TriangleTopology& topology, std::span<const Triangle> triangles,
+inline std::int32_t previous_corner(const MatchedSides& topology, std::span<const Triangle> triangles,
                                     std::span<const std::uint8_t> reversed, std::int32_t corner) {
   const std::int32_t t = corner / 3;
   const std::int32_t i = corner % 3;
@@ -83,6 +94,60 @@ inline std::int32_t leading_neighbour(std::span<const Triangle> triangles, std::
                                       std::int32_t corner) {
   const std::int32_t triangle = corner / 3;
   return triangles[triangle][(corner % 3 + (reversed[triangle] != 0 ? 2 : 1)) % 3];
+}
+
+/// Steps between the corners around a vertex, in the orientation `reversed`: see next_corner().
+struct CornersAround {
+  const MatchedSides& sides;
+  std::span<const Triangle> triangles;
+  std::span<const std::uint8_t> reversed;
+
+  std::int32_t after(std::int32_t corner) const { return next_corner(sides, triangles, reversed, corner); }
+  std::int32_t before(std::int32_t corner) const { return previous_corner(sides, triangles, reversed, corner); }
+  std::int32_t leading(std::int32_t corner) const { return leading_neighbour(triangles, reversed, corner); }
+};
+
+/// The same where no triangle is reversed, or all are: the twin of a side runs the other way.
+template <bool Reversed>
+struct AlikeCorners {
+  const MatchedSides& sides;
+  std::span<const Triangle> triangles;
+
+  std::int32_t after(std::int32_t corner) const { return Reversed ? behind_twin(corner) : twin_before(corner); }
+  std::int32_t before(std::int32_t corner) const { return Reversed ? twin_before(corner) : behind_twin(corner); }
+  std::int32_t leading(std::int32_t corner) const {
+    const std::int32_t i = corner % 3;
+    return triangles[corner / 3][Reversed ? (i == 0 ? 2 : i - 1) : (i == 2 ? 0 : i + 1)];
+  }
+
+ private:
+  std::int32_t twin_before(std::int32_t corner) const { return sides.twins[corner % 3 == 0 ? corner + 2 : corner - 1]; }
+  std::int32_t behind_twin(std::int32_t corner) const {
+    const std::int32_t twin = sides.twins[corner];
+    return twin < 0 ? twin : twin % 3 == 2 ? twin - 2 : twin + 1;
+  }
+};
+
+/// Whether all flags are 0, and whether none is.
+struct Uniform {
+  bool zeros;
+  bool ones;
+};
+Uniform uniform(std::span<const std::uint8_t> flags, Workers& workers);
+
+/// Calls body(corners) with what steps between the corners of the mesh in the orientation `reversed`: AlikeCorners
+/// where they do, since they take half of the time, else CornersAround.
+template <class Body>
+void with_corners(const MatchedSides& sides, std::span<const Triangle> triangles,
+                  std::span<const std::uint8_t> reversed, Workers& workers, const Body& body) {
+  const Uniform flags = sides.alike ? uniform(reversed, workers) : Uniform{false, false};
+  if (flags.zeros) {
+    body(AlikeCorners<false>{sides, triangles});
+  } else if (flags.ones) {
+    body(AlikeCorners<true>{sides, triangles});
+  } else {
+    body(CornersAround{sides, triangles, reversed});
+  }
 }
 
 }  // namespace trismooth

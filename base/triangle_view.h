@@ -24,17 +24,14 @@ struct TriangleView {
 /// The corners in the order in which an element's quality is evaluated everywhere outside one-rings (report, guard):
 /// counter-clockwise in the consistent orientation, the smallest index first. So every evaluation of an element gives
 /// the same bits, however the file lists it.
-constexpr Triangle canonical_corners(Triangle triangle, bool reversed) {
-  auto [a, b, c] = triangle;
-  if (reversed) {
-    const auto old_b = b;
-    b = c;
-    c = old_b;
-  }
-  if (a <= b && a <= c) {
-    return {a, b, c};
-  }
-  return b <= c ? Triangle{b, c, a} : Triangle{c, a, b};
+constexpr Triangle canonical_corners(const Triangle& triangle, bool reversed) {
+  const std::int32_t a = triangle[0];
+  const std::int32_t b = reversed ? triangle[2] : triangle[1];
+  const std::int32_t c = reversed ? triangle[1] : triangle[2];
+  // (No branches, which would be guessed wrong: & is meant.)
+  const bool b_first = (b < a) & (b <= c);
+  const bool c_first = (c < a) & (c < b);
+  return {c_first ? c : (b_first ? b : a), c_first ? a : (b_first ? c : b), c_first ? b : (b_first ? a : c)};
 }
 
 /// The canonical corners of triangle `index` of the view.

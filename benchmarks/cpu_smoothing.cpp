@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +20,8 @@
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/smooth.h"
+
+#include "run_reporting.h"
 
 namespace {
 
@@ -162,10 +162,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "cpu_smoothing: error: %s\n", error.what());
-    return 1;
-  }
+  return run_reporting("cpu_smoothing", run, argc, argv);
 }

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -38,6 +36,7 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
+#include "run_reporting.h"
 #include "support/distorted_meshes.h"
 
 namespace {
@@ -256,7 +255,7 @@ Input generated(Kind kind, std::int64_t vertices, std::uint64_t seed) {
   Input input;
   input.name = fmt::format("{}, seed {}", to_string(kind), seed);
   const auto take = [&](auto mesh) {
-    input.points = std::move(mesh.points);
+    input.points.assign(mesh.points.begin(), mesh.points.end());
     input.triangles = std::move(mesh.triangles);
   };
   switch (kind) {
@@ -289,8 +288,8 @@ Input read(const std::filesystem::path& path) {
   input.fixed = find_fixed_array(document, std::nullopt).flags;
   input.regions = find_regions(document, mesh).of_triangle;
   input.other_cells = std::move(mesh.in_other_cell);
-  input.points = std::move(mesh.points);
-  input.triangles = std::move(mesh.triangles);
+  input.points.assign(mesh.points.begin(), mesh.points.end());
+  input.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
   return input;
 }
 
@@ -363,10 +362,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "element_quality: error: %s\n", error.what());
-    return 1;
-  }
+  return run_reporting("element_quality", run, argc, argv);
 }

@@ -12,8 +12,6 @@
 // above them: a sweep over all vertices moves 44 bytes a vertex in single precision and 60 in double at least.
 
 #include <array>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -23,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "gpu_smoothing_experiments.h"
+#include "run_reporting.h"
 
 namespace {
 
@@ -75,7 +74,7 @@ int run(int argc, char** argv) {
   app.add_option("--precisions", settings.precisions)->capture_default_str();
   app.add_option("--method", settings.method)->capture_default_str();
   app.add_option("--boundary", settings.boundary, "of the meshes: random, resolved")->capture_default_str();
-  app.add_option("--topology", settings.topology, "halfedge, device, or auto: device from 4,000,000 vertices on")
+  app.add_option("--topology", settings.topology, "host, device, or auto: device from 4,000,000 vertices on")
       ->capture_default_str();
   app.add_option("--evaluation", settings.evaluation, "changed, or all: every vertex in every sweep")
       ->check(CLI::IsMember({"changed", "all"}))
@@ -94,10 +93,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "gpu_smoothing: error: %s\n", error.what());
-    return 1;
-  }
+  return run_reporting("gpu_smoothing", run, argc, argv);
 }

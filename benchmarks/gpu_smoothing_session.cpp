@@ -103,8 +103,8 @@ SmoothingOptions Session::options(const std::string& execution, const std::strin
     options.layout = layout == "-" ? Layout::aos : parse_enum<Layout>(layout);
     if (settings_.topology != "auto") {
       options.topology = parse_enum<Topology>(settings_.topology);
-    } else if (vertex_count_of(mesh) >= vertices_for_device_topology) {
-      options.topology = Topology::device;
+    } else {
+      options.topology = vertex_count_of(mesh) >= vertices_for_device_topology ? Topology::device : Topology::host;
     }
   }
   return options;

@@ -58,7 +58,7 @@ void measure(Session& session, const RandomMesh& mesh, const std::string& execut
                                       {"form", form},
                                       {"precision", precision},
                                       {"method", settings.method},
-                                      {"topology", options.topology == Topology::device ? "device" : "halfedge"},
+                                      {"topology", options.topology == Topology::device ? "device" : "host"},
                                       {"evaluation", settings.evaluation},
                                       {"threads", result.threads},
                                       {"device", result.device},

@@ -8,11 +8,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +25,7 @@
 #include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_document.h"
 
+#include "run_reporting.h"
 #include "vtk_runs.h"
 
 namespace {
@@ -260,10 +259,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pipeline: error: %s\n", error.what());
-    return 1;
-  }
+  return run_reporting("pipeline", run, argc, argv);
 }

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 
+#include "run_reporting.h"
 #include "support/tangled_meshes.h"
 
 namespace {
@@ -118,10 +118,5 @@ int measure(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return measure(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "untangling: error: %s\n", error.what());
-    return 1;
-  }
+  return run_reporting("untangling", measure, argc, argv);
 }

@@ -45,8 +45,12 @@ class NotedSmoother final : public PreparedSmoother {
 class FallingBackSmoother final : public PreparedSmoother {
  public:
   FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, double device_start_ms, const Backend& cpu,
-                      const MeshRings& mesh, std::span<const Triangle> triangles, const SmoothingOptions& options)
-      : smoother_(std::move(device)), device_start_ms_(device_start_ms), cpu_(cpu), mesh_(mesh), options_(options) {
+                      MeshRings mesh, std::span<const Triangle> triangles, const SmoothingOptions& options)
+      : smoother_(std::move(device)),
+        device_start_ms_(device_start_ms),
+        cpu_(cpu),
+        mesh_(std::move(mesh)),
+        options_(options) {
     if (options.measures_shape()) {
       triangles_.assign(triangles.begin(), triangles.end());
     }
@@ -74,9 +78,8 @@ class FallingBackSmoother final : public PreparedSmoother {
  private:
   void fall_back(const LocalFrame& frame, std::span<const Point2<double>> points, std::string note) {
     const LocalPoints local = entered(frame, points);
-    smoother_ =
-        std::make_unique<NotedSmoother>(cpu_.prepare(mesh_, triangles_, local.points, options_), std::move(note));
-    mesh_ = {};
+    smoother_ = std::make_unique<NotedSmoother>(
+        cpu_.prepare(std::exchange(mesh_, {}), triangles_, local.points, options_), std::move(note));
     triangles_ = {};
     fell_back_ = true;
   }
@@ -103,11 +106,11 @@ std::int64_t count_free(const OneRings& rings) {
 CudaOrCpu::CudaOrCpu(CudaSupport cuda, const Backend& cpu, std::int64_t free_vertices)
     : cuda_(std::move(cuda)), cpu_(cpu), free_vertices_(free_vertices) {}
 
-std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                                      std::span<const Point2<double>> local,
                                                      const SmoothingOptions& options) const {
   if (!is_large(count_free(mesh.rings))) {
-    return cpu_.prepare(mesh, triangles, local, options);
+    return cpu_.prepare(std::move(mesh), triangles, local, options);
   }
   // The first to ask starts CUDA, which can take longer than the smoothing.
   const Stopwatch watch;
@@ -116,14 +119,14 @@ std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(const MeshRings& mesh, std:
   if (note.empty()) {
     try {
       return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(mesh, triangles, local, options), start_ms,
-                                                   cpu_, mesh, triangles, options);
+                                                   cpu_, std::move(mesh), triangles, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }
   } else {
     note.insert(0, "no CUDA device: ");
   }
-  return std::make_unique<NotedSmoother>(cpu_.prepare(mesh, triangles, local, options), note);
+  return std::make_unique<NotedSmoother>(cpu_.prepare(std::move(mesh), triangles, local, options), note);
 }
 
 std::optional<MeshRings> CudaOrCpu::find_rings(std::span<const Point2<double>> local,

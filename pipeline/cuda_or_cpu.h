@@ -21,7 +21,7 @@ class CudaOrCpu final : public Backend {
   /// "auto". Results name the backend that was taken.
   std::string name() const override { return "auto"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;
 

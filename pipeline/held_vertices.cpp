@@ -1,30 +1,50 @@
 #include "trismooth/pipeline/held_vertices.h"
 
-#include <array>
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <mutex>
+#include <utility>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
-HeldVertices count_held(std::span<const std::uint8_t> reasons) {
+ReasonCounts count_reasons(std::span<const std::uint8_t> reasons, Workers& workers) {
+  constexpr std::int64_t grain = 65536;
+  ReasonCounts counts{};
+  std::mutex joining;
+  workers.for_blocks(std::ssize(reasons), grain, [&](std::int64_t begin, std::int64_t end) {
+    ReasonCounts own{};
+    for (std::int64_t v = begin; v < end; ++v) {
+      ++own[reasons[static_cast<std::size_t>(v)]];
+    }
+    const std::lock_guard lock(joining);
+    std::ranges::transform(own, counts, counts.begin(), std::plus<>());
+  });
+  return counts;
+}
+
+HeldVertices count_held(const ReasonCounts& counts) {
   HeldVertices held;
-  for (const std::uint8_t bits : reasons) {
+  for (std::size_t bits = 0; bits < counts.size(); ++bits) {
     const auto has = [bits](std::uint8_t bit) { return (bits & bit) != 0; };
     const bool non_manifold = has(hold::non_manifold);
     const bool other_cell = has(hold::other_cell);
-    const std::array<std::pair<std::int64_t*, bool>, 7> counts{{{&held.boundary, has(hold::boundary)},
-                                                                {&held.interface, has(hold::interface)},
-                                                                {&held.non_manifold, non_manifold},
-                                                                {&held.bow_tie, has(hold::bow_tie) && !non_manifold},
-                                                                {&held.other_cells, other_cell},
-                                                                {&held.unused, has(hold::isolated) && !other_cell},
-                                                                {&held.named, has(hold::named)}}};
+    const std::array<std::pair<std::int64_t*, bool>, 7> figures{{{&held.boundary, has(hold::boundary)},
+                                                                 {&held.interface, has(hold::interface)},
+                                                                 {&held.non_manifold, non_manifold},
+                                                                 {&held.bow_tie, has(hold::bow_tie) && !non_manifold},
+                                                                 {&held.other_cells, other_cell},
+                                                                 {&held.unused, has(hold::isolated) && !other_cell},
+                                                                 {&held.named, has(hold::named)}}};
     int found = 0;
-    for (const auto& [count, counts_here] : counts) {
-      *count += counts_here ? 1 : 0;
+    for (const auto& [figure, counts_here] : figures) {
+      *figure += counts_here ? counts[bits] : 0;
       found += counts_here ? 1 : 0;
     }
-    held.several += found > 1 ? 1 : 0;
+    held.several += found > 1 ? counts[bits] : 0;
   }
   return held;
 }

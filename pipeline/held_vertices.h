@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace trismooth {
+
+class Workers;
 
 /// How many vertices are held, by reason. A vertex with several reasons counts for each of them.
 struct HeldVertices {
@@ -17,7 +20,13 @@ struct HeldVertices {
   std::int64_t several = 0;       ///< for more than one of these reasons
 };
 
-/// Counts vertices from the bits of namespace hold, one byte a vertex. Complexity: linear.
-HeldVertices count_held(std::span<const std::uint8_t> reasons);
+/// How many vertices have each combination of the bits of namespace hold.
+using ReasonCounts = std::array<std::int64_t, 256>;
+
+/// Counts them, one byte a vertex. Complexity: linear.
+ReasonCounts count_reasons(std::span<const std::uint8_t> reasons, Workers& workers);
+
+/// The vertices held by reason.
+HeldVertices count_held(const ReasonCounts& counts);
 
 }  // namespace trismooth

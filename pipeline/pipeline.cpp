@@ -29,6 +29,7 @@
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 namespace trismooth {
@@ -109,7 +110,7 @@ class Run {
 
   /// From cells to one-rings: orientation, constraints, neighbours.
   void connect() {
-    mesh_ = planar_mesh(document_, options_.input);
+    mesh_ = planar_mesh(document_, options_.input, workers_);
     std::ranges::copy(mesh_.notes, std::back_inserter(result_.notes));
     enter_frame();
     find_sizes();
@@ -123,10 +124,11 @@ class Run {
     }
     found_ = find_rings(
         {.fixed = named.flags, .fixed_ids = ids, .other_cells = mesh_.in_other_cell, .regions = regions_.of_triangle});
-    if (settle_plane(mesh_, document_, found_.fixed, options_.input)) {
+    if (settle_plane(mesh_, document_, found_.fixed, options_.input, workers_)) {
       enter_frame();
     }
-    note_irregular_vertices();
+    const ReasonCounts reasons = count_reasons(found_.fixed, workers_);
+    note_irregular_vertices(reasons);
     InputSummary& input = result_.input;
     input.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
     input.other_cells = mesh_.other_cells;
@@ -137,14 +139,14 @@ class Run {
       input.region_array.append(input.region_array.empty() ? "" : ", ").append(array.name);
     }
     input.components = found_.components;
-    input.free_vertices = std::ranges::count(found_.fixed, 0);
+    input.free_vertices = reasons[0];
     input.fixed_vertices = input.vertices - input.free_vertices;
     input.reoriented_triangles = found_.reoriented_triangles;
     input.fixed_array = named.array;
     input.fixed_array_vertices = named.vertices;
     input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
     input.fixed_ids_vertices = count_different(ids);
-    input.held = count_held(found_.fixed);
+    input.held = count_held(reasons);
   }
 
   void find_sizes() {
@@ -159,20 +161,22 @@ class Run {
   MeshRings find_rings(const Constraints& constraints) {
     try {
       return rings_for(options_.smoothing, local_.points, mesh_.triangles, constraints, [&] {
-        return find_halfedge_rings(document_.points, local_.points, mesh_.triangles, constraints, workers_);
+        return smoothing_.topology == Topology::halfedge
+                   ? find_halfedge_rings(document_.points, local_.points, mesh_.triangles, constraints, workers_)
+                   : find_mesh_rings(local_.points, mesh_.triangles, constraints, workers_);
       });
     } catch (const MeshError& error) {
       throw ReadError(options_.input, error.what());
     }
   }
 
-  void note_irregular_vertices() {
+  void note_irregular_vertices(const ReasonCounts& counts) {
     std::int64_t non_manifold = 0;
     std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
-    for (const std::uint8_t reasons : found_.fixed) {
+    for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
       const bool on_edge = (reasons & hold::non_manifold) != 0;
-      non_manifold += on_edge ? 1 : 0;
-      bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? 1 : 0;
+      non_manifold += on_edge ? counts[reasons] : 0;
+      bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
     }
     const auto note = [&](std::int64_t count, const std::string& where) {
       if (count > 0) {
@@ -185,7 +189,8 @@ class Run {
   }
 
   void enter_frame() {
-    local_ = entered(local_frame(mesh_.points, [this](std::size_t v) { return mesh_.in_cell[v] != 0; }), mesh_.points);
+    local_ = local_points(
+        mesh_.points, [this](std::size_t v) { return mesh_.in_cell[v] != 0; }, workers_);
   }
 
   QualityReport check() {

@@ -74,6 +74,9 @@ class BoundarySearch {
   void collect_edges() {
     auto candidates = found_in_triangles<BoundaryEdge>([&](std::size_t t, std::vector<BoundaryEdge>& found) {
       const Triangle& corners = view_.triangles[t];
+      if (int{on_boundary(corners[0])} + int{on_boundary(corners[1])} + int{on_boundary(corners[2])} < 2) {
+        return;
+      }
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t a = corners[i];
         const std::int32_t b = corners[(i + 1) % 3];
@@ -103,6 +106,9 @@ class BoundarySearch {
       is_apex[apex] = held_[apex] == 0 ? 1 : 0;
     }
     spokes_ = found_in_triangles<Spoke>([&](std::size_t t, std::vector<Spoke>& found) {
+      if (std::ranges::none_of(view_.triangles[t], [&](std::int32_t v) { return is_apex[v] != 0; })) {
+        return;
+      }
       const Triangle corners = canonical_corners(view_, t);
       for (std::size_t i = 0; i < 3; ++i) {
         if (is_apex[static_cast<std::size_t>(corners[i])] != 0) {

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <utility>
 
-#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/compiled_for.h"
 #include "trismooth/quality/metric_formulas.h"
 
-// One loop, which calls the formulas as they are for each lane, inlined into a function for each instruction set.
+// One loop, which calls the formulas as they are for each lane.
 namespace trismooth {
 
 namespace {
@@ -32,22 +32,10 @@ struct TriangleLanes {
   }
 }
 
-[[gnu::flatten]] void baseline(TriangleLanes& triangles) {
-  evaluate_lanes(triangles);
-}
-
-#if defined(__x86_64__)
-[[gnu::flatten, gnu::target("avx2")]] void avx2(TriangleLanes& triangles) {
-  evaluate_lanes(triangles);
-}
-#else
-constexpr auto avx2 = baseline;
-#endif
-
 }  // namespace
 
 void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValues> values) {
-  const auto evaluate = instruction_set() == InstructionSet::avx2 ? &avx2 : &baseline;
+  const auto evaluate = compiled_for<evaluate_lanes>();
   TriangleLanes side_by_side;
   for (std::size_t begin = 0; begin < triangles.size(); begin += lanes) {
     const std::size_t count = std::min(lanes, triangles.size() - begin);

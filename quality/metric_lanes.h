@@ -1,13 +1,11 @@
 #pragma once
 
-#include <array>
 #include <span>
 
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {
-
-using CornerPoints = std::array<Point2<double>, 3>;
 
 /// evaluate_all() of every triangle, to the bit, several at a time. `values`: one for each of `triangles`.
 void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValues> values);

@@ -17,7 +17,11 @@ struct Orientation {
 };
 
 /// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
-/// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows.
+/// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows. Complexity: linear.
+Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
+                   std::span<const Point2<double>> points, Workers& workers);
+
+/// The same on the calling thread.
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points);
 

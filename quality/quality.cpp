@@ -25,7 +25,7 @@ QualityReport quality(const ConstPointView& points, const IndexView& triangles, 
     require_one_height(points, stored, [&] { return topology.hold; });
   }
   const LocalPoints local = entered(local_frame_of_cells(stored, topology.hold), stored);
-  const Orientation orientation = orient(topology, listed, local.points);
+  const Orientation orientation = orient(topology, listed, local.points, workers);
   QualityReport report = quality_report({local.points, listed, orientation.reversed, local.frame.exponent}, options);
   for (WorstElement& element : report.worst) {
     element.centroid = local.frame.leave(element.centroid);

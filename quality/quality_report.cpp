@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/triangle_quality.h"
 
@@ -31,12 +32,6 @@ void for_each_block(const TriangleView& view, int threads, const Function& funct
                                   function(static_cast<std::size_t>(block));
                                 }
                               });
-}
-
-CornerPoints corner_points(const TriangleView& view, std::size_t index) {
-  const Triangle corners = canonical_corners(view, index);
-  return {view.points[static_cast<std::size_t>(corners[0])], view.points[static_cast<std::size_t>(corners[1])],
-          view.points[static_cast<std::size_t>(corners[2])]};
 }
 
 bool is_worse(const WorstElement& a, const WorstElement& b) {
@@ -108,48 +103,60 @@ void count_shape(Partial& partial, double shape) {
   ++partial.shape_histogram[std::min(bin, shape_bins - 1)];
 }
 
-Partial evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
-  const std::size_t begin = block * block_size;
-  const std::size_t count = std::min(block_size, view.triangles.size() - begin);
-  // Gathered first, since only short loops overlap the cache misses of a mesh in random order.
-  std::array<CornerPoints, block_size> corners;
-  for (std::size_t t = 0; t < count; ++t) {
-    corners[t] = corner_points(view, begin + t);
-  }
-
-  std::array<MetricValues, block_size> values;
-  evaluate_all(std::span(corners).first(count), values);
-  Partial partial;
-  partial.count = static_cast<double>(count);
+/// What the report says of each metric, of all of these triangles.
+void count_metrics(Partial& partial, std::span<const MetricValues> values) {
   std::array<AcceptableRange, metric_count> acceptable;
   for (std::size_t m = 0; m < metric_count; ++m) {
     acceptable[m] = acceptable_range(static_cast<Metric>(m));
   }
+  // In variables of their own, which stay in registers.
+  MetricValues sum = partial.sum;
+  MetricValues min = partial.min;
+  MetricValues max = partial.max;
+  std::array<std::int64_t, metric_count> accepted{};
+  for (const MetricValues& of_triangle : values) {
+    for (std::size_t m = 0; m < metric_count; ++m) {
+      sum[m] += of_triangle[m];
+      min[m] = std::min(min[m], of_triangle[m]);
+      max[m] = std::max(max[m], of_triangle[m]);
+      accepted[m] += acceptable[m].holds(of_triangle[m]) ? 1 : 0;
+    }
+  }
+  MetricValues mean = sum;
+  for (double& value : mean) {
+    value /= static_cast<double>(values.size());
+  }
+  MetricValues squared_deviations = filled(0);
+  for (const MetricValues& of_triangle : values) {
+    for (std::size_t m = 0; m < metric_count; ++m) {
+      const double deviation = of_triangle[m] - mean[m];
+      squared_deviations[m] += deviation * deviation;
+    }
+  }
+  partial.count = static_cast<double>(values.size());
+  partial.sum = sum;
+  partial.min = min;
+  partial.max = max;
+  partial.acceptable = accepted;
+  partial.squared_deviations = squared_deviations;
+}
+
+Partial evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
+  const std::size_t begin = block * block_size;
+  const std::size_t count = std::min(block_size, view.triangles.size() - begin);
+  std::array<MetricValues, block_size> values;
+  for_corners(view, begin, begin + count, [&](std::size_t first, std::span<const CornerPoints> corners) {
+    evaluate_all(corners, std::span(values).subspan(first - begin, corners.size()));
+  });
+  Partial partial;
+  count_metrics(partial, std::span(values).first(count));
   WorstList worst(std::min(worst_count, count));
   for (std::size_t t = 0; t < count; ++t) {
-    const auto [a, b, c] = corners[t];
-    const MetricValues& of_triangle = values[t];
-    for (std::size_t m = 0; m < metric_count; ++m) {
-      partial.sum[m] += of_triangle[m];
-      partial.min[m] = std::min(partial.min[m], of_triangle[m]);
-      partial.max[m] = std::max(partial.max[m], of_triangle[m]);
-      partial.acceptable[m] += acceptable[m].holds(of_triangle[m]) ? 1 : 0;
-    }
-    const double shape = of_triangle[static_cast<std::size_t>(Metric::shape)];
+    const double shape = values[t][static_cast<std::size_t>(Metric::shape)];
     count_shape(partial, shape);
     if (worst.would_take(shape)) {
+      const auto [a, b, c] = corner_points(view, begin + t);
       worst.offer({static_cast<std::int64_t>(begin + t), shape, {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}});
-    }
-  }
-
-  MetricValues mean = partial.sum;
-  for (double& value : mean) {
-    value /= partial.count;
-  }
-  for (std::size_t t = 0; t < count; ++t) {
-    for (std::size_t m = 0; m < metric_count; ++m) {
-      const double deviation = values[t][m] - mean[m];
-      partial.squared_deviations[m] += deviation * deviation;
     }
   }
   partial.worst = worst.take_sorted();
@@ -228,10 +235,11 @@ double smallest_shape(const TriangleView& view, int threads) {
     const std::size_t begin = block * block_size;
     const std::size_t end = std::min(begin + block_size, view.triangles.size());
     double smallest_of_block = std::numeric_limits<double>::infinity();
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = corner_points(view, t);
-      smallest_of_block = std::min(smallest_of_block, shape_quotient(a, b, c));
-    }
+    for_corners(view, begin, end, [&](std::size_t /*first*/, std::span<const CornerPoints> corners) {
+      for (const auto& [a, b, c] : corners) {
+        smallest_of_block = std::min(smallest_of_block, shape_quotient(a, b, c));
+      }
+    });
     smallest[block] = smallest_of_block;
   });
   return shape_constant * *std::min_element(smallest.begin(), smallest.end());

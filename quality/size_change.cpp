@@ -15,7 +15,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -28,19 +30,14 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 /// their order: no rounding depends on scheduling.
 constexpr std::size_t triangles_a_block = 1024;
 
-/// Twice the areas of the block's triangles from `first` on, NaN where one is not valid. Gathered first, since only
-/// short loops overlap the cache misses of a mesh in random order.
+/// Twice the areas of the block's triangles from `first` on, NaN where one is not valid.
 void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<double> areas) {
-  std::array<std::array<Point2<double>, 3>, triangles_a_block> corners;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(view, first + t);
-    corners[t] = {view.points[static_cast<std::size_t>(a)], view.points[static_cast<std::size_t>(b)],
-                  view.points[static_cast<std::size_t>(c)]};
-  }
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto [a, b, c] = corners[t];
-    areas[t] = shape_quotient(a, b, c) > 0 ? cross(b - a, c - a) : no_number;
-  }
+  for_corners(view, first, first + areas.size(), [&](std::size_t begin, std::span<const CornerPoints> corners) {
+    std::ranges::transform(corners, areas.begin() + static_cast<std::ptrdiff_t>(begin - first), [](const auto& of) {
+      const auto& [a, b, c] = of;
+      return shape_quotient(a, b, c) > 0 ? cross(b - a, c - a) : no_number;
+    });
+  });
 }
 
 /// The ratios that are numbers, by their leading bits: they are not negative, so these stand in their order.
@@ -62,25 +59,45 @@ class RatioCounts {
 
   std::int64_t total() const { return total_; }
 
-  /// The smallest ratio that `percent` per cent do not exceed. There is one.
-  double percentile(std::int64_t percent) {
-    std::int64_t before = 0;  // ratios with smaller leading bits
-    const std::int64_t rank = (total_ * percent + 99) / 100;
-    std::size_t bits = 0;
-    while (before + counts_[bits] < rank) {
-      before += counts_[bits++];
-    }
-    std::vector<double> candidates;
-    for_parts([&](std::span<const double> part) {
-      std::vector<double> found;
-      std::ranges::copy_if(part, std::back_inserter(found),
-                           [&](double ratio) { return !std::isnan(ratio) && bits_of(ratio) == bits; });
-      const std::lock_guard lock(joining_);
-      candidates.insert(candidates.end(), found.begin(), found.end());
+  /// The smallest ratios that `percents` per cent do not exceed. There is one.
+  std::array<double, 2> percentiles(const std::array<std::int64_t, 2>& percents) {
+    struct Wanted {
+      std::int64_t rank;  ///< among the candidates
+      std::size_t bits;   ///< of these
+      std::vector<double> candidates;
+    };
+    std::array<Wanted, 2> wanted;
+    std::ranges::transform(percents, wanted.begin(), [this](std::int64_t percent) {
+      std::int64_t rank = (total_ * percent + 99) / 100;
+      std::size_t bits = 0;
+      while (counts_[bits] < rank) {
+        rank -= counts_[bits++];
+      }
+      return Wanted{rank, bits, {}};
     });
-    const auto place = candidates.begin() + static_cast<std::ptrdiff_t>(rank - before - 1);
-    std::nth_element(candidates.begin(), place, candidates.end());
-    return *place;
+    for_parts([&](std::span<const double> part) {
+      std::array<std::vector<double>, 2> found;
+      for (const double ratio : part) {
+        const std::size_t bits = bits_of(ratio);
+        if (bits == wanted[0].bits || bits == wanted[1].bits) {
+          found[bits == wanted[0].bits ? 0 : 1].push_back(ratio);
+        }
+      }
+      const std::lock_guard lock(joining_);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        wanted[i].candidates.insert(wanted[i].candidates.end(), found[i].begin(), found[i].end());
+      }
+    });
+    if (wanted[0].bits == wanted[1].bits) {
+      wanted[1].candidates = wanted[0].candidates;
+    }
+    std::array<double, 2> found;
+    std::ranges::transform(wanted, found.begin(), [](Wanted& of) {
+      const auto place = of.candidates.begin() + static_cast<std::ptrdiff_t>(of.rank - 1);
+      std::nth_element(of.candidates.begin(), place, of.candidates.end());
+      return *place;
+    });
+    return found;
   }
 
  private:
@@ -111,7 +128,7 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
     throw std::invalid_argument("size_change: the meshes have different triangles");
   }
   const double unit = std::ldexp(1.0, 2 * (after.exponent - before.exponent));
-  std::vector<double> ratios(count);
+  BulkVector<double> ratios(count);
   std::vector<double> sums((count + triangles_a_block - 1) / triangles_a_block);
   Workers workers(threads);
   workers.for_blocks(static_cast<std::int64_t>(sums.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -140,8 +157,9 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
   }
   change.rms_log_ratio =
       std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(change.triangles));
-  change.ratio_p1 = counts.percentile(1);
-  change.ratio_p99 = counts.percentile(99);
+  const auto [p1, p99] = counts.percentiles({1, 99});
+  change.ratio_p1 = p1;
+  change.ratio_p99 = p99;
   return change;
 }
 

@@ -52,11 +52,11 @@ class Backend {
   /// "cpu", "cuda".
   virtual std::string name() const = 0;
 
-  /// Makes a mesh ready whose rings are known: renumbering, colouring, whatever the backend needs. `triangles` are
-  /// those of the mesh; they are looked at only where options.measures_shape() or options.untangles(). `local` are the
-  /// vertices in the local frame; they steer the order in memory and no result. Throws std::invalid_argument for
-  /// options that the backend does not have.
-  virtual std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+  /// Makes a mesh ready whose rings are known: renumbering, colouring, whatever the backend needs. `mesh`:
+  /// moved here, its memory is released as soon as it can be. `triangles` are those of the mesh; they are looked at
+  /// only where options.measures_shape() or options.untangles(). `local` are the vertices in the local frame; they
+  /// steer the order in memory and no result. Throws std::invalid_argument for options that the backend does not have.
+  virtual std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 

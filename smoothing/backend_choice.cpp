@@ -1,8 +1,10 @@
 #include "trismooth/smoothing/backend_choice.h"
 
+#include <string>
 #include <utility>
 
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/errors.h"
 
 namespace trismooth {
 
@@ -13,12 +15,26 @@ const Backend& backend_of(const SmoothingOptions& options) {
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
                     std::span<const Triangle> triangles, const Constraints& constraints,
                     const std::function<MeshRings()>& on_host) {
-  if (options.topology == Topology::device) {
-    if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
-      return *std::move(found);
+  std::string note;
+  if (options.prefers_topology_of_device()) {
+    try {
+      if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
+        return *std::move(found);
+      }
+    } catch (const DeviceError& error) {
+      if (options.topology == Topology::device) {
+        throw;
+      }
+      note = host_took_over(error);
     }
   }
-  return on_host();
+  MeshRings found = on_host();
+  found.note = std::move(note);
+  return found;
+}
+
+std::string host_took_over(const DeviceError& error) {
+  return std::string("the host found the neighbours: ") + error.what();
 }
 
 std::string joined_notes(const std::string& first, const std::string& second) {

@@ -8,6 +8,7 @@
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
@@ -16,12 +17,15 @@ namespace trismooth {
 /// The backend that the options name, or the CPU's.
 const Backend& backend_of(const SmoothingOptions& options);
 
-/// The rings of a mesh as the options want them found: by their backend where they say Topology::device and it finds
-/// rings, else by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way. `local` are the
-/// points in the local frame.
+/// The rings of a mesh as the options want them found: by their backend where they prefer that and it finds rings, else
+/// by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way. `local` are the points in the
+/// local frame. Throws DeviceError where the backend does and the options say Topology::device.
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
                     std::span<const Triangle> triangles, const Constraints& constraints,
                     const std::function<MeshRings()>& on_host);
+
+/// What the user is to know where a device has failed to find the topology and the host does it instead.
+std::string host_took_over(const DeviceError& error);
 
 /// What two backends have to tell the user, as one note: "first; second". Each may be empty.
 std::string joined_notes(const std::string& first, const std::string& second);

@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/prefetch.h"
 #include "trismooth/base/processor_name.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/storage.h"
@@ -25,20 +27,21 @@ namespace trismooth {
 namespace {
 
 constexpr std::int64_t vertex_grain = 8192;
+constexpr std::int32_t vertices_ahead = 32;
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  CpuSmoother(const MeshRings& mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+  CpuSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
               const SmoothingOptions& options)
-      : options_(options), workers_(options.threads), fixed_(mesh.fixed) {
+      : options_(options), workers_(options.threads), fixed_(std::move(mesh.fixed)) {
     const Stopwatch watch;
-    rings_ = pack_rings(mesh.rings, local, options.form, workers_);
+    rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_);
     if (options.measures_shape() || options.untangles()) {
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, fixed_);
     }
     if (options.untangles()) {
       triangles_.assign(triangles.begin(), triangles.end());
-      reversed_ = mesh.reversed;
+      reversed_ = std::move(mesh.reversed);
     }
     prepare_ms_ = watch.milliseconds();
   }
@@ -68,14 +71,17 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, SmoothingResult& result) {
     Stopwatch watch;
-    std::vector<Point2<double>> before(points.size());
-    std::vector<Point2<T>> working(points.size());
+    BulkVector<Point2<double>> before(points.size());
+    BulkVector<Point2<T>> working(points.size());
+    const std::int32_t last = rings_.vertex_count() - 1;
     for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
+      // The caller's numbers may be at random.
+      prefetch(&points[rings_.input_index[v + std::min(vertices_ahead, last - v)]]);
       before[v] = frame.enter(points[rings_.input_index[v]]);
       working[v] = narrow<T>(before[v]);
     });
     std::optional<Turned> turned;
-    std::vector<Point2<T>> start;  // of the sweeps, where that is not the input
+    BulkVector<Point2<T>> start;  // of the sweeps, where that is not the input
     if (options_.untangles()) {
       result.timings.smooth = watch.lap();
       turned = untangle_into(working, before, result);
@@ -92,17 +98,22 @@ class CpuSmoother final : public PreparedSmoother {
     result.timings.smooth += watch.lap();
 
     // Where each vertex would be stored, and what that is in the local frame.
-    const auto stored_from = [&](const std::vector<Point2<T>>& places, std::int32_t v) {
-      const Point2<double> now = points[rings_.input_index[v]];
+    const auto stored_from = [&](const BulkVector<Point2<T>>& places, std::int32_t v) -> Point2<double> {
       const Point2<T> place = places[v];
-      return place == narrow<T>(before[v])
-                 ? now
-                 : rounded_to(storage, frame.leave({static_cast<double>(place.x), static_cast<double>(place.y)},
-                                                   largest_stored(storage)));
+      if (place == narrow<T>(before[v])) {
+        return points[rings_.input_index[v]];
+      }
+      return rounded_to(
+          storage, frame.leave({static_cast<double>(place.x), static_cast<double>(place.y)}, largest_stored(storage)));
+    };
+    // (What would be stored where it was is not fetched for that.)
+    const auto entered_from = [&](const BulkVector<Point2<T>>& places, std::int32_t v) {
+      return places[v] == narrow<T>(before[v]) ? before[v] : frame.enter(stored_from(places, v));
     };
     const auto stored = [&](std::int32_t v) { return stored_from(working, v); };
-    std::vector<Point2<double>> after = before;
-    for_vertices(rings_.free_count(), [&](std::int32_t v) { after[v] = frame.enter(stored(v)); });
+    BulkVector<Point2<double>> after(before.size());
+    for_vertices(rings_.vertex_count(),
+                 [&](std::int32_t v) { after[v] = v < rings_.free_count() ? entered_from(working, v) : before[v]; });
     if (options_.guard) {
       const auto list = [&](const GuardOutcome& outcome) {
         result.guard_rounds += outcome.rounds;
@@ -113,8 +124,8 @@ class CpuSmoother final : public PreparedSmoother {
       if (!start.empty()) {
         // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
         // far takes others along.
-        std::vector<Point2<double>> untangled = before;
-        for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = frame.enter(stored_from(start, v)); });
+        BulkVector<Point2<double>> untangled = before;
+        for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(start, v); });
         const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_);
         list(outcome);
         for (const std::int32_t v : outcome.reverted) {
@@ -179,13 +190,13 @@ class CpuSmoother final : public PreparedSmoother {
 
   /// Untangles `before` into `working`. Returns the mesh to go on with where it had to be turned over.
   template <class T>
-  std::optional<Turned> untangle_into(std::vector<Point2<T>>& working, const std::vector<Point2<double>>& before,
+  std::optional<Turned> untangle_into(BulkVector<Point2<T>>& working, const BulkVector<Point2<double>>& before,
                                       SmoothingResult& result) {
     result.untangling.emplace();
     if (inverted_triangles(rings_.view(), before, workers_) == 0) {
       return std::nullopt;
     }
-    std::vector<Point2<double>> untangled = before;
+    BulkVector<Point2<double>> untangled = before;
     MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
     result.untangling = {.inverted_before = done.inverted_before, .inverted_untangled = done.inverted_after};
     for_vertices(rings_.free_count(), [&](std::int32_t v) { working[v] = narrow<T>(untangled[v]); });
@@ -221,14 +232,14 @@ class CpuBackend final : public Backend {
  public:
   std::string name() const override { return "cpu"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(const MeshRings& mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     options.validate();
     if (options.order == Order::unordered) {
       throw std::invalid_argument("order 'unordered' exists for CUDA only");
     }
-    return std::make_unique<CpuSmoother>(mesh, triangles, local, options);
+    return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options);
   }
 };
 

@@ -51,8 +51,10 @@ enum class Order : std::uint8_t {
 
 /// Who finds neighbours, orientation and constraints. The results are the same bit for bit.
 enum class Topology : std::uint8_t {
-  halfedge,  ///< the host: from halfedges for files and halfedge meshes, from the triangle list for flat arrays
-  device,    ///< the device, in parallel, from the triangle list; where the backend has none, the host
+  automatic,  ///< the device where it smooths by Execution::resident and its memory suffices, else the host
+  host,       ///< the host, in parallel: from the triangle list; of a halfedge mesh of the caller's from its halfedges
+  halfedge,   ///< the same, for files too from a halfedge mesh, which is made for that: takes longer and more memory
+  device,     ///< the device, in parallel, from the triangle list; where the backend has none, the host
 };
 
 /// The working precision of the sweeps. The guard always evaluates in double.
@@ -121,8 +123,10 @@ struct EnumText<Order> {
 template <>
 struct EnumText<Topology> {
   static constexpr std::string_view what = "topology";
-  static constexpr std::array<std::pair<Topology, std::string_view>, 2> texts{
-      {{Topology::halfedge, "halfedge"}, {Topology::device, "device"}}};
+  static constexpr std::array<std::pair<Topology, std::string_view>, 4> texts{{{Topology::automatic, "auto"},
+                                                                               {Topology::host, "host"},
+                                                                               {Topology::halfedge, "halfedge"},
+                                                                               {Topology::device, "device"}}};
 };
 template <>
 struct EnumText<Precision> {
@@ -168,7 +172,7 @@ struct SmoothingOptions {
   Layout layout = Layout::aos;
   Execution execution = Execution::resident;
   Order order = Order::colour;
-  Topology topology = Topology::halfedge;
+  Topology topology = Topology::automatic;
   Precision precision = Precision::double_precision;
   MeanRatioOptions mean_ratio{};
   Evaluation evaluation = Evaluation::changed;
@@ -199,6 +203,13 @@ struct SmoothingOptions {
   /// Whether inverted triangles are untangled before the sweeps.
   [[nodiscard]] bool untangles() const {
     return untangle == Untangle::on || (untangle == Untangle::automatic && method == Method::mean_ratio);
+  }
+
+  /// Whether the backend is asked to find the topology before the host does.
+  [[nodiscard]] bool prefers_topology_of_device() const {
+    return topology == Topology::device ||
+           // By the paper's version one thread of the device finds it, which is for comparison.
+           (topology == Topology::automatic && execution == Execution::resident);
   }
 
   /// Whether sizes are asked for, and heard.

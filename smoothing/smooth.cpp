@@ -10,11 +10,11 @@
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
-#include "trismooth/smoothing/rings/fixed_vertices.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/rings/mesh_connectivity.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
@@ -27,8 +27,15 @@ class SmoothingPlan::Implementation {
     check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()));
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
     const std::span<const Triangle> listed = indices.triangles(vertex_count, triangles_);
-    if (options.topology == Topology::device) {
-      smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
+    if (options.prefers_topology_of_device()) {
+      try {
+        smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
+      } catch (const DeviceError& error) {
+        if (options.topology == Topology::device) {
+          throw;
+        }
+        note_ = host_took_over(error);
+      }
       is_analysed_by_backend_ = smoother_ != nullptr;
       if (is_analysed_by_backend_) {
         triangles_ = {};
@@ -38,8 +45,8 @@ class SmoothingPlan::Implementation {
     if (listed.data() != triangles_.data()) {
       triangles_.assign(listed.begin(), listed.end());
     }
-    topology_ = connect_triangles(vertex_count_, triangles_, workers_);
-    mesh_.fixed = fixed_vertices(topology_, triangles_, constraints);
+    connectivity_ = MeshConnectivity(vertex_count_, triangles_, workers_);
+    mesh_.fixed = connectivity_.fixed_vertices(triangles_, constraints, workers_);
   }
 
   SmoothingResult smooth(const PointView& points, Storage storage) {
@@ -54,6 +61,7 @@ class SmoothingPlan::Implementation {
     }
     SmoothingResult result =
         is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt) : smooth_oriented(copy, stored);
+    result.backend_note = joined_notes(note_, result.backend_note);
     points.write(copy, workers_);
     return result;
   }
@@ -77,15 +85,14 @@ class SmoothingPlan::Implementation {
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
   SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage) {
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_.fixed), points);
-    Orientation orientation = orient(topology_, triangles_, local.points);
+    Orientation orientation = orient(connectivity_.components(), triangles_, local.points, workers_);
     if (smoother_ == nullptr || orientation.reversed != mesh_.reversed) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
       mesh_.reversed = std::move(orientation.reversed);
-      mesh_.rings = one_rings(topology_, triangles_, mesh_.reversed, mesh_.fixed, workers_);
-      smoother_ = backend_of(options_).prepare(mesh_, triangles_, local.points, options_);
-      mesh_.rings = {};
+      mesh_.rings = connectivity_.one_rings(triangles_, mesh_.reversed, mesh_.fixed, workers_);
+      smoother_ = backend_of(options_).prepare(with_rings_of(mesh_), triangles_, local.points, options_);
     }
     return smoother_->smooth(points, storage, local.frame);
   }
@@ -95,8 +102,9 @@ class SmoothingPlan::Implementation {
   std::int32_t vertex_count_ = 0;
   std::unique_ptr<PreparedSmoother> smoother_;
   bool is_analysed_by_backend_ = false;  ///< what follows is empty then
+  std::string note_;                     ///< what the user is to know of who found the topology
   std::vector<Triangle> triangles_;
-  TriangleTopology topology_;
+  MeshConnectivity connectivity_;
   MeshRings mesh_;  ///< but for the rings, which the smoother has
 };
 

@@ -4,38 +4,16 @@
 #include <cstdint>
 
 #include "trismooth/base/host_device.h"
+#include "trismooth/base/relaxed_atomics.h"
 
 namespace trismooth::cuda {
 
 /// Atomic operations on words in device memory, in no order relative to each other (relaxed), so that functions for the
 /// device run on the host as well. Kernels follow each other in order: what one wrote the next one sees.
 
-inline TRISMOOTH_HOST_DEVICE std::uint32_t load_relaxed(const std::uint32_t* word) {
-#ifdef __CUDA_ARCH__
-  return *static_cast<const volatile std::uint32_t*>(word);
-#else
-  return std::atomic_ref(*const_cast<std::uint32_t*>(word)).load(std::memory_order_relaxed);
-#endif
-}
-
-inline TRISMOOTH_HOST_DEVICE void store_relaxed(std::uint32_t* word, std::uint32_t value) {
-#ifdef __CUDA_ARCH__
-  *static_cast<volatile std::uint32_t*>(word) = value;
-#else
-  std::atomic_ref(*word).store(value, std::memory_order_relaxed);
-#endif
-}
-
-/// Writes `value` where the word is `expected`. Returns what it was.
-inline TRISMOOTH_HOST_DEVICE std::uint32_t exchange_if_equal(std::uint32_t* word, std::uint32_t expected,
-                                                             std::uint32_t value) {
-#ifdef __CUDA_ARCH__
-  return atomicCAS(word, expected, value);
-#else
-  std::atomic_ref(*word).compare_exchange_strong(expected, value, std::memory_order_relaxed);
-  return expected;
-#endif
-}
+using trismooth::exchange_if_equal;
+using trismooth::load_relaxed;
+using trismooth::store_relaxed;
 
 /// Returns what the word was.
 inline TRISMOOTH_HOST_DEVICE std::uint32_t fetch_add(std::uint32_t* word, std::uint32_t value) {

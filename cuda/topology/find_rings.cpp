@@ -34,7 +34,8 @@ OneRings copied_to_host(Context& context, const DeviceRings& rings) {
       download(context, rings.offsets.data(), static_cast<std::size_t>(rings.size()) + 1);
   OneRings copy;
   copy.offsets.assign(offsets.begin(), offsets.end());
-  copy.neighbours = download(context, rings.neighbours.data(), rings.neighbours.size());
+  copy.neighbours.resize(rings.neighbours.size());
+  rings.neighbours.download(copy.neighbours);
   return copy;
 }
 

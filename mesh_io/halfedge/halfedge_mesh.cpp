@@ -1,12 +1,14 @@
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <string>
 #include <unordered_set>
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
@@ -42,21 +44,22 @@ void for_each_of_fan(const TriangleMesh& mesh, HalfedgeHandle first, Visit visit
 class Builder {
  public:
   Builder(std::span<const Triangle> triangles, const MatchedSides& sides, std::span<const std::uint8_t> reversed,
-          HalfedgeMesh& result)
-      : triangles_(triangles), sides_(sides), reversed_(reversed), result_(result), mesh_(result.mesh) {}
+          HalfedgeMesh& result, Workers& workers)
+      : triangles_(triangles),
+        sides_(sides),
+        reversed_(reversed),
+        result_(result),
+        mesh_(result.mesh),
+        workers_(workers) {}
 
-  void build(std::span<const double> xyz, Workers& workers) {
-    check_halfedge_mesh_size(sides_.vertex_count, std::ssize(triangles_),
-                             std::ranges::count_if(sides_.twins, [](std::int32_t twin) { return twin < 0; }));
+  void build(std::span<const double> xyz) {
+    check_halfedge_mesh_size(sides_.vertex_count, std::ssize(triangles_), count_unpaired());
     number_edges();
-    const auto vertices = static_cast<std::size_t>(sides_.vertex_count);
-    mesh_.resize(vertices, edge_count_, triangles_.size());
-    for (std::size_t v = 0; v < vertices; ++v) {
-      mesh_.set_point(VertexHandle(static_cast<int>(v)), {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
-    }
+    mesh_.resize(static_cast<std::size_t>(sides_.vertex_count), edge_count_, triangles_.size());
     fill_faces();
+    fill_vertices(xyz);
     result_.hold = sides_.hold;
-    mark_fans(mesh_, result_.hold, workers);
+    mark_fans(mesh_, result_.hold, workers_);
     if (std::ranges::any_of(result_.hold, [](std::uint8_t reasons) { return (reasons & hold::bow_tie) != 0; })) {
       split_fans();
     }
@@ -64,35 +67,78 @@ class Builder {
   }
 
  private:
-  /// Numbers the edges in the order in which triangles first meet them.
-  void number_edges() {
-    halfedges_.resize(sides_.twins.size());
-    for (std::int32_t h = 0; h < static_cast<std::int32_t>(halfedges_.size()); ++h) {
-      const std::int32_t twin = sides_.twins[h];
-      halfedges_[h] = twin >= 0 && twin < h ? halfedges_[twin] + 1 : 2 * static_cast<std::int32_t>(edge_count_++);
-    }
+  std::int64_t count_unpaired() {
+    std::atomic<std::int64_t> unpaired{0};
+    workers_.for_blocks(std::ssize(sides_.twins), grain, [&](std::int64_t begin, std::int64_t end) {
+      unpaired.fetch_add(std::count_if(sides_.twins.begin() + begin, sides_.twins.begin() + end,
+                                       [](std::int32_t twin) { return twin < 0; }),
+                         std::memory_order_relaxed);
+    });
+    return unpaired;
   }
 
-  void fill_faces() {
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(triangles_.size()); ++t) {
-      const bool reversed = reversed_[t] != 0;
-      const FaceHandle face(t);
-      for (std::int32_t i = 0; i < 3; ++i) {
-        const HalfedgeHandle inner(halfedges_[3 * t + i]);
-        const VertexHandle from(triangles_[t][reversed ? (i + 1) % 3 : i]);
-        const VertexHandle to(triangles_[t][reversed ? i : (i + 1) % 3]);
-        mesh_.set_vertex_handle(inner, to);
-        mesh_.set_face_handle(inner, face);
-        mesh_.set_next_halfedge_handle(inner, HalfedgeHandle(halfedges_[3 * t + (i + (reversed ? 2 : 1)) % 3]));
-        mesh_.set_halfedge_handle(from, inner);
-        if (sides_.twins[3 * t + i] < 0) {
-          const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
-          mesh_.set_vertex_handle(outer, from);
-          mesh_.set_boundary(outer);
+  /// Numbers the edges in the order in which triangles first meet them.
+  void number_edges() {
+    const auto is_first = [this](std::int64_t h) { return sides_.twins[h] < 0 || sides_.twins[h] > h; };
+    halfedges_.resize(sides_.twins.size());
+    edge_count_ = static_cast<std::size_t>(for_each_numbered(
+        std::ssize(halfedges_), is_first,
+        [&](std::int64_t number, std::int64_t h) { halfedges_[h] = static_cast<std::int32_t>(2 * number); }, workers_));
+    workers_.for_blocks(std::ssize(halfedges_), grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t h = begin; h < end; ++h) {
+        if (!is_first(h)) {
+          halfedges_[h] = halfedges_[sides_.twins[h]] + 1;
         }
       }
-      mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedges_[3 * static_cast<std::size_t>(t)]));
+    });
+  }
+
+  /// Every halfedge of the mesh is one triangle's: that of a side, or the outer one beside it.
+  void fill_faces() {
+    workers_.for_blocks(std::ssize(triangles_), grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto t = static_cast<std::int32_t>(begin); t < end; ++t) {
+        fill_face(t);
+      }
+    });
+  }
+
+  void fill_face(std::int32_t t) {
+    const bool reversed = reversed_[t] != 0;
+    const FaceHandle face(t);
+    for (std::int32_t i = 0; i < 3; ++i) {
+      const HalfedgeHandle inner(halfedges_[3 * t + i]);
+      const VertexHandle from(triangles_[t][reversed ? (i + 1) % 3 : i]);
+      const VertexHandle to(triangles_[t][reversed ? i : (i + 1) % 3]);
+      mesh_.set_vertex_handle(inner, to);
+      mesh_.set_face_handle(inner, face);
+      mesh_.set_next_halfedge_handle(inner, HalfedgeHandle(halfedges_[3 * t + (i + (reversed ? 2 : 1)) % 3]));
+      if (sides_.twins[3 * t + i] < 0) {
+        const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
+        mesh_.set_vertex_handle(outer, from);
+        mesh_.set_boundary(outer);
+      }
     }
+    mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedges_[3 * static_cast<std::size_t>(t)]));
+  }
+
+  /// A vertex begins with the halfedge that leaves it in its lowest triangle.
+  void fill_vertices(std::span<const double> xyz) {
+    workers_.for_blocks(sides_.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        const VertexHandle vertex(v);
+        const double* const point = xyz.data() + 3 * static_cast<std::size_t>(v);
+        mesh_.set_point(vertex, {point[0], point[1], point[2]});
+        if (const std::int32_t corner = sides_.corner[v]; corner >= 0) {
+          mesh_.set_halfedge_handle(vertex, leaving(corner));
+        }
+      }
+    });
+  }
+
+  /// The halfedge that leaves the vertex of a triangle's corner within the triangle.
+  HalfedgeHandle leaving(std::int32_t corner) const {
+    const std::int32_t t = corner / 3;
+    return HalfedgeHandle(halfedges_[reversed_[t] != 0 ? 3 * t + (corner + 2) % 3 : corner]);
   }
 
   /// Gives every fan of a vertex but the first a vertex of its own.
@@ -102,19 +148,19 @@ class Builder {
     for (std::int32_t corner = 0; corner < static_cast<std::int32_t>(3 * triangles_.size()); ++corner) {
       const std::int32_t t = corner / 3;
       const std::int32_t v = triangles_[t][corner % 3];
-      const HalfedgeHandle leaving(halfedges_[reversed_[t] != 0 ? 3 * t + (corner + 2) % 3 : corner]);
-      if ((result_.hold[v] & hold::bow_tie) == 0 || done.contains(leaving.idx())) {
+      const HalfedgeHandle first = leaving(corner);
+      if ((result_.hold[v] & hold::bow_tie) == 0 || done.contains(first.idx())) {
         continue;
       }
       const VertexHandle vertex = begun.insert(v).second ? VertexHandle(v) : copy_of(v);
-      for_each_of_fan(mesh_, leaving, [&](HalfedgeHandle h) {
+      for_each_of_fan(mesh_, first, [&](HalfedgeHandle h) {
         done.insert(h.idx());
         mesh_.set_vertex_handle(mesh_.prev_halfedge_handle(h), vertex);
         if (mesh_.is_boundary(mesh_.opposite_halfedge_handle(h))) {
           mesh_.set_vertex_handle(mesh_.opposite_halfedge_handle(h), vertex);
         }
       });
-      mesh_.set_halfedge_handle(vertex, leaving);
+      mesh_.set_halfedge_handle(vertex, first);
     }
   }
 
@@ -127,18 +173,21 @@ class Builder {
 
   /// Links the outer halfedges around each fan's gap; they are the outgoing ones of their vertices, as OpenMesh wants.
   void close_boundaries() {
-    for (std::size_t h = 0; h < halfedges_.size(); ++h) {
-      if (sides_.twins[h] < 0) {
-        const HalfedgeHandle inner(halfedges_[h]);
-        const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
-        HalfedgeHandle leaving = inner;
-        while (!mesh_.is_boundary(leaving)) {
-          leaving = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(leaving));
+    // An outer halfedge is the one that leaves its vertex, and the one before its next.
+    workers_.for_blocks(std::ssize(halfedges_), grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t h = begin; h < end; ++h) {
+        if (sides_.twins[h] < 0) {
+          const HalfedgeHandle inner(halfedges_[h]);
+          const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
+          HalfedgeHandle leaving = inner;
+          while (!mesh_.is_boundary(leaving)) {
+            leaving = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(leaving));
+          }
+          mesh_.set_next_halfedge_handle(outer, leaving);
+          mesh_.set_halfedge_handle(mesh_.from_vertex_handle(outer), outer);
         }
-        mesh_.set_next_halfedge_handle(outer, leaving);
-        mesh_.set_halfedge_handle(mesh_.from_vertex_handle(outer), outer);
       }
-    }
+    });
   }
 
   std::span<const Triangle> triangles_;
@@ -146,7 +195,8 @@ class Builder {
   std::span<const std::uint8_t> reversed_;
   HalfedgeMesh& result_;
   TriangleMesh& mesh_;
-  std::vector<std::int32_t> halfedges_;  ///< the mesh's halfedge of each triangle halfedge
+  Workers& workers_;
+  BulkVector<std::int32_t> halfedges_;  ///< the mesh's halfedge of each triangle halfedge
   std::size_t edge_count_ = 0;
 };
 
@@ -169,34 +219,53 @@ void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
                                  const MatchedSides& sides, std::span<const std::uint8_t> reversed, Workers& workers) {
   HalfedgeMesh result;
-  Builder(triangles, sides, reversed, result).build(xyz, workers);
+  Builder(triangles, sides, reversed, result, workers).build(xyz);
   return result;
 }
 
 void mark_fans(const TriangleMesh& mesh, std::span<std::uint8_t> hold, Workers& workers) {
-  std::vector<std::int32_t> faces(hold.size(), 0);
-  for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); ++h) {
-    if (!mesh.is_boundary(HalfedgeHandle(h))) {
-      ++faces[static_cast<std::size_t>(mesh.from_vertex_handle(HalfedgeHandle(h)).idx())];
+  workers.for_blocks(std::ssize(hold), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<int>(begin); v < end; ++v) {
+      hold[static_cast<std::size_t>(v)] |= mesh.is_isolated(VertexHandle(v)) ? hold::isolated : std::uint8_t{0};
     }
-  }
-  for (std::size_t v = 0; v < hold.size(); ++v) {
-    hold[v] |= faces[v] == 0 ? hold::isolated : std::uint8_t{0};
-  }
+  });
+  std::atomic<std::int64_t> in_fans{0};
   // In the order of the halfedges, as in one_rings().
-  workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto h = static_cast<int>(begin); h < end; ++h) {
-      const VertexHandle v = mesh.from_vertex_handle(HalfedgeHandle(h));
-      if (mesh.halfedge_handle(v).idx() == h) {
-        const HalfedgeHandle first = mesh.is_boundary(HalfedgeHandle(h))
-                                         ? mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(HalfedgeHandle(h)))
-                                         : HalfedgeHandle(h);
-        std::int32_t size = 0;
-        for_each_of_fan(mesh, first, [&](HalfedgeHandle) { ++size; });
-        if (size != faces[static_cast<std::size_t>(v.idx())]) {
-          hold[static_cast<std::size_t>(v.idx())] |= hold::bow_tie;
+  const auto for_first_fans = [&](const auto& visit) {
+    workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
+      std::int64_t corners = 0;
+      for (auto h = static_cast<int>(begin); h < end; ++h) {
+        const VertexHandle v = mesh.from_vertex_handle(HalfedgeHandle(h));
+        if (mesh.halfedge_handle(v).idx() == h) {
+          const HalfedgeHandle first = mesh.is_boundary(HalfedgeHandle(h))
+                                           ? mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(HalfedgeHandle(h)))
+                                           : HalfedgeHandle(h);
+          std::int32_t size = 0;
+          for_each_of_fan(mesh, first, [&](HalfedgeHandle) { ++size; });
+          corners += size;
+          visit(static_cast<std::size_t>(v.idx()), size);
         }
       }
+      in_fans.fetch_add(corners, std::memory_order_relaxed);
+    });
+  };
+  for_first_fans([](std::size_t /*v*/, std::int32_t /*size*/) {});
+  if (in_fans == 3 * static_cast<std::int64_t>(mesh.n_faces())) {
+    return;
+  }
+  // There are corners outside of the first fans of their vertices.
+  std::vector<std::int32_t> faces(hold.size(), 0);
+  workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto h = static_cast<int>(begin); h < end; ++h) {
+      if (!mesh.is_boundary(HalfedgeHandle(h))) {
+        std::atomic_ref(faces[static_cast<std::size_t>(mesh.from_vertex_handle(HalfedgeHandle(h)).idx())])
+            .fetch_add(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  for_first_fans([&](std::size_t v, std::int32_t size) {
+    if (size != faces[v]) {
+      hold[v] |= hold::bow_tie;
     }
   });
 }
@@ -220,14 +289,15 @@ OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed
 
   // A free vertex is an interior one: it has as many neighbours as outgoing halfedges.
   std::vector<std::int32_t> sizes(fixed.size(), 0);
-  for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); ++h) {
-    const auto v = static_cast<std::size_t>(mesh.from_vertex_handle(HalfedgeHandle(h)).idx());
-    if (v < fixed.size() && fixed[v] == 0) {
-      ++sizes[v];
-    }
-  }
-  OneRings rings =
-      OneRings::with_sizes(static_cast<std::int32_t>(fixed.size()), [&](std::int32_t v) { return sizes[v]; });
+  for_free_vertices([&](int v, HalfedgeHandle first) {
+    HalfedgeHandle h = first;
+    do {
+      ++sizes[static_cast<std::size_t>(v)];
+      h = rotated(h);
+    } while (h != first);
+  });
+  OneRings rings = OneRings::with_sizes(
+      static_cast<std::int32_t>(fixed.size()), [&](std::int32_t v) { return sizes[v]; }, workers);
   for_free_vertices([&](int v, HalfedgeHandle first) {
     const bool clockwise = !reversed.empty() && reversed[mesh.face_handle(first).idx()] != 0;
     rings.fill(v, [&, h = first]() mutable {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
@@ -17,6 +18,8 @@
 namespace trismooth {
 
 namespace {
+
+constexpr std::int64_t rings_grain = 16384;
 
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
@@ -31,38 +34,45 @@ struct Halfedges {
 };
 
 /// Marks the ends of edges between two regions.
-void hold_interfaces(const Halfedges& halfedges, std::span<const std::int32_t> regions,
-                     std::span<std::uint8_t> reasons) {
+void hold_interfaces(const Halfedges& halfedges, std::span<const std::int32_t> regions, std::span<std::uint8_t> reasons,
+                     Workers& workers) {
   const TriangleMesh& mesh = halfedges.mesh;
   const auto hold_end = [&](HalfedgeHandle h) {
     const auto v = static_cast<std::size_t>(mesh.to_vertex_handle(h).idx());
-    reasons[v < reasons.size() ? v : static_cast<std::size_t>(halfedges.copies_of[v - reasons.size()])] |=
-        hold::interface;
+    set_bits_relaxed(
+        reasons[v < reasons.size() ? v : static_cast<std::size_t>(halfedges.copies_of[v - reasons.size()])],
+        hold::interface);
   };
-  for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
-    const HalfedgeHandle one = mesh.halfedge_handle(EdgeHandle(e), 0);
-    const HalfedgeHandle other = mesh.halfedge_handle(EdgeHandle(e), 1);
-    if (!mesh.is_boundary(one) && !mesh.is_boundary(other) &&
-        regions[static_cast<std::size_t>(mesh.face_handle(one).idx())] !=
-            regions[static_cast<std::size_t>(mesh.face_handle(other).idx())]) {
-      hold_end(one);
-      hold_end(other);
+  workers.for_blocks(static_cast<std::int64_t>(mesh.n_edges()), rings_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto e = static_cast<int>(begin); e < end; ++e) {
+      const HalfedgeHandle one = mesh.halfedge_handle(EdgeHandle(e), 0);
+      const HalfedgeHandle other = mesh.halfedge_handle(EdgeHandle(e), 1);
+      if (!mesh.is_boundary(one) && !mesh.is_boundary(other) &&
+          regions[static_cast<std::size_t>(mesh.face_handle(one).idx())] !=
+              regions[static_cast<std::size_t>(mesh.face_handle(other).idx())]) {
+        hold_end(one);
+        hold_end(other);
+      }
     }
-  }
+  });
 }
 
 MeshRings read_rings(const Halfedges& halfedges, std::span<const Point2<double>> local,
                      std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
-  Orientation orientation = orient(halfedges.components, triangles, local);
+  Orientation orientation = orient(halfedges.components, triangles, local, workers);
   MeshRings found;
   found.fixed = halfedges.hold;
   hold_named_vertices(constraints, found.fixed);
   if (!constraints.regions.empty()) {
-    hold_interfaces(halfedges, constraints.regions, found.fixed);
+    hold_interfaces(halfedges, constraints.regions, found.fixed, workers);
   }
   // A component that the halfedges run through clockwise is read the other way round.
   std::vector<std::uint8_t> clockwise(triangles.size());
-  std::ranges::transform(orientation.reversed, halfedges.components.parity, clockwise.begin(), std::bit_xor<>());
+  workers.for_blocks(std::ssize(clockwise), rings_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      clockwise[t] = orientation.reversed[t] ^ halfedges.components.parity[t];
+    }
+  });
   found.rings = one_rings(halfedges.mesh, found.fixed, clockwise, workers, halfedges.copies_of);
   found.reversed = std::move(orientation.reversed);
   found.components = halfedges.components.components;
@@ -120,7 +130,7 @@ MeshRings find_halfedge_rings(std::span<const double> xyz, std::span<const Point
   MatchedSides sides = match_sides(static_cast<std::int32_t>(local.size()), triangles, workers);
   check_constraints(constraints, sides.vertex_count, std::ssize(triangles));
   HalfedgeMesh built = build_halfedge_mesh(xyz, triangles, sides, sides.parity, workers);
-  sides.twins = std::vector<std::int32_t>();  // its memory is free for the rings
+  sides.twins = BulkVector<std::int32_t>();  // its memory is free for the rings
   return read_rings({built.mesh, built.copies_of, std::move(built.hold), sides}, local, triangles, constraints,
                     workers);
 }

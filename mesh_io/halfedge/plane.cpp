@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,8 +12,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "trismooth/base/blocks.h"
 #include "trismooth/base/digits.h"
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth {
 
@@ -20,6 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::int64_t cloud_grain = 16384;
 constexpr double flatness = 1e-6;        // of the largest extent
 constexpr double element_part = 0.1;     // of the size of an element
 constexpr double least_inclined = 1e-6;  // where coordinates along axes would be shorter than in the plane by 5e-13
@@ -45,18 +49,44 @@ std::vector<double> half_sizes(std::span<const double> xyz, const CellList& cell
   return sizes;
 }
 
+/// How far points reach.
+struct Extent {
+  std::int64_t count = 0;
+  Vector3d low = Vector3d::Zero();
+  Vector3d high = Vector3d::Zero();
+
+  void add(const Extent& other) {
+    if (other.count > 0) {
+      low = count == 0 ? other.low : low.cwiseMin(other.low).eval();
+      high = count == 0 ? other.high : high.cwiseMax(other.high).eval();
+      count += other.count;
+    }
+  }
+};
+
 /// The points to which a plane is fitted, in units of their size around their centre: there nothing overflows.
 class Cloud {
  public:
-  Cloud(std::span<const double> xyz, std::span<const std::uint8_t> counts) : xyz_(xyz) {
-    for (std::size_t v = 0; v < counts.size(); ++v) {
-      if (counts[v] != 0) {
-        const Vector3d point = stored(v);
-        low_ = count_ == 0 ? point : low_.cwiseMin(point).eval();
-        high_ = count_ == 0 ? point : high_.cwiseMax(point).eval();
-        ++count_;
+  Cloud(std::span<const double> xyz, std::span<const std::uint8_t> counts, Workers& workers) : xyz_(xyz) {
+    const Blocks blocks(std::ssize(counts), cloud_grain, workers);
+    std::vector<Extent> extents(static_cast<std::size_t>(blocks.count()));
+    blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+      Extent extent;
+      for (std::int64_t v = begin; v < end; ++v) {
+        if (counts[v] != 0) {
+          const Vector3d point = stored(static_cast<std::size_t>(v));
+          extent.add({1, point, point});
+        }
       }
+      extents[block] = extent;
+    });
+    Extent all;
+    for (const Extent& extent : extents) {
+      all.add(extent);
     }
+    count_ = all.count;
+    low_ = all.low;
+    high_ = all.high;
     half_extent_ = high_ / 2 - low_ / 2;
     centre_ = high_ / 2 + low_ / 2;
     counts_ = counts;
@@ -291,8 +321,14 @@ std::string PlaneFit::fault() const {
 
 PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
                    Storage storage) {
+  Workers one(1);
+  return fit_plane(xyz, counts, cells, storage, one);
+}
+
+PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
+                   Storage storage, Workers& workers) {
   PlaneFit fit;
-  const Cloud cloud(xyz, counts);
+  const Cloud cloud(xyz, counts, workers);
   if (cloud.empty()) {
     return fit;
   }
@@ -353,7 +389,8 @@ std::optional<PlaneFit> plane_of_fixed(const Plane& plane, std::span<const doubl
   std::ranges::transform(counts, fixed, stays.begin(), [](std::uint8_t used, std::uint8_t held) {
     return used != 0 && held != 0 ? std::uint8_t{1} : std::uint8_t{0};
   });
-  const Cloud cloud(xyz, stays);
+  Workers one(1);
+  const Cloud cloud(xyz, stays, one);
   if (plane.deviation / 2 <= flatness * cloud.half_size()) {
     return std::nullopt;
   }
@@ -373,19 +410,22 @@ std::optional<PlaneFit> plane_of_fixed(const Plane& plane, std::span<const doubl
   return fit;
 }
 
-std::optional<std::vector<Point2<double>>> project(const Plane& plane, std::span<const double> xyz,
-                                                   std::span<const std::uint8_t> counts) {
-  std::vector<Point2<double>> points(xyz.size() / 3);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    points[v] = plane.project(Eigen::Map<const Vector3d>(xyz.data() + 3 * v));
-    if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
-      if (counts[v] != 0) {
-        return std::nullopt;
+std::optional<BulkVector<Point2<double>>> project(const Plane& plane, std::span<const double> xyz,
+                                                  std::span<const std::uint8_t> counts, Workers& workers) {
+  BulkVector<Point2<double>> points(xyz.size() / 3);
+  std::atomic<bool> beyond{false};
+  workers.for_blocks(std::ssize(points), cloud_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      points[v] = plane.project(Eigen::Map<const Vector3d>(xyz.data() + 3 * v));
+      if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
+        if (counts[v] != 0) {
+          beyond = true;
+        }
+        points[v] = {0, 0};
       }
-      points[v] = {0, 0};
     }
-  }
-  return points;
+  });
+  return beyond ? std::nullopt : std::optional(std::move(points));
 }
 
 }  // namespace trismooth

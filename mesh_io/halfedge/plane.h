@@ -9,11 +9,14 @@
 
 #include <Eigen/Core>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/cell_list.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
 
 namespace trismooth {
+
+class Workers;
 
 /// A plane in space with coordinates in it. Where the mesh lies along two coordinate axes, in-plane coordinates are
 /// those two coordinates themselves, untouched; otherwise they are taken along two orthonormal vectors.
@@ -62,6 +65,10 @@ struct PlaneFit {
 /// does and is inclined by up to 1e-6, the same two axes, with its slope. Otherwise the plane of least squares. The
 /// axes are those of the two largest extents (of equal ones xy before xz before yz). No points: xy. Complexity: linear.
 PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
+                   Storage storage, Workers& workers);
+
+/// The same on the calling thread.
+PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
                    Storage storage = Storage::float64);
 
 /// The plane in which to smooth a mesh of which `plane` is that of the points that count, where it is another. Free
@@ -75,7 +82,7 @@ std::optional<PlaneFit> plane_of_fixed(const Plane& plane, std::span<const doubl
 
 /// All points in coordinates of the plane. Nothing if one of which `counts` has none that are finite, near the largest
 /// double; others are at (0, 0) then. Complexity: linear.
-std::optional<std::vector<Point2<double>>> project(const Plane& plane, std::span<const double> xyz,
-                                                   std::span<const std::uint8_t> counts);
+std::optional<BulkVector<Point2<double>>> project(const Plane& plane, std::span<const double> xyz,
+                                                  std::span<const std::uint8_t> counts, Workers& workers);
 
 }  // namespace trismooth

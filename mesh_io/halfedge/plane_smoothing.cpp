@@ -1,11 +1,13 @@
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -15,6 +17,9 @@
 namespace trismooth {
 
 namespace {
+
+/// Vertices that a thread takes at a time.
+constexpr std::int64_t space_grain = 8192;
 
 bool is_finite(const Eigen::Vector3d& point) {
   return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
@@ -26,27 +31,29 @@ bool is_finite(Point2<double> point) {
 
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
 void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
-                    std::span<double> xyz, std::vector<Point2<double>>& points, const LocalPoints& local,
-                    const std::vector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
+                    std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
+                    const BulkVector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
                     SmoothingResult& result) {
   const Stopwatch watch;
+  Workers workers(options.threads);
   const RingView rings = mesh.rings.view();
   std::vector<Eigen::Vector3d> stored(points.size());
-  const std::vector<Point2<double>>& before = local.points;
-  std::vector<Point2<double>> after = before;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (moved[v] == points[v]) {
-      continue;
+  const BulkVector<Point2<double>>& before = local.points;
+  BulkVector<Point2<double>> after = before;
+  workers.for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+      if (moved[v] == points[v]) {
+        continue;
+      }
+      const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
+      stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
+      // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
+      const Point2<double> place = plane.project(stored[v]);
+      if (is_finite(stored[v]) && is_finite(place)) {
+        after[v] = local.frame.enter(place);
+      }
     }
-    const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
-    stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
-    // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
-    const Point2<double> place = plane.project(stored[v]);
-    if (is_finite(stored[v]) && is_finite(place)) {
-      after[v] = local.frame.enter(place);
-    }
-  }
-  Workers workers(options.threads);
+  });
   TurnedComponents turned;
   if (result.untangling) {
     turned = {result.untangling->turned_components, std::move(result.untangling->turned)};
@@ -63,14 +70,19 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
     result.untangling->turned_components = turned.count;
     result.untangling->turned = std::move(turned.triangles);
   }
-  result.moved_vertices = 0;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!(after[v] == before[v])) {
-      Eigen::Map<Eigen::Vector3d>(xyz.data() + 3 * v) = stored[v];
-      points[v] = plane.project(stored[v]);
-      ++result.moved_vertices;
+  std::atomic<std::int64_t> elsewhere{0};
+  workers.for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t elsewhere_here = 0;
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+      if (!(after[v] == before[v])) {
+        Eigen::Map<Eigen::Vector3d>(xyz.data() + 3 * v) = stored[v];
+        points[v] = plane.project(stored[v]);
+        ++elsewhere_here;
+      }
     }
-  }
+    elsewhere.fetch_add(elsewhere_here, std::memory_order_relaxed);
+  });
+  result.moved_vertices = elsewhere;
   if (options.guard) {
     name_reverted(result, points);
   }
@@ -79,22 +91,24 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
 
 }  // namespace
 
-SmoothingResult smooth_in_plane(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
-                                std::span<double> xyz, std::vector<Point2<double>>& points, const LocalPoints& local,
+SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                                 Storage storage, const SmoothingOptions& options) {
   SmoothingOptions in_plane = options;
   // What has been untangled needs the guard that knows what the sweeps began with, too.
   in_plane.guard = options.guard && (plane.aligned || options.untangles());
-  const auto smoother = backend_of(options).prepare(mesh, triangles, local.points, in_plane);
+  // The guard in space asks for the rings once more.
+  const auto smoother =
+      backend_of(options).prepare(plane.aligned ? with_rings_of(mesh) : mesh, triangles, local.points, in_plane);
   if (!plane.aligned) {
-    std::vector<Point2<double>> moved = points;
+    BulkVector<Point2<double>> moved = points;
     SmoothingResult result = smoother->smooth(moved, Storage::float64, local.frame);
     guard_in_space(mesh, triangles, plane, xyz, points, local, moved, storage, options, result);
+    mesh.rings = {};
     return result;
   }
   SmoothingResult result = smoother->smooth(points, storage, local.frame);
-  constexpr std::int64_t grain = 8192;
-  Workers(options.threads).for_blocks(std::ssize(points), grain, [&](std::int64_t begin, std::int64_t end) {
+  Workers(options.threads).for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
       Eigen::Map<Eigen::Vector3d> point(xyz.data() + 3 * v);
       if (const Point2<double> before = plane.project(point); !(before == points[v])) {

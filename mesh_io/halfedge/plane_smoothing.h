@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/smoothing/options.h"
@@ -11,13 +12,14 @@
 
 namespace trismooth {
 
-/// Smooths points of space within their plane. `mesh` is what was found of the `triangles`. `xyz` are the stored
+/// Smooths points of space within their plane. `mesh` is what was found of the `triangles`; its rings, the
+/// most memory of all, are gone afterwards. `xyz` are the stored
 /// coordinates (three of every vertex), changed in place and rounded to `storage`; `points` are plane.project() of them
 /// and get the projections of the result. `local` are `points` in the local frame of those that cells use. Everything
 /// else as Backend::prepare() and PreparedSmoother::smooth(). In a tilted plane the guard judges the projections of
 /// what is stored, since storing rounds in space.
-SmoothingResult smooth_in_plane(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
-                                std::span<double> xyz, std::vector<Point2<double>>& points, const LocalPoints& local,
+SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                                 Storage storage, const SmoothingOptions& options);
 
 }  // namespace trismooth

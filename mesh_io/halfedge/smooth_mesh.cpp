@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/workers.h"
@@ -53,14 +54,15 @@ CellList cells_of(std::span<const Triangle> triangles) {
 /// A mesh laid into a plane.
 struct InPlane {
   Plane plane;
-  std::vector<Point2<double>> points;
+  BulkVector<Point2<double>> points;
   LocalPoints local;
 
   InPlane(const PlaneFit& fit, std::span<const double> xyz, std::span<const std::uint8_t> in_cell) : plane(fit.plane) {
     if (!fit.is_planar()) {
       throw MeshError(fit.fault());
     }
-    auto projected = project(plane, xyz, in_cell);
+    Workers one(1);
+    auto projected = project(plane, xyz, in_cell, one);
     if (!projected) {
       throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
     }
@@ -86,7 +88,7 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
   InPlane placed(fit_plane(xyz, in_cell, cells_of(triangles)), xyz, in_cell);
 
   Workers workers(options.threads);
-  const MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
+  MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
     return read_halfedge_rings(mesh, placed.local.points, triangles, constraints, workers);
   });
   if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {

@@ -104,6 +104,10 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
                   "or more are free; else cpu",
                   free_vertices_for_cuda))
       ->group(option_group::running);
+  add_enum_option(command, "--topology", options.topology,
+                  "Who finds the neighbours; the result is the same. auto: the GPU where it smooths, else the host; "
+                  "halfedge: the host by way of a halfedge mesh, which takes longer")
+      ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except soa, unordered)";
   add_enum_option(command, "--layout", options.layout,
                   "Of single-block and cdp: an array of structures, or a structure of arrays")
@@ -115,8 +119,6 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
   add_enum_option(command, "--order", options.order,
                   "Of form b; unordered, as the threads happen to run: the paper's, not reproducible, for single-block "
                   "and cdp only")
-      ->group(group);
-  add_enum_option(command, "--topology", options.topology, "Who finds the neighbours; the result is the same")
       ->group(group);
 }
 

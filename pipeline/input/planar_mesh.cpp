@@ -1,15 +1,20 @@
 #include "trismooth/pipeline/input/planar_mesh.h"
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <span>
 
+#include "trismooth/base/relaxed_atomics.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
 namespace {
+
+constexpr std::int64_t cell_grain = 8192;
 
 bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return vertices.size() == 3 && (type == cell_type::triangle || type == cell_type::polygon);
@@ -25,20 +30,55 @@ std::string counted(std::int64_t count, const std::string& noun) {
 
 /// Adds the triangles of a strip; false where it has none.
 bool add_strip(std::span<const std::int32_t> strip, std::size_t cell, PlanarMesh& mesh) {
-  for_each_strip_triangle(strip, [&](const Triangle& triangle) { mesh.triangles.push_back(triangle); });
-  const bool has_triangles = mesh.cells.size() < mesh.triangles.size();
-  mesh.cells.resize(mesh.triangles.size(), static_cast<std::int32_t>(cell));
+  for_each_strip_triangle(strip, [&](const Triangle& triangle) { mesh.triangles_of_cells.push_back(triangle); });
+  const bool has_triangles = mesh.cells.size() < mesh.triangles_of_cells.size();
+  mesh.cells.resize(mesh.triangles_of_cells.size(), static_cast<std::int32_t>(cell));
   return has_triangles;
 }
 
-void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
+/// Takes the cells of a document that has triangles alone, as they lie there; false, and nothing is taken, where it has
+/// others.
+bool take_triangles(const CellList& cells, PlanarMesh& mesh, Workers& workers) {
+  if (cells.connectivity.size() != 3 * cells.size()) {
+    return false;
+  }
+  const std::int64_t count = std::ssize(cells.types);
+  mesh.cells.resize(cells.size());
+  std::atomic<bool> has_others{false};
+  workers.for_blocks(count, cell_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t c = begin; c < end; ++c) {
+      const std::int32_t* const vertices = cells.connectivity.data() + 3 * c;
+      if (cells.offsets[c + 1] != 3 * (c + 1) || !is_triangle(cells.types[c], {vertices, 3}) ||
+          repeats_a_vertex({vertices, 3})) {
+        has_others = true;
+        return;
+      }
+      mesh.cells[c] = static_cast<std::int32_t>(c);
+    }
+  });
+  if (has_others) {
+    mesh.cells.clear();
+    return false;
+  }
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t) && alignof(Triangle) == alignof(std::int32_t));
+  mesh.triangles = {reinterpret_cast<const Triangle*>(cells.connectivity.data()), cells.size()};
+  return true;
+}
+
+void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers) {
   std::size_t first_repeating = 0;
   mesh.in_other_cell.assign(document.point_count(), 0);
   mesh.in_cell.assign(document.point_count(), 0);
-  for (const std::int32_t v : document.cells.connectivity) {
-    mesh.in_cell[static_cast<std::size_t>(v)] = 1;
+  const std::vector<std::int32_t>& connectivity = document.cells.connectivity;
+  workers.for_blocks(std::ssize(connectivity), 3 * cell_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      set_bits_relaxed(mesh.in_cell[static_cast<std::size_t>(connectivity[i])], 1);
+    }
+  });
+  if (take_triangles(document.cells, mesh, workers)) {
+    return;
   }
-  mesh.triangles.reserve(document.cells.size());
+  mesh.triangles_of_cells.reserve(document.cells.size());
   mesh.cells.reserve(document.cells.size());
   for (std::size_t c = 0; c < document.cells.size(); ++c) {
     const auto vertices = document.cells[c];
@@ -47,7 +87,7 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
     }
     const bool triangular = is_triangle(document.cells.types[c], vertices);
     if (triangular && !repeats_a_vertex(vertices)) {
-      mesh.triangles.push_back({vertices[0], vertices[1], vertices[2]});
+      mesh.triangles_of_cells.push_back({vertices[0], vertices[1], vertices[2]});
       mesh.cells.push_back(static_cast<std::int32_t>(c));
       continue;
     }
@@ -59,6 +99,7 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
       mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
     }
   }
+  mesh.triangles = mesh.triangles_of_cells;
   if (mesh.repeating_triangles > 0) {
     mesh.notes.push_back(counted(mesh.repeating_triangles, "triangle") + " repeating a vertex (the first is cell " +
                          std::to_string(first_repeating) + "): kept as they are, their vertices held fixed");
@@ -70,11 +111,11 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh) {
 }
 
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
-                    const std::filesystem::path& path) {
+                    const std::filesystem::path& path, Workers& workers) {
   if (!fit.is_planar()) {
     throw ReadError(path, fit.fault() + "; only planar meshes can be smoothed");
   }
-  auto points = project(fit.plane, document.points, mesh.in_cell);
+  auto points = project(fit.plane, document.points, mesh.in_cell, workers);
   if (!points) {
     throw ReadError(path,
                     "the mesh is too large: coordinates along its tilted plane are beyond the range of double; "
@@ -100,10 +141,10 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
   }
 }
 
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
-  sort_cells(document, mesh);
+  sort_cells(document, mesh, workers);
   if (mesh.triangles.empty() && document.cells.size() > 0) {
     throw ReadError(path, "holds " + counted(static_cast<std::int64_t>(document.cells.size()), "cell") +
                               " but no triangle; only triangle meshes can be smoothed");
@@ -111,15 +152,21 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
   if (mesh.triangles.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
   }
-  lay_into_plane(mesh, fit_plane(document.points, mesh.in_cell, document.cells, storage_of(document)), document, path);
+  lay_into_plane(mesh, fit_plane(document.points, mesh.in_cell, document.cells, storage_of(document), workers),
+                 document, path, workers);
   return mesh;
 }
 
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
+  Workers one(1);
+  return planar_mesh(document, path, one);
+}
+
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
-                  const std::filesystem::path& path) {
+                  const std::filesystem::path& path, Workers& workers) {
   const auto fit = plane_of_fixed(mesh.plane, document.points, mesh.in_cell, fixed, storage_of(document));
   if (fit) {
-    lay_into_plane(mesh, *fit, document, path);
+    lay_into_plane(mesh, *fit, document, path, workers);
   }
   return fit.has_value();
 }

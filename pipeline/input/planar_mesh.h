@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
@@ -13,12 +14,24 @@
 
 namespace trismooth {
 
-/// The planar triangle mesh that a document holds.
+class Workers;
+
+/// The planar triangle mesh that a document holds. The document outlives it, and its cells stay as they are.
 struct PlanarMesh {
+  PlanarMesh() = default;
+  PlanarMesh(PlanarMesh&&) = default;
+  PlanarMesh& operator=(PlanarMesh&&) = default;
+  PlanarMesh(const PlanarMesh&) = delete;
+  PlanarMesh& operator=(const PlanarMesh&) = delete;
+  ~PlanarMesh() = default;
+
   Plane plane;
-  std::vector<Point2<double>> points;       ///< every vertex of the document in coordinates of the plane, file units
-  std::vector<Triangle> triangles;          ///< in the document's order, each in the document's vertex order
-  std::vector<std::int32_t> cells;          ///< the document's cell of each triangle, ascending; a strip has several
+  BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
+  /// In the document's order, each in the document's vertex order. They are the document's own connectivity where it
+  /// has nothing but triangles, else they are in triangles_of_cells.
+  std::span<const Triangle> triangles;
+  std::vector<Triangle> triangles_of_cells;
+  BulkVector<std::int32_t> cells;           ///< the document's cell of each triangle, ascending; a strip has several
   std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
   std::vector<std::uint8_t> in_cell;        ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;             ///< cells that are not triangles
@@ -37,13 +50,20 @@ Storage storage_of(const MeshDocument& document);
 /// a note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane())
 /// or have no finite coordinates in it (near the largest double), or the document holds cells but no triangle. A
 /// document without any cell is fine: nothing to smooth. Complexity: linear.
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
+
+/// The same on the calling thread.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
+
+/// Not of a temporary: the triangles may be the document's own.
+PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers) = delete;
+PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path) = delete;
 
 /// Brings the document's mesh into the plane in which it is to be smoothed, now that it is known which vertices are
 /// `fixed` (not 0): see plane_of_fixed(). Throws ReadError as planar_mesh() does. True where plane and points are
 /// others now.
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
-                  const std::filesystem::path& path);
+                  const std::filesystem::path& path, Workers& workers);
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
 /// number that is not below `vertex_count`.

@@ -1,15 +1,18 @@
 #include "trismooth/smoothing/guard/never_worse.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/guard/element_lanes.h"
 #include "trismooth/smoothing/guard/guard_tree.h"
 
 namespace trismooth {
@@ -21,6 +24,80 @@ constexpr std::int32_t vertices_a_block = 64;
 /// Blocks that a thread takes at a time.
 constexpr std::int64_t block_grain = 32;
 
+/// Whether a vertex has no ring and yet is one of those that may have one.
+bool has_gaps(const RingView& rings, Workers& workers) {
+  constexpr std::int64_t grain = 65536;
+  std::atomic<bool> found{false};
+  workers.for_blocks(rings.size(), grain, [&](std::int64_t begin, std::int64_t end) {
+    const auto offsets =
+        rings.offsets.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin + 1));
+    if (std::ranges::adjacent_find(offsets) != offsets.end()) {
+      found.store(true, std::memory_order_relaxed);
+    }
+  });
+  return found;
+}
+
+/// Elements that are measured side by side, as many as there are lanes at a time: visit(lanes, corners, count) is
+/// called when they are full, and by finish().
+template <class Visit>
+class ElementGatherer {
+ public:
+  ElementGatherer(const RingView& rings, std::span<const Point2<double>> before, std::span<const Point2<double>> after,
+                  const Visit& visit)
+      : rings_(rings), before_(before), after_(after), visit_(visit) {}
+
+  /// Takes the element, or if it does not count makes as if it had never been there: without a branch, which would be
+  /// guessed wrong too often.
+  void add_if(bool counts, const Triangle& element) {
+    elements_[count_] = element;
+    count_ += counts ? 1 : 0;
+    if (count_ == ElementLanes::lanes) {
+      finish();
+    }
+  }
+
+  void finish() {
+    if (count_ == 0) {
+      return;
+    }
+    for (std::size_t lane = 0; lane < count_; ++lane) {
+      gather(lane);
+    }
+    measure_(static_cast<int>(count_), lanes_);
+    visit_(lanes_, elements_, count_);
+    count_ = 0;
+  }
+
+ private:
+  /// In canonical corner order: from the corner with the smallest input index on.
+  void gather(std::size_t lane) {
+    const auto [a, b, c] = elements_[lane];
+    const std::int32_t index_a = rings_.input(a);
+    const std::int32_t index_b = rings_.input(b);
+    const std::int32_t index_c = rings_.input(c);
+    const std::array<std::int32_t, 5> corners{a, b, c, a, b};
+    const bool a_first = (index_a <= index_b) & (index_a <= index_c);
+    const int first = a_first ? 0 : 2 - static_cast<int>(index_b <= index_c);
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::int32_t v = corners[first + corner];
+      lanes_.before_x[corner][lane] = before_[v].x;
+      lanes_.before_y[corner][lane] = before_[v].y;
+      lanes_.after_x[corner][lane] = after_[v].x;
+      lanes_.after_y[corner][lane] = after_[v].y;
+    }
+  }
+
+  const RingView& rings_;
+  std::span<const Point2<double>> before_;
+  std::span<const Point2<double>> after_;
+  const Visit& visit_;
+  ElementMeasure measure_ = element_measure(instruction_set());
+  std::size_t count_ = 0;
+  std::array<Triangle, ElementLanes::lanes> elements_;
+  ElementLanes lanes_;
+};
+
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
@@ -29,15 +106,14 @@ class Guard {
         before_(before),
         after_(after),
         workers_(workers),
+        has_gaps_(has_gaps(rings, workers)),
         block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
         tree_(static_cast<std::size_t>(block_count_)) {}
 
   GuardOutcome run() {
     GuardOutcome outcome;
     workers_.for_blocks(block_count_, block_grain, [&](std::int64_t begin, std::int64_t end) {
-      for (auto block = static_cast<std::int32_t>(begin); block < end; ++block) {
-        measure(block);
-      }
+      measure(begin, end, [](std::int64_t block) { return static_cast<std::int32_t>(block); });
     });
     tree_.update();
     for (;;) {
@@ -58,42 +134,60 @@ class Guard {
  private:
   bool has_moved(std::int32_t vertex) const { return !(before_[vertex] == after_[vertex]); }
 
-  /// The quotient of the element (a, b, c), counter-clockwise, in canonical corner order.
-  double quotient(std::span<const Point2<double>> points, Triangle element) const {
-    const auto [a, b, c] = element;
-    return canonical_quotient(points[a], points[b], points[c], rings_.input(a), rings_.input(b), rings_.input(c));
+  /// Calls visit(lanes, elements, count) for the elements of the block, some at a time: those whose free corner of the
+  /// smallest number is in it. So every element of a free vertex is in one block.
+  template <class Visit>
+  void for_elements(std::int32_t block, ElementGatherer<Visit>& gatherer) const {
+    const std::int32_t begin = block * vertices_a_block;
+    const auto end =
+        static_cast<std::int32_t>(std::min<std::int64_t>(rings_.size(), std::int64_t{begin} + vertices_a_block));
+    if (has_gaps_) {
+      add_elements(
+          begin, end, [this](std::int32_t v) { return rings_.is_free(v); }, gatherer);
+    } else {
+      add_elements(
+          begin, end, [](std::int32_t /*v*/) { return true; }, gatherer);
+    }
+    gatherer.finish();
   }
 
-  /// Calls visit(element, quotient before, worsened quotient) for the elements of the block: those whose moved corner
-  /// of the smallest number is in it. So every element of a moved vertex is in one block.
-  template <class Visit>
-  void for_elements(std::int32_t block, const Visit& visit) const {
-    const auto size = std::min<std::int64_t>(vertices_a_block, rings_.size() - std::int64_t{block} * vertices_a_block);
-    for (std::int32_t i = 0; i < size; ++i) {
-      const std::int32_t v = block * vertices_a_block + i;
-      if (!has_moved(v)) {
+  /// `is_free(v)`: of a vertex below `end`.
+  template <class IsFree, class Visit>
+  void add_elements(std::int32_t begin, std::int32_t end, const IsFree& is_free,
+                    ElementGatherer<Visit>& gatherer) const {
+    for (std::int32_t v = begin; v < end; ++v) {
+      const auto ring = rings_[v];
+      if (ring.empty()) {
         continue;
       }
-      const auto ring = rings_[v];
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const std::int32_t b = ring[k];
-        const std::int32_t c = ring[k + 1 == ring.size() ? 0 : k + 1];
-        if ((b < v && has_moved(b)) || (c < v && has_moved(c))) {
-          continue;
-        }
-        const Triangle element{v, b, c};
-        const double was = quotient(before_, element);
-        visit(element, was, worsened_quotient(was, quotient(after_, element)));
+      const auto comes_later = [&](std::int32_t other) { return other > v || !is_free(other); };
+      std::int32_t b = ring.back();
+      bool b_comes_later = comes_later(b);
+      for (const std::int32_t c : ring) {
+        const bool c_comes_later = comes_later(c);
+        gatherer.add_if(b_comes_later & c_comes_later, {v, b, c});
+        b = c;
+        b_comes_later = c_comes_later;
       }
     }
   }
 
-  void measure(std::int32_t block) {
+  /// Finds the minima of the blocks block_at(begin) .. block_at(end).
+  template <class BlockAt>
+  void measure(std::int64_t begin, std::int64_t end, const BlockAt& block_at) {
     GuardMinimum minimum;
-    for_elements(block, [&](const Triangle& /*element*/, double before, double worsened) {
-      minimum.join({before, worsened});
-    });
-    tree_[static_cast<std::size_t>(block)] = minimum;
+    const auto join = [&](const ElementLanes& lanes, const auto& /*elements*/, std::size_t count) {
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        minimum.join({lanes.quotients[lane], lanes.worsened[lane]});
+      }
+    };
+    ElementGatherer gatherer(rings_, before_, after_, join);
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int32_t block = block_at(i);
+      minimum = {};
+      for_elements(block, gatherer);
+      tree_[static_cast<std::size_t>(block)] = minimum;
+    }
   }
 
   /// The moved corners of the offending elements in blocks_, each once.
@@ -104,14 +198,17 @@ class Guard {
     std::mutex joining;
     workers_.for_blocks(std::ssize(blocks_), block_grain, [&](std::int64_t begin, std::int64_t end) {
       std::vector<std::int32_t> found;
+      const auto list_offending = [&](const ElementLanes& lanes, const auto& elements, std::size_t count) {
+        for (std::size_t lane = 0; lane < count; ++lane) {
+          if (lanes.worsened[lane] < threshold) {
+            std::ranges::copy_if(elements[lane], std::back_inserter(found),
+                                 [&](std::int32_t v) { return has_moved(v) && list(v); });
+          }
+        }
+      };
+      ElementGatherer gatherer(rings_, before_, after_, list_offending);
       for (std::int64_t i = begin; i < end; ++i) {
-        for_elements(blocks_[static_cast<std::size_t>(i)],
-                     [&](const Triangle& element, double /*before*/, double worsened) {
-                       if (worsened < threshold) {
-                         std::ranges::copy_if(element, std::back_inserter(found),
-                                              [&](std::int32_t v) { return has_moved(v) && list(v); });
-                       }
-                     });
+        for_elements(blocks_[static_cast<std::size_t>(i)], gatherer);
       }
       const std::lock_guard lock(joining);
       offenders_.insert(offenders_.end(), found.begin(), found.end());
@@ -140,9 +237,7 @@ class Guard {
     std::ranges::sort(blocks_);
     blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
     workers_.for_blocks(std::ssize(blocks_), block_grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        measure(blocks_[static_cast<std::size_t>(i)]);
-      }
+      measure(begin, end, [this](std::int64_t i) { return blocks_[static_cast<std::size_t>(i)]; });
     });
     tree_.update(blocks_);
   }
@@ -151,6 +246,7 @@ class Guard {
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
   Workers& workers_;
+  bool has_gaps_;
   std::int64_t block_count_;
   GuardTree tree_;
   std::vector<std::int32_t> blocks_;     ///< of this round: with an offender, then with elements that changed

@@ -26,7 +26,7 @@ struct GuardOutcome {
 /// was and worse than the worst element around the vertices that stay moved was. T is one number for the whole mesh; it
 /// is found again in every round, for it rises when the vertices around that element have gone back. Elements are
 /// evaluated in float64 in canonical corner order (smallest input index first), so each gives the same bits from every
-/// vertex, in the report too. Ends: each round returns a vertex. Complexity: one pass over the elements of moved
+/// vertex, in the report too. Ends: each round returns a vertex. Complexity: one pass over the elements of free
 /// vertices; a round costs what it takes back (times log n), not the mesh.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers);

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
@@ -12,8 +12,8 @@ class Workers;
 
 /// The colours of Form B.
 struct Colouring {
-  std::vector<std::int32_t> colours;  ///< one a vertex of the view, from 0; -1 for those without a ring
-  std::int32_t count = 0;             ///< colours used
+  BulkVector<std::int32_t> colours;  ///< one a vertex of the view, from 0; -1 for those without a ring
+  std::int32_t count = 0;            ///< colours used
 };
 
 /// Greedy colouring of the free vertices in the order of splitmix64(input index): each gets the smallest colour that no

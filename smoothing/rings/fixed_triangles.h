@@ -23,7 +23,7 @@ class FixedTriangles {
   FixedTriangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                  std::span<const std::uint8_t> fixed) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto [a, b, c] = triangles[t];
+      const auto& [a, b, c] = triangles[t];
       if (fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0) {
         corners_.push_back(canonical_corners(triangles[t], reversed[t] != 0));
       }

@@ -25,6 +25,9 @@ struct MeshRings {
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 
+/// A copy that takes the rings, which are most of it, away from `mesh`.
+MeshRings with_rings_of(MeshRings& mesh);
+
 /// Finds it on the host, from the triangle list alone. `points` are in the local frame, one for every vertex. Throws
 /// MeshError and std::invalid_argument as connect_triangles() and fixed_vertices() do.
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,

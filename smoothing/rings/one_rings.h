@@ -1,13 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/triangle_topology.h"
 
 namespace trismooth {
+
+struct ListedRings;
 
 /// A view of one-rings, in the numbering of the input or in another one (see input()). Vertices from size() on have no
 /// ring: they are fixed.
@@ -28,8 +33,8 @@ struct RingView {
 /// The one-rings of a mesh's free vertices, all that the smoothing knows of the mesh. Ring i of vertex v: its
 /// neighbours counter-clockwise, beginning with the one of the smallest index; v's triangles are (v, n_i, n_i+1).
 struct OneRings {
-  std::vector<std::int64_t> offsets{0};  ///< vertex v has neighbours[offsets[v] .. offsets[v + 1]); fixed ones: none
-  std::vector<std::int32_t> neighbours;  ///< vertex indices
+  BulkVector<std::int64_t> offsets{0};  ///< vertex v has neighbours[offsets[v] .. offsets[v + 1]); fixed ones: none
+  BulkVector<std::int32_t> neighbours;  ///< vertex indices
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(offsets.size() - 1); }
   std::span<const std::int32_t> operator[](std::int32_t vertex) const {
@@ -39,14 +44,19 @@ struct OneRings {
   }
   bool is_free(std::int32_t vertex) const { return offsets[vertex] != offsets[vertex + 1]; }
   RingView view() const { return {offsets, neighbours, {}}; }
-  /// Room for `size(vertex)` neighbours of each vertex; `neighbours` are to be filled in.
+  /// Room for `size(vertex)` neighbours of each vertex; `neighbours` are to be filled in, all of them.
   template <class Size>
   static OneRings with_sizes(std::int32_t vertex_count, const Size& size) {
+    Workers one(1);
+    return with_sizes(vertex_count, size, one);
+  }
+  /// The same on several threads.
+  template <class Size>
+  static OneRings with_sizes(std::int32_t vertex_count, const Size& size, Workers& workers) {
     OneRings rings;
     rings.offsets.resize(static_cast<std::size_t>(vertex_count) + 1);
-    for (std::int32_t v = 0; v < vertex_count; ++v) {
-      rings.offsets[v + 1] = rings.offsets[v] + size(v);
-    }
+    prefix_sums<std::int64_t>(
+        rings.offsets, [&](std::int64_t v) { return size(static_cast<std::int32_t>(v)); }, workers);
     rings.neighbours.resize(static_cast<std::size_t>(rings.offsets.back()));
     return rings;
   }
@@ -54,14 +64,34 @@ struct OneRings {
   /// turns it so that the smallest comes first.
   template <class Next>
   void fill(std::int32_t vertex, Next next) {
-    const auto ring = std::span(neighbours).subspan(static_cast<std::size_t>(offsets[vertex]), (*this)[vertex].size());
-    std::ranges::generate(ring, std::move(next));
-    std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
+    std::int32_t* const ring = neighbours.data() + offsets[vertex];
+    const std::int64_t size = offsets[vertex + 1] - offsets[vertex];
+    std::array<std::int32_t, 16> found;
+    if (size > std::ssize(found)) {
+      std::generate(ring, ring + size, std::move(next));
+      std::rotate(ring, std::min_element(ring, ring + size), ring + size);
+      return;
+    }
+    std::int64_t smallest = 0;
+    for (std::int64_t i = 0; i < size; ++i) {
+      found[i] = next();
+      smallest = found[i] < found[smallest] ? i : smallest;
+    }
+    for (std::int64_t i = 0; i < size; ++i) {
+      ring[i] = found[smallest];
+      smallest = smallest + 1 == size ? 0 : smallest + 1;
+    }
   }
 };
 
 /// The one-rings of the vertices whose `fixed` byte is 0. Complexity: linear.
 OneRings one_rings(const TriangleTopology& topology, std::span<const Triangle> triangles,
                    std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers);
+
+OneRings one_rings(const ListedRings& listed, std::span<const Triangle> triangles,
+                   std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers);
+/// The same, for the last time: where the rings are those that are listed, they are handed over.
+OneRings one_rings(ListedRings&& listed, std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
+                   std::span<const std::uint8_t> fixed, Workers& workers);
 
 }  // namespace trismooth

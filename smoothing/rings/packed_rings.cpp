@@ -1,9 +1,14 @@
 #include "trismooth/smoothing/rings/packed_rings.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/counting_sort.h"
+#include "trismooth/base/prefetch.h"
+#include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
@@ -14,24 +19,31 @@ namespace {
 
 constexpr std::int64_t packing_grain = 8192;
 constexpr std::int64_t window = 1024;  // vertices: 16 KiB of points
+constexpr std::int64_t windows_grain = 8;
+constexpr std::int64_t ahead = 16;  // vertices
 
 /// `rings` renumbered: vertex order[v] becomes v. The first `free_count` vertices of the order have rings.
-PackedRings renumbered(const RingView& rings, const std::vector<std::int32_t>& order, std::int32_t free_count,
+PackedRings renumbered(const RingView& rings, std::span<const std::int32_t> order, std::int32_t free_count,
                        Workers& workers) {
   PackedRings packed;
   packed.input_index.resize(order.size());
-  packed.offsets.assign(static_cast<std::size_t>(free_count) + 1, 0);
-  std::vector<std::int32_t> new_number(order.size());
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(order.size()); ++v) {
-    new_number[order[v]] = v;
-    packed.input_index[v] = rings.input(order[v]);
-    if (v < free_count) {
-      packed.offsets[v + 1] = packed.offsets[v] + static_cast<std::int64_t>(rings[order[v]].size());
+  packed.offsets.resize(static_cast<std::size_t>(free_count) + 1);
+  BulkVector<std::int32_t> new_number(order.size());
+  workers.for_blocks(std::ssize(order), packing_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+      // The order may run through memory at random.
+      prefetch(&new_number[order[std::min<std::int64_t>(v + ahead, end - 1)]]);
+      new_number[order[v]] = v;
+      packed.input_index[v] = rings.input(order[v]);
     }
-  }
+  });
+  prefix_sums<std::int64_t>(
+      packed.offsets, [&](std::int64_t v) { return rings[order[v]].size(); }, workers);
   packed.neighbours.resize(static_cast<std::size_t>(packed.offsets.back()));
   workers.for_blocks(free_count, packing_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      prefetch(&rings.offsets[order[std::min(v + 2 * ahead, end - 1)]]);
+      prefetch(rings[order[std::min(v + ahead, end - 1)]].data());
       std::ranges::transform(rings[order[v]], packed.neighbours.begin() + packed.offsets[v],
                              [&](std::int32_t neighbour) { return new_number[neighbour]; });
     }
@@ -39,34 +51,57 @@ PackedRings renumbered(const RingView& rings, const std::vector<std::int32_t>& o
   return packed;
 }
 
-/// The free vertices' numbers by colour, each colour's in their order (a counting sort), and the batches of colours.
-std::vector<std::int32_t> grouped_by_colour(const Colouring& colouring, std::int32_t vertex_count,
-                                            std::vector<std::int32_t>& batches) {
-  batches.assign(static_cast<std::size_t>(colouring.count) + 1, 0);
-  for (const std::int32_t colour : colouring.colours) {
-    ++batches[colour + 1];
-  }
-  for (std::int32_t c = 0; c < colouring.count; ++c) {
-    batches[c + 1] += batches[c];
-  }
-  std::vector<std::int32_t> place(batches.begin(), batches.end() - 1);
-  std::vector<std::int32_t> order(static_cast<std::size_t>(vertex_count));
-  const auto free_count = static_cast<std::int32_t>(colouring.colours.size());
-  for (std::int32_t v = 0; v < vertex_count; ++v) {
-    order[v < free_count ? place[colouring.colours[v]]++ : v] = v;
-  }
+/// Writes the numbers from `first` on, in their order.
+void list_all(std::span<std::int32_t> order, std::int64_t first, Workers& workers) {
+  workers.for_blocks(std::ssize(order), packing_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::iota(order.begin() + begin, order.begin() + end, static_cast<std::int32_t>(first + begin));
+  });
+}
+
+/// The free vertices' numbers by colour, each colour's in their order, and the batches of colours.
+BulkVector<std::int32_t> grouped_by_colour(const Colouring& colouring, std::int32_t vertex_count,
+                                           std::vector<std::int32_t>& batches, Workers& workers) {
+  BulkVector<std::int32_t> order(static_cast<std::size_t>(vertex_count));
+  const std::int64_t free_count = std::ssize(colouring.colours);
+  const std::vector<std::int64_t> begins = counting_sort(
+      free_count, colouring.count, [&](std::int64_t v) { return colouring.colours[v]; },
+      [&](std::int64_t v, std::int64_t place) { order[place] = static_cast<std::int32_t>(v); }, workers);
+  batches.assign(begins.begin(), begins.end());
+  list_all(std::span(order).subspan(static_cast<std::size_t>(free_count)), free_count, workers);
   return order;
 }
 
+/// Sorts no more than a window of vertices, which ascend, by the sizes of their rings, and keeps the order of equal
+/// ones.
+void sort_by_ring_size(const RingView& rings, std::span<std::int32_t> vertices) {
+  constexpr std::size_t usual_sizes = 64;
+  std::array<std::int32_t, usual_sizes + 1> places{};
+  for (const std::int32_t v : vertices) {
+    const std::size_t size = rings[v].size();
+    if (size >= usual_sizes) {
+      std::ranges::sort(vertices, {}, [&](std::int32_t w) { return std::pair(rings[w].size(), w); });
+      return;
+    }
+    ++places[size + 1];
+  }
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::array<std::int32_t, window> sorted;
+  for (const std::int32_t v : vertices) {
+    sorted[places[rings[v].size()]++] = v;
+  }
+  std::copy_n(sorted.begin(), vertices.size(), vertices.begin());
+}
+
 void sort_windows_by_ring_size(const RingView& rings, std::span<const std::int32_t> batches,
-                               std::vector<std::int32_t>& order, Workers& workers) {
+                               std::span<std::int32_t> order, Workers& workers) {
   for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
     const std::int64_t size = batches[batch + 1] - batches[batch];
-    std::int32_t* const first = order.data() + batches[batch];
-    workers.for_blocks((size + window - 1) / window, 1, [&](std::int64_t begin, std::int64_t end) {
+    const auto vertices = order.subspan(static_cast<std::size_t>(batches[batch]), static_cast<std::size_t>(size));
+    workers.for_blocks((size + window - 1) / window, windows_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t w = begin; w < end; ++w) {
-        std::ranges::stable_sort(first + w * window, first + std::min((w + 1) * window, size), {},
-                                 [&](std::int32_t v) { return rings[v].size(); });
+        const std::int64_t first = w * window;
+        sort_by_ring_size(rings, vertices.subspan(static_cast<std::size_t>(first),
+                                                  static_cast<std::size_t>(std::min(window, size - first))));
       }
     });
   }
@@ -74,21 +109,24 @@ void sort_windows_by_ring_size(const RingView& rings, std::span<const std::int32
 
 }  // namespace
 
-PackedRings pack_rings(const OneRings& rings, std::span<const Point2<double>> points, Form form, Workers& workers) {
-  std::vector<std::int32_t> order = hilbert_order(points, rings, workers);
-  const auto free_end = std::ranges::find_if_not(order, [&](std::int32_t v) { return rings.is_free(v); });
+PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers) {
+  BulkVector<std::int32_t> order = hilbert_order(points, rings, workers);
+  const auto free_end =
+      std::partition_point(order.begin(), order.end(), [&](std::int32_t v) { return rings.is_free(v); });
   const auto free_count = static_cast<std::int32_t>(free_end - order.begin());
   // Everything that walks over neighbours does so along the curve: that pays for renumbering twice.
   const PackedRings along_curve = renumbered(rings.view(), order, free_count, workers);
+  const std::int32_t vertex_count = rings.vertex_count();
+  rings = {};
 
   std::vector<std::int32_t> batches{0, free_count};
   std::int32_t colours = 0;
   if (form == Form::in_place) {
     const Colouring colouring = colour_free_vertices(along_curve.view(), workers);
     colours = colouring.count;
-    order = grouped_by_colour(colouring, rings.vertex_count(), batches);
+    order = grouped_by_colour(colouring, vertex_count, batches, workers);
   } else {
-    std::iota(order.begin(), order.end(), 0);
+    list_all(order, 0, workers);
   }
   sort_windows_by_ring_size(along_curve.view(), batches, order, workers);
   PackedRings packed = renumbered(along_curve.view(), order, free_count, workers);

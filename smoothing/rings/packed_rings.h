@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
@@ -15,18 +16,19 @@ class Workers;
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
 /// windows of the curve vertices are sorted by ring size, so that the loops over rings are predictable.
 struct PackedRings {
-  std::vector<std::int32_t> input_index;  ///< the caller's number of each packed vertex
-  std::vector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
-  std::vector<std::int32_t> neighbours;   ///< packed numbers, in ring order
-  std::vector<std::int32_t> batches{0};   ///< batch b holds packed vertices batches[b] .. batches[b + 1]
-  std::int32_t colours = 0;               ///< 0 for Form A
+  BulkVector<std::int32_t> input_index;  ///< the caller's number of each packed vertex
+  BulkVector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
+  BulkVector<std::int32_t> neighbours;   ///< packed numbers, in ring order
+  std::vector<std::int32_t> batches{0};  ///< batch b holds packed vertices batches[b] .. batches[b + 1]
+  std::int32_t colours = 0;              ///< 0 for Form A
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(input_index.size()); }
   std::int32_t free_count() const { return batches.back(); }
   RingView view() const { return {offsets, neighbours, input_index}; }
 };
 
-/// `points`: the caller's vertices in the local frame; used for the order alone. Complexity: n log n.
-PackedRings pack_rings(const OneRings& rings, std::span<const Point2<double>> points, Form form, Workers& workers);
+/// `rings`: released on the way, so move them here where they are not needed any more. `points`: the caller's vertices
+/// in the local frame; used for the order alone. Complexity: linear.
+PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers);
 
 }  // namespace trismooth

@@ -3,13 +3,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/base/compiled_for.h"
 #include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/methods/weighted_laplacian.h"
 
-// One loop, which calls the methods' own functions for each lane. It is inlined into a function for each instruction
-// set, whose target attribute says what the compiler may make of it; no code for one set can end up in another's
-// functions.
+// One loop, which calls the methods' own functions for each lane.
 namespace trismooth {
 
 namespace {
@@ -94,28 +93,11 @@ template <class Update, class T>
   update_rings_of<Update>(size, count, rings, std::make_integer_sequence<int, sizes>());
 }
 
-template <class Update, class T>
-[[gnu::flatten]] void baseline(int size, int count, RingLanes<T>& rings) {
-  update_lanes<Update>(size, count, rings);
-}
-
-#if defined(__x86_64__)
-template <class Update, class T>
-[[gnu::flatten, gnu::target("avx2")]] void avx2(int size, int count, RingLanes<T>& rings) {
-  update_lanes<Update>(size, count, rings);
-}
-#endif
-
 }  // namespace
 
 template <class Update, class T>
-LaneUpdate<T> lane_update([[maybe_unused]] InstructionSet instructions) {
-#if defined(__x86_64__)
-  if (instructions == InstructionSet::avx2) {
-    return &avx2<Update, T>;
-  }
-#endif
-  return &baseline<Update, T>;
+LaneUpdate<T> lane_update(InstructionSet instructions) {
+  return compiled_for<update_lanes<Update, T>>(instructions);
 }
 
 #define INSTANTIATE(Update)                                              \

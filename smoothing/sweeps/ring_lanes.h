@@ -4,11 +4,24 @@
 
 namespace trismooth {
 
-/// Vertices with rings of one size side by side, a vertex a lane, and what a method says of them. Loops over lanes do
-/// in one instruction what a register has room for.
+/// What a method says of vertices side by side, a vertex a lane. What is yes or no is 1 or 0, in numbers as wide as the
+/// others.
 template <class T>
-struct RingLanes {
+struct LaneMoves {
   static constexpr int lanes = 32;
+
+  alignas(64) T target_x[lanes] = {};
+  alignas(64) T target_y[lanes] = {};
+  alignas(64) T squares[lanes] = {};    ///< see VertexMove
+  alignas(64) T moves[lanes] = {};      ///< to the target
+  alignas(64) T undecided[lanes] = {};  ///< that is to be asked for alone
+};
+
+/// The same with their rings, which are of one size. Loops over lanes do in one instruction what a register has room
+/// for.
+template <class T>
+struct RingLanes : LaneMoves<T> {
+  using LaneMoves<T>::lanes;
   /// Loops go over so many at a time: as many as fill the widest register, or two or four narrower ones.
   static constexpr int at_once = 8;
   static constexpr int smallest_ring = 3;
@@ -16,17 +29,11 @@ struct RingLanes {
 
   static constexpr bool holds(int ring_size) { return ring_size >= smallest_ring && ring_size <= largest_ring; }
 
-  // In: x[i] of neighbour i in ring order. Lanes beyond those in use hold anything.
+  // x[i] of neighbour i in ring order. Lanes beyond those in use hold anything.
   alignas(64) T x[largest_ring][lanes] = {};
   alignas(64) T y[largest_ring][lanes] = {};
   alignas(64) T position_x[lanes] = {};
   alignas(64) T position_y[lanes] = {};
-  // Out. What is yes or no is 1 or 0, in numbers as wide as the others.
-  alignas(64) T target_x[lanes] = {};
-  alignas(64) T target_y[lanes] = {};
-  alignas(64) T squares[lanes] = {};    ///< see VertexMove
-  alignas(64) T moves[lanes] = {};      ///< to the target
-  alignas(64) T undecided[lanes] = {};  ///< that is to be asked for alone
 };
 
 }  // namespace trismooth

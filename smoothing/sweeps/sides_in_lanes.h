@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <vector>
+#include <array>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/methods/ring_sides.h"
@@ -9,12 +8,15 @@
 
 namespace trismooth {
 
+/// Larger rings are visited alone.
+inline constexpr int largest_ring_in_lanes = 16;
+
 /// The sides of several rings, all of one size, one ring in each lane; otherwise as SidesInTurn. What does not change
 /// where the vertices move is kept.
-template <class T, class Metric>
+template <class T, int bytes, class Metric>
 class SidesInLanes {
  public:
-  using V = Lanes<T>;
+  using V = Lanes<T, bytes>;
   using Mask = decltype(V{} < V{});
 
   struct Neighbour {
@@ -22,16 +24,15 @@ class SidesInLanes {
     V inverse_area;  ///< 1 / (twice the area to be aimed at) around it
   };
 
-  /// Takes the sides of other rings. neighbour(i): neighbour i of each; metric(i): of the side that begins there;
-  /// `inverse_area`: around the vertices.
+  /// Takes the sides of rings of up to largest_ring_in_lanes neighbours. neighbour(i): neighbour i of each; metric(i):
+  /// of the side that begins there; `inverse_area`: around the vertices.
   template <class NeighbourAt, class MetricAt>
   void take(int size, V inverse_area, const NeighbourAt& neighbour, const MetricAt& metric) {
-    neighbours_.resize(static_cast<std::size_t>(size) + 1);
     for (int i = 0; i < size; ++i) {
       neighbours_[i] = neighbour(i);
     }
     neighbours_[size] = neighbours_[0];
-    sides_.resize(static_cast<std::size_t>(size));
+    size_ = size;
     for (int i = 0; i < size; ++i) {
       const Neighbour& from = neighbours_[i];
       const Neighbour& to = neighbours_[i + 1];
@@ -44,7 +45,7 @@ class SidesInLanes {
   SideTotals<V, count> totals(Point2<V> position, const Term& term) const {
     auto result = SideTotals<V, count>::template none<T>();
     RingSpoke<V> a = spoke_to(neighbours_[0].position, position);
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
+    for (int i = 0; i < size_; ++i) {
       const RingSpoke<V> b = spoke_to(neighbours_[i + 1].position, position);
       result.add(term(triangle_of<T>(a, b, sides_[i])));
       a = b;
@@ -54,15 +55,16 @@ class SidesInLanes {
 
   static bool any(const Mask& mask) {
     auto joined = mask[0];
-    for (int lane = 1; lane < LanesOf<T>::count; ++lane) {
+    for (int lane = 1; lane < LanesOf<T, bytes>::count; ++lane) {
       joined |= mask[lane];
     }
     return joined != 0;
   }
 
  private:
-  std::vector<Neighbour> neighbours_;  ///< the first one again at the end
-  std::vector<RingSide<V, Metric>> sides_;
+  int size_ = 0;
+  std::array<Neighbour, largest_ring_in_lanes + 1> neighbours_;  ///< the first one again at the end
+  std::array<RingSide<V, Metric>, largest_ring_in_lanes> sides_;
 };
 
 }  // namespace trismooth

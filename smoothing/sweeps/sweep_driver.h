@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/methods/methods.h"
@@ -17,7 +18,7 @@
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"
-#include "trismooth/smoothing/sweeps/mean_ratio_visits.h"
+#include "trismooth/smoothing/sweeps/mean_ratio_lanes.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
@@ -42,14 +43,14 @@ class SweepDriver {
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
-  void run(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+  void run(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
     workers_.run([&] { run_stages(points, fixed_quotient, result); });
   }
 
  private:
   static constexpr std::int64_t grain = 1024;
 
-  void run_stages(std::vector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+  void run_stages(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
     const Stopwatch watch;
     if (options_.form == Form::swap) {
       other_points_ = points;
@@ -76,7 +77,7 @@ class SweepDriver {
 
   /// Sweeps to the end of the stage. Nothing where another one follows, which `stages` is at then.
   template <class Update>
-  std::optional<StopReason> run_stage(const Update& method, std::vector<Point2<T>>& points, Stages& stages,
+  std::optional<StopReason> run_stage(const Update& method, BulkVector<Point2<T>>& points, Stages& stages,
                                       double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
     const bool swaps = options_.form == Form::swap;
     marked_.assign(points.size(), 1);
@@ -129,7 +130,7 @@ class SweepDriver {
   }
 
   template <class Update>
-  SweepTally<T> sweep(const Update& method, const std::vector<Point2<T>>& from, std::vector<Point2<T>>& to,
+  SweepTally<T> sweep(const Update& method, const BulkVector<Point2<T>>& from, BulkVector<Point2<T>>& to,
                       std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& marked_next) {
     SweepTally<T> total;
     std::mutex joining;
@@ -210,7 +211,7 @@ class SweepDriver {
   const SmoothingOptions& options_;
   Workers& workers_;
   std::span<const double> inverse_sizes_;
-  std::vector<Point2<T>> other_points_;
+  BulkVector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;
 };

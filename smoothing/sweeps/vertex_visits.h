@@ -13,58 +13,26 @@
 
 namespace trismooth {
 
-/// Visits of a method to vertices, many of them side by side: see RingLanes. What lanes cannot tell is asked for alone.
+/// What a method says of vertices side by side, and for which rings it can. Specialised for methods that need more than
+/// the positions of a ring: see mean_ratio_lanes.h.
 template <class T, class Method>
-class VertexVisits {
+class SideBySide {
  public:
-  VertexVisits(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
-      : method_(method), rings_(rings), points_(points) {}
+  SideBySide(const Method& /*method*/, const RingView& rings, std::span<const Point2<T>> points)
+      : rings_(rings), points_(points) {}
 
-  /// Calls settle(v, target, squares) for those of `vertices`, whose rings are of one size, that move.
-  template <class Settle>
-  void visit(std::span<const std::int32_t> vertices, int ring_size, const Settle& settle) {
-    while (!vertices.empty()) {
-      const auto group = vertices.first(std::min<std::size_t>(RingLanes<T>::lanes, vertices.size()));
-      vertices = vertices.subspan(group.size());
-      if (RingLanes<T>::holds(ring_size)) {
-        visit_in_lanes(group, ring_size, settle);
-      } else {
-        for (const std::int32_t v : group) {
-          visit_alone(v, settle);
-        }
-      }
+  static constexpr bool holds(int ring_size) { return RingLanes<T>::holds(ring_size); }
+
+  /// Of the first `count` of `vertices`; the others come next.
+  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size) {
+    for (int lane = 0; lane < count; ++lane) {
+      take(vertices[lane], ring_size, lane);
     }
+    update_(ring_size, count, lanes_);
+    return lanes_;
   }
 
  private:
-  template <class Settle>
-  void visit_in_lanes(std::span<const std::int32_t> group, int ring_size, const Settle& settle) {
-    const int count = static_cast<int>(group.size());
-    for (int lane = 0; lane < count; ++lane) {
-      take(group[lane], ring_size, lane);
-    }
-    update_(ring_size, count, lanes_);
-    // Who moves is listed first, without branches: about half of them would be guessed wrong.
-    std::array<int, RingLanes<T>::lanes> moving{};
-    int movers = 0;
-    bool are_decided = true;
-    for (int lane = 0; lane < count; ++lane) {
-      const bool is_decided = lanes_.undecided[lane] == T(0);
-      are_decided &= is_decided;
-      moving[movers] = lane;
-      movers += (is_decided & (lanes_.moves[lane] != T(0))) ? 1 : 0;
-    }
-    for (int i = 0; i < movers; ++i) {
-      const int lane = moving[i];
-      settle(group[lane], Point2<T>{lanes_.target_x[lane], lanes_.target_y[lane]}, lanes_.squares[lane]);
-    }
-    for (int lane = 0; lane < count && !are_decided; ++lane) {
-      if (lanes_.undecided[lane] != T(0)) {
-        visit_alone(group[lane], settle);
-      }
-    }
-  }
-
   void take(std::int32_t v, int ring_size, int lane) {
     const std::int32_t* const ring = rings_[v].data();
     for (int i = 0; i < ring_size; ++i) {
@@ -76,6 +44,61 @@ class VertexVisits {
     lanes_.position_y[lane] = points_[v].y;
   }
 
+  RingLanes<T> lanes_;
+  const RingView& rings_;
+  std::span<const Point2<T>> points_;
+  LaneUpdate<T> update_ = lane_update<Method, T>(instruction_set());
+};
+
+/// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone.
+template <class T, class Method>
+class VertexVisits {
+ public:
+  VertexVisits(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
+      : side_by_side_(method, rings, points), method_(method), rings_(rings), points_(points) {}
+
+  /// Calls settle(v, target, squares) for those of `vertices`, whose rings are of one size, that move. They share no
+  /// edge, or settle() leaves the points as they are.
+  template <class Settle>
+  void visit(std::span<const std::int32_t> vertices, int ring_size, const Settle& settle) {
+    if (!side_by_side_.holds(ring_size)) {
+      for (const std::int32_t v : vertices) {
+        visit_alone(v, settle);
+      }
+      return;
+    }
+    while (!vertices.empty()) {
+      const int count = static_cast<int>(std::min<std::size_t>(LaneMoves<T>::lanes, vertices.size()));
+      visit_in_lanes(vertices, count, ring_size, settle);
+      vertices = vertices.subspan(static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  template <class Settle>
+  void visit_in_lanes(std::span<const std::int32_t> vertices, int count, int ring_size, const Settle& settle) {
+    const LaneMoves<T>& found = side_by_side_.moves(vertices, count, ring_size);
+    // Who moves is listed first, without branches: about half of them would be guessed wrong.
+    std::array<int, LaneMoves<T>::lanes> moving{};
+    int movers = 0;
+    bool are_decided = true;
+    for (int lane = 0; lane < count; ++lane) {
+      const bool is_decided = found.undecided[lane] == T(0);
+      are_decided &= is_decided;
+      moving[movers] = lane;
+      movers += (is_decided & (found.moves[lane] != T(0))) ? 1 : 0;
+    }
+    for (int i = 0; i < movers; ++i) {
+      const int lane = moving[i];
+      settle(vertices[lane], Point2<T>{found.target_x[lane], found.target_y[lane]}, found.squares[lane]);
+    }
+    for (int lane = 0; lane < count && !are_decided; ++lane) {
+      if (found.undecided[lane] != T(0)) {
+        visit_alone(vertices[lane], settle);
+      }
+    }
+  }
+
   template <class Settle>
   void visit_alone(std::int32_t v, const Settle& settle) {
     const VertexMove<T> result = gatherer_.with_ring_of_any_size(
@@ -85,11 +108,10 @@ class VertexVisits {
     }
   }
 
-  RingLanes<T> lanes_;
+  SideBySide<T, Method> side_by_side_;
   const Method& method_;
   const RingView& rings_;
   std::span<const Point2<T>> points_;
-  LaneUpdate<T> update_ = lane_update<Method, T>(instruction_set());
   RingGatherer<T> gatherer_;
 };
 

@@ -215,9 +215,9 @@ std::vector<std::uint8_t> turned_over(std::span<const std::uint8_t> reversed, co
   return now;
 }
 
-std::vector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
-                                            const TurnedComponents& turned) {
-  std::vector<std::int32_t> neighbours(rings.neighbours.begin(), rings.neighbours.end());
+BulkVector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
+                                           const TurnedComponents& turned) {
+  BulkVector<std::int32_t> neighbours(rings.neighbours.begin(), rings.neighbours.end());
   const std::vector<std::uint8_t> is_turned = vertices_of(rings, triangles, turned.triangles);
   for (std::int32_t v = 0; v < rings.size(); ++v) {
     if (is_turned[v] != 0) {
@@ -233,7 +233,7 @@ std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle>
   if (!turned.any()) {
     return inverted_triangles(rings, points, workers);
   }
-  const std::vector<std::int32_t> neighbours = turned_neighbours(rings, triangles, turned);
+  const BulkVector<std::int32_t> neighbours = turned_neighbours(rings, triangles, turned);
   return inverted_triangles({rings.offsets, neighbours, rings.input_index}, points, workers);
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/guard/never_worse.h"
@@ -26,8 +27,8 @@ std::vector<std::uint8_t> turned_over(std::span<const std::uint8_t> reversed, co
 
 /// The neighbours of `rings` where those components have been turned over: clockwise is counter-clockwise there, and
 /// the neighbour that is first stays so. `triangles`: of the mesh, in the input's numbering.
-std::vector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
-                                            const TurnedComponents& turned);
+BulkVector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
+                                           const TurnedComponents& turned);
 
 /// inverted_triangles() where those components of the input have been turned over.
 std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle> triangles,

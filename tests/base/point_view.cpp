@@ -23,7 +23,6 @@
 
 using test_meshes::Mesh;
 using trismooth::ConstPointView;
-using trismooth::IndexView;
 using trismooth::MeshError;
 using trismooth::plan;
 using trismooth::Point2;
@@ -144,7 +143,7 @@ std::vector<Form> forms_of() {
           [&] { return n == 2 ? xy_points(array) : xyz_points(array); });
     };
   };
-  const auto matrix = []<class M>(M /*type*/, bool in_columns, bool by_type) {
+  const auto matrix = []<class M>(const M& /*type*/, bool in_columns, bool by_type) {
     return [=](const Mesh& mesh, const SmoothingOptions& options, std::vector<double>& xy) {
       const auto count = static_cast<Eigen::Index>(mesh.points.size());
       const Eigen::Index n = in_columns ? (M::RowsAtCompileTime > 0 ? M::RowsAtCompileTime : 3)
@@ -287,9 +286,9 @@ TEST_CASE("points of float are what a mesh is that is stored in float32, in ever
 TEST_CASE("where the device fails, points in every form of memory are what they were") {
   using fakes::Failure;
   const Mesh mesh = sample();
-  for (const auto topology : {trismooth::Topology::halfedge, trismooth::Topology::device}) {
+  for (const auto topology : {trismooth::Topology::host, trismooth::Topology::device}) {
     for (const Failure failure : {Failure::prepare, Failure::smooth, Failure::download}) {
-      if (failure == Failure::download && topology == trismooth::Topology::halfedge) {
+      if (failure == Failure::download && topology == trismooth::Topology::host) {
         continue;  // the points are on the host in between
       }
       CAPTURE(static_cast<int>(failure));
@@ -298,7 +297,7 @@ TEST_CASE("where the device fails, points in every form of memory are what they 
       options.backend = &device;
       options.topology = topology;
       const auto require_untouched = [&](auto& memory, const auto& view) {
-        const auto before = memory;
+        const auto before = memory;  // NOLINT(performance-unnecessary-copy-initialization): the view is of the memory
         CHECK_THROWS_AS(smooth(view(), mesh.indices(), {}, options), trismooth::DeviceError);
         CHECK(memory == before);
       };
@@ -313,6 +312,22 @@ TEST_CASE("where the device fails, points in every form of memory are what they 
       require_untouched(triples, [&]() -> PointView { return triples; });
     }
   }
+}
+
+TEST_CASE("by default a device without memory for the topology of a plan leaves it to the host, and says so") {
+  const Mesh mesh = sample();
+  const fakes::FakeBackend device(fakes::Failure::rings);
+  std::vector<double> expected = mesh.xy();
+  smooth(xy_points(expected), mesh.indices());
+  SmoothingOptions options;
+  options.backend = &device;
+  std::vector<double> xy = mesh.xy();
+  const trismooth::SmoothingResult result = smooth(xy_points(xy), mesh.indices(), {}, options);
+  CHECK(xy == expected);
+  CHECK(device.smoothed == 1);
+  CHECK(result.backend_note.starts_with("the host found the neighbours: CUDA: cudaErrorMemoryAllocation"));
+  options.topology = trismooth::Topology::device;
+  CHECK_THROWS_AS(smooth(xy_points(xy), mesh.indices(), {}, options), trismooth::DeviceError);
 }
 
 TEST_CASE(
@@ -402,7 +417,7 @@ TEST_CASE("a third number is a height: the same everywhere, to 1e-6 of the exten
   CHECK(refusal([&] { smooth(unknown, mesh.indices()); }) == "mesh: vertex 11 has a coordinate that is not finite");
 
   const fakes::FakeBackend device;
-  for (const auto topology : {trismooth::Topology::halfedge, trismooth::Topology::device}) {
+  for (const auto topology : {trismooth::Topology::host, trismooth::Topology::device}) {
     SmoothingOptions options;
     options.backend = &device;
     options.topology = topology;

@@ -128,14 +128,14 @@ void compare_executions(const test_meshes::Mesh& mesh) {
         options.backend = &cuda::backend();
         for (const auto& [execution, layout, topology] :
              {std::tuple(Execution::resident, Layout::aos, Topology::device),
-              std::tuple(Execution::resident, Layout::aos, Topology::halfedge),
+              std::tuple(Execution::resident, Layout::aos, Topology::host),
               std::tuple(Execution::single_block, Layout::aos, Topology::device),
-              std::tuple(Execution::single_block, Layout::soa, Topology::halfedge)}) {
+              std::tuple(Execution::single_block, Layout::soa, Topology::host)}) {
           options.execution = execution;
           options.layout = layout;
           options.topology = topology;
           // Where the smallest shape is measured the whole grid sweeps, else patches.
-          options.record_min_shape = topology == Topology::halfedge;
+          options.record_min_shape = topology == Topology::host;
           std::vector<double> xy = mesh.xy();
           smooth(xy_points(xy), triangles, {}, options);
           expect(same_bits(xy, expected), std::string(to_string(execution)) + " " + std::string(to_string(layout)) +

@@ -71,7 +71,7 @@ class Hoard {
 
 TEST_CASE("a plan smooths new coordinates, and a mirrored mesh, as the CPU's plan does") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(15, 12, 0.45, 6), 3);
-  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+  for (const Topology topology : {Topology::host, Topology::device}) {
     SmoothingOptions options;
     SmoothingPlan expected = plan(mesh.vertex_count(), mesh.indices(), {}, options);
     options.backend = &cuda::backend();
@@ -257,9 +257,11 @@ TEST_CASE("a plan that has been moved from says so, and one for device memory te
   cuda::Plan first({mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()), triangles.data(), {}}, {},
                    context.stream());
   cuda::Plan second = std::move(first);
+  // NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is the question
   CHECK_THROWS_AS(first.smooth(xy.data()), std::logic_error);
   CHECK_THROWS_AS(first.smooth(static_cast<float*>(nullptr)), std::logic_error);
   CHECK_THROWS_AS(first.fixed(), std::logic_error);
+  // NOLINTEND(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
   second.smooth(xy.data());
   Workers workers(1);
   CHECK(second.fixed() == find_mesh_rings(mesh.points, mesh.triangles, {}, workers).fixed);
@@ -294,7 +296,9 @@ TEST_CASE("arrays of the host in every form are the CPU's bits where the device 
 
 TEST_CASE("the time of preparing on the device is that of the call which prepared") {
   const Mesh mesh = test_meshes::jittered_grid(60, 60, 0.4, 1);
-  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, on_cuda());
+  SmoothingOptions options = on_cuda();
+  options.topology = Topology::host;  // the device finds the orientation that the points of every call give
+  SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, options);
   std::vector<double> xy = mesh.xy();
   CHECK(repeated.smooth(xy).timings.prepare > 0);
   CHECK(repeated.smooth(xy).timings.prepare == 0);
@@ -302,7 +306,7 @@ TEST_CASE("the time of preparing on the device is that of the call which prepare
 
 TEST_CASE("too little device memory is an error that says how much is needed, and the next mesh is smoothed") {
   const Mesh large = test_meshes::jittered_grid(2000, 1000, 0.3, 1);
-  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+  for (const Topology topology : {Topology::host, Topology::device}) {
     SmoothingOptions options = on_cuda();
     options.topology = topology;
     std::vector<double> xy = large.xy();

@@ -65,7 +65,7 @@ Points random_points(std::size_t count, Point2<double> low, Point2<double> exten
 /// when the host knows of the end (a callback, a time limit), and single-block.
 void require_cpu_commit(const Mesh& mesh, SmoothingOptions options, const Run& expected) {
   options.backend = &cuda::backend();
-  for (const Topology topology : {Topology::halfedge, Topology::device}) {
+  for (const Topology topology : {Topology::host, Topology::device}) {
     options.topology = topology;
     CAPTURE(to_string(topology));
     require_same(run(mesh, options), expected);

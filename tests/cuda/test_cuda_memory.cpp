@@ -193,7 +193,7 @@ std::vector<Way> ways_to_the_device() {
       after = coordinates.values();
     };
   };
-  return {{"host arrays, topology of the host", from_host(Topology::halfedge)},
+  return {{"host arrays, topology of the host", from_host(Topology::host)},
           {"host arrays, topology of the device", from_host(Topology::device)},
           {"device arrays", from_device(0.0, false)},
           {"device arrays of floats", from_device(0.0F, false)},

@@ -134,7 +134,7 @@ class OnADevice(BackendTest):
                     "--max-sweeps", "40")
             expected = self.report(*what, "--backend", "cpu")
             for execution, layout, topology in itertools.product(self.executions(), ("aos", "soa"),
-                                                                 ("halfedge", "device")):
+                                                                 ("host", "device")):
                 with self.subTest(method=method, form=form, precision=precision, execution=execution, layout=layout,
                                   topology=topology):
                     report = self.report(*what, "--backend", "cuda", "--execution", execution, "--layout", layout,

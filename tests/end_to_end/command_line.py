@@ -78,7 +78,7 @@ class Usage(CommandLineTest):
         for option, valid in {"--method": ["smart", "laplacian", "weighted", "mean-ratio"], "--form": ["a", "b"],
                               "--layout": ["aos", "soa"], "--backend": ["auto", "cpu", "cuda"],
                               "--execution": ["resident", "single-block", "cdp"], "--order": ["colour", "unordered"],
-                              "--topology": ["halfedge", "device"], "--guard": ["on", "off"],
+                              "--topology": ["auto", "host", "halfedge", "device"], "--guard": ["on", "off"],
                               "--precision": ["double", "single"], "--target": ["uniform", "input-shape"]}.items():
             with self.subTest(option):
                 arguments = ("smooth", "plate.off", "out.off", option, "bogus")
@@ -89,7 +89,7 @@ class Usage(CommandLineTest):
         for option, values in {"--method": ["smart", "laplacian", "weighted", "mean-ratio"], "--form": ["a", "b"],
                                "--layout": ["aos"], "--backend": ["auto", "cpu"],
                                "--execution": ["resident", "single-block", "cdp"], "--order": ["colour"],
-                               "--topology": ["halfedge", "device"], "--guard": ["on", "off"],
+                               "--topology": ["auto", "host", "halfedge", "device"], "--guard": ["on", "off"],
                                "--precision": ["double", "single"], "--threads": ["1", "2"],
                                "--max-sweeps": ["0", "3"], "--tolerance": ["0", "1e-3"], "--time-limit": ["5"],
                                "--target-quality": ["0.5"], "--size-weight": ["0", "2.5"], "--power": ["1", "8"],

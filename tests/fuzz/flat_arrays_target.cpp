@@ -219,7 +219,7 @@ SmoothingOptions choose_options(InputBytes& input) {
   options.layout = input.one_of({trismooth::Layout::aos, trismooth::Layout::soa});
   options.execution =
       options.layout == trismooth::Layout::aos ? trismooth::Execution::resident : trismooth::Execution::single_block;
-  options.topology = input.one_of({trismooth::Topology::halfedge, trismooth::Topology::device});
+  options.topology = input.one_of({trismooth::Topology::host, trismooth::Topology::device});
   const int guard = input.below(256);
   options.guard = guard % 4 != 0;
   options.untangle = guard / 4 % 4 == 1 ? trismooth::Untangle::on : trismooth::Untangle::off;

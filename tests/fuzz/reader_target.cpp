@@ -119,7 +119,7 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
               other.rings.neighbours == prepared.found.rings.neighbours,
           "halfedges give other rings than the triangle list");
   try {
-    if (trismooth::settle_plane(prepared.mesh, document, prepared.found.fixed, input_path)) {
+    if (trismooth::settle_plane(prepared.mesh, document, prepared.found.fixed, input_path, workers)) {
       prepared.enter_frame();
     }
   } catch (const ReadError&) {
@@ -150,7 +150,7 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   }
   trismooth::PlanarMesh& mesh = prepared->mesh;
   const trismooth::SmoothingOptions options = choose_options(choices);
-  const std::vector<Point2<double>> before = mesh.points;
+  const auto before = mesh.points;
   const std::vector<double> stored_before = document.points;
   const auto storage = document.moved_point_type() == trismooth::ScalarType::float32 ? trismooth::Storage::float32
                                                                                      : trismooth::Storage::float64;

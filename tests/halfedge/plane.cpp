@@ -10,6 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "trismooth/base/workers.h"
+
 #include "catch.h"
 
 using trismooth::CellList;
@@ -17,6 +19,7 @@ using trismooth::fit_plane;
 using trismooth::Plane;
 using trismooth::PlaneFit;
 using trismooth::Point2;
+using trismooth::Workers;
 
 namespace {
 
@@ -269,7 +272,8 @@ TEST_CASE("points that do not count have no say in the plane, wherever they are"
     const PlaneFit fit = fit_plane(flat(more), counts, {});
     CHECK(fit.is_planar());
     CHECK(same_plane(fit.plane, *expected));
-    const auto in_plane = project(fit.plane, flat(more), counts);
+    Workers one(1);
+    const auto in_plane = project(fit.plane, flat(more), counts, one);
     REQUIRE(in_plane);
     for (std::size_t v = 0; v < more.size(); ++v) {
       CHECK(std::isfinite((*in_plane)[v].x));

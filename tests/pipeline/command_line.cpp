@@ -159,7 +159,7 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--backend", "x"}, "valid are auto, cpu, cuda"},
       {{"smooth", "a.off", "b.off", "--execution", "x"}, "valid are resident, single-block, cdp"},
       {{"smooth", "a.off", "b.off", "--order", "x"}, "valid are colour, unordered"},
-      {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are halfedge, device"},
+      {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are auto, host, halfedge, device"},
       {{"smooth", "a.off", "b.off", "--guard", "x"}, "valid are on, off"},
       {{"smooth", "a.off", "b.off", "--untangle", "x"}, "valid are auto, off, on"},
       {{"smooth", "a.off", "b.off", "--precision", "x"}, "valid are double, single"},

@@ -38,7 +38,7 @@ struct Smoothed {
   std::vector<double> xy;
 };
 
-Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topology = trismooth::Topology::halfedge) {
+Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topology = trismooth::Topology::host) {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(grid_columns, grid_columns, 0.45, 3);
   SmoothingOptions options;
   options.backend = backend;

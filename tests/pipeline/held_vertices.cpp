@@ -1,9 +1,11 @@
 #include "trismooth/pipeline/held_vertices.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/workers.h"
 
 #include "catch.h"
 
@@ -21,7 +23,8 @@ TEST_CASE("vertices count for each of their reasons, and once more where there a
                                           hold::isolated,
                                           both(hold::isolated, hold::other_cell),  // used by the other cell
                                           both(hold::other_cell, hold::named)};
-  const trismooth::HeldVertices held = trismooth::count_held(reasons);
+  trismooth::Workers workers(1);
+  const trismooth::HeldVertices held = trismooth::count_held(trismooth::count_reasons(reasons, workers));
   CHECK(held.boundary == 2);
   CHECK(held.interface == 2);
   CHECK(held.non_manifold == 1);
@@ -30,4 +33,21 @@ TEST_CASE("vertices count for each of their reasons, and once more where there a
   CHECK(held.other_cells == 2);
   CHECK(held.named == 2);
   CHECK(held.several == 2);
+}
+
+TEST_CASE("every vertex is counted once, by any number of threads") {
+  constexpr std::size_t vertices = 300'001;
+  std::vector<std::uint8_t> reasons(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    reasons[v] = static_cast<std::uint8_t>(v % 7);
+  }
+  for (const int threads : {1, 2, 3, 8}) {
+    trismooth::Workers workers(threads);
+    const trismooth::ReasonCounts counts = trismooth::count_reasons(reasons, workers);
+    for (std::size_t bits = 0; bits < counts.size(); ++bits) {
+      // Vertices bits, bits + 7, ...
+      const std::size_t expected = bits < 7 ? (vertices - bits + 6) / 7 : 0;
+      CHECK(counts[bits] == static_cast<std::int64_t>(expected));
+    }
+  }
 }

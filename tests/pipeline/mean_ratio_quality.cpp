@@ -46,8 +46,8 @@ Input example(const std::string& name) {
   input.fixed = trismooth::find_fixed_array(document, std::nullopt).flags;
   input.regions = trismooth::find_regions(document, mesh).of_triangle;
   input.other_cells = std::move(mesh.in_other_cell);
-  input.points = std::move(mesh.points);
-  input.triangles = std::move(mesh.triangles);
+  input.points.assign(mesh.points.begin(), mesh.points.end());
+  input.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
   return input;
 }
 

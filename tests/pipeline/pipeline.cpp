@@ -76,22 +76,24 @@ test_meshes::Mesh irregular_mesh() {
 
 }  // namespace
 
-TEST_CASE("with --topology device the backend finds the rings, and the file is the same to the byte") {
+TEST_CASE("whoever finds the topology, file and report are the same") {
+  using trismooth::Topology;
+  const auto topology = GENERATE(Topology::automatic, Topology::host, Topology::halfedge, Topology::device);
+  CAPTURE(trismooth::to_string(topology));
   const Files files(irregular_mesh());
   PipelineOptions options = files.options();
+  options.smoothing.topology = topology;
   const PipelineResult expected = trismooth::run_pipeline(options);
   const std::string expected_output = files.output();
   REQUIRE(expected.input.components >= 2);
   REQUIRE(expected.input.reoriented_triangles > 0);
   REQUIRE(expected.notes.size() == 2);
 
+  // A backend that finds rings is asked to where it may.
   const fakes::FakeBackend device;
   options.smoothing.backend = &device;
-  trismooth::run_pipeline(options);
-  CHECK(device.rings_found == 0);
-  options.smoothing.topology = trismooth::Topology::device;
   const PipelineResult found = trismooth::run_pipeline(options);
-  CHECK(device.rings_found == 1);
+  CHECK(device.rings_found == (topology == Topology::automatic || topology == Topology::device ? 1 : 0));
   CHECK(found.coordinates_hash == expected.coordinates_hash);
   CHECK(files.output() == expected_output);
   CHECK(found.notes == expected.notes);
@@ -107,12 +109,31 @@ TEST_CASE("with --topology device the backend finds the rings, and the file is t
   CHECK(found.after->metrics[0].min == expected.after->metrics[0].min);
 }
 
-TEST_CASE("a backend that leaves the topology to the host gets the halfedge mesh's rings") {
+TEST_CASE("by default a device without memory for the topology leaves it to the host; asked for it, it fails") {
   const Files files(irregular_mesh());
   PipelineOptions options = files.options();
-  const PipelineResult expected = trismooth::run_pipeline(options);
-  options.smoothing.topology = trismooth::Topology::device;  // the CPU's finds none
-  CHECK(trismooth::run_pipeline(options).coordinates_hash == expected.coordinates_hash);
+  trismooth::run_pipeline(options);
+  const std::string expected = files.output();
+  const fakes::FakeBackend device(fakes::Failure::rings);
+  options.smoothing.backend = &device;
+  const PipelineResult found = trismooth::run_pipeline(options);
+  CHECK(device.rings_found == 1);
+  CHECK(device.smoothed == 1);
+  CHECK(files.output() == expected);
+  REQUIRE(found.smoothing);
+  CHECK(found.smoothing->backend_note.starts_with("the host found the neighbours: CUDA: cudaErrorMemoryAllocation"));
+  options.smoothing.topology = trismooth::Topology::device;
+  CHECK_THROWS_AS(trismooth::run_pipeline(options), trismooth::DeviceError);
+}
+
+TEST_CASE("the paper's versions find the topology on the device only where that is asked for") {
+  const Files files(irregular_mesh());
+  PipelineOptions options = files.options();
+  options.smoothing.execution = trismooth::Execution::single_block;
+  const fakes::FakeBackend device;
+  options.smoothing.backend = &device;
+  trismooth::run_pipeline(options);
+  CHECK(device.rings_found == 0);
 }
 
 TEST_CASE("a mesh of triangle strips is smoothed to the bits of its triangles, and its strips stay") {
@@ -252,7 +273,7 @@ TEST_CASE("triangles that are no mesh are told with the file, whoever finds out"
   PipelineOptions options = files.options();
   const fakes::FakeBackend device;
   options.smoothing.backend = &device;
-  for (const auto topology : {trismooth::Topology::halfedge, trismooth::Topology::device}) {
+  for (const auto topology : {trismooth::Topology::host, trismooth::Topology::halfedge, trismooth::Topology::device}) {
     options.smoothing.topology = topology;
     std::string message;
     try {

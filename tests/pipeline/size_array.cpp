@@ -32,7 +32,8 @@ struct Sample {
     for (std::size_t v = 0; v < 5; ++v) {
       mesh.points.push_back({document.points[3 * v], document.points[3 * v + 1]});
     }
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.triangles_of_cells = {{0, 1, 2}, {0, 2, 3}};
+    mesh.triangles = mesh.triangles_of_cells;
     mesh.cells = {0, 2};
   }
   void at_points(std::string name, const std::vector<double>& values) {
@@ -126,7 +127,8 @@ TEST_CASE("an array of sizes is not taken for regions, unless it is named for th
   Sample sample;
   // A strip of four triangles.
   sample.mesh.points = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}};
-  sample.mesh.triangles = {{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
+  sample.mesh.triangles_of_cells = {{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
+  sample.mesh.triangles = sample.mesh.triangles_of_cells;
   sample.mesh.cells = {0, 1, 2, 3};
   sample.document.cell_arrays.push_back(make_data_array("block", 1, std::vector<float>{1, 1, 2, 2}));
   CHECK(trismooth::find_regions(sample.document, sample.mesh).count() == 2);

@@ -87,11 +87,11 @@ Smoothed smooth(MeshDocument& document, const RandomMesh& mesh, const SmoothingO
   };
   enter_frame();
   trismooth::Workers workers(1);
-  const auto found = trismooth::find_mesh_rings(
+  auto found = trismooth::find_mesh_rings(
       local.points, planar.triangles,
       {.fixed = mesh.fixed, .fixed_ids = mesh.fixed_ids, .other_cells = planar.in_other_cell, .regions = mesh.regions},
       workers);
-  if (trismooth::settle_plane(planar, document, found.fixed, "mesh")) {
+  if (trismooth::settle_plane(planar, document, found.fixed, "mesh", workers)) {
     enter_frame();
   }
   return {trismooth::smooth_in_plane(found, planar.triangles, planar.plane, document.points, planar.points, local,

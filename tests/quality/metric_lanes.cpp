@@ -7,6 +7,7 @@
 #include "trismooth/base/instruction_set.h"
 
 #include "catch.h"
+#include "support/limited_instructions.h"
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
@@ -30,9 +31,8 @@ TEST_CASE("metrics of triangles side by side have the bits of each metric of eac
     }
     triangles.push_back(corners);
   }
-  const InstructionSet before = trismooth::instruction_set();
   for (const InstructionSet most : {InstructionSet::baseline, InstructionSet::avx2}) {
-    trismooth::limit_instruction_set(most);
+    const LimitedInstructions limited(most);
     std::vector<MetricValues> values(triangles.size());
     trismooth::evaluate_all(triangles, values);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -43,5 +43,4 @@ TEST_CASE("metrics of triangles side by side have the bits of each metric of eac
       }
     }
   }
-  trismooth::limit_instruction_set(before);
 }

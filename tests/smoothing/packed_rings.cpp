@@ -30,7 +30,7 @@ OneRings smoothing_rings_of(const Mesh& mesh) {
 
 /// The packed rings are the mesh's own under another numbering, free vertices first.
 void check_packed(const PackedRings& packed, const OneRings& rings) {
-  std::vector<std::int32_t> numbers = packed.input_index;
+  std::vector<std::int32_t> numbers(packed.input_index.begin(), packed.input_index.end());
   std::ranges::sort(numbers);
   std::vector<std::int32_t> all(static_cast<std::size_t>(rings.vertex_count()));
   std::iota(all.begin(), all.end(), 0);

@@ -394,6 +394,7 @@ TEST_CASE("a plan that could not be prepared anew does not go on with what it ha
   fakes::FakeBackend device;
   SmoothingOptions options;
   options.backend = &device;
+  options.topology = trismooth::Topology::host;  // a device would find it with each call
   SmoothingPlan plan(mesh.vertex_count(), mesh.indices(), {}, options);
   std::vector<double> xy = mesh.xy();
   plan.smooth(xy);

@@ -14,6 +14,7 @@
 
 using test_meshes::Mesh;
 using test_meshes::Point;
+using trismooth::BulkVector;
 using trismooth::hilbert_order;
 using trismooth::OneRings;
 using trismooth::Workers;
@@ -31,8 +32,8 @@ OneRings one_rings_of(const Mesh& mesh) {
   return result;
 }
 
-void check_order(const std::vector<std::int32_t>& order, const OneRings& rings) {
-  std::vector<std::int32_t> sorted = order;
+void check_order(const BulkVector<std::int32_t>& order, const OneRings& rings) {
+  std::vector<std::int32_t> sorted(order.begin(), order.end());
   std::ranges::sort(sorted);
   std::vector<std::int32_t> all(static_cast<std::size_t>(rings.vertex_count()));
   std::iota(all.begin(), all.end(), 0);
@@ -55,7 +56,7 @@ TEST_CASE("vertices that follow each other in the order are near each other") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(60, 60, 0.3, 1), 2);
   const OneRings rings = one_rings_of(mesh);
   Workers workers(1);
-  const std::vector<std::int32_t> order = hilbert_order(mesh.points, rings, workers);
+  const auto order = hilbert_order(mesh.points, rings, workers);
   double length = 0;
   for (std::size_t i = 1; i < 58U * 58U; ++i) {
     const Point a = mesh.points[order[i - 1]];
@@ -70,7 +71,7 @@ TEST_CASE("the order does not depend on the number of threads") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(200, 200, 0.3, 1), 2);
   const OneRings rings = one_rings_of(mesh);
   Workers one(1);
-  const std::vector<std::int32_t> expected = hilbert_order(mesh.points, rings, one);
+  const auto expected = hilbert_order(mesh.points, rings, one);
   for (const int threads : {2, 3, 8}) {
     Workers many(threads);
     CHECK(hilbert_order(mesh.points, rings, many) == expected);

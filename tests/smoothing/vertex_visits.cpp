@@ -15,6 +15,7 @@
 #include "trismooth/smoothing/methods/weighted_laplacian.h"
 
 #include "catch.h"
+#include "support/limited_instructions.h"
 #include "support/random_rings.h"
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
@@ -25,20 +26,6 @@ using trismooth::RingView;
 using trismooth::VertexMove;
 
 namespace {
-
-/// Has the process use no better instructions, for as long as it lives.
-class Limited {
- public:
-  explicit Limited(InstructionSet most) : before_(trismooth::instruction_set()) {
-    trismooth::limit_instruction_set(most);
-  }
-  Limited(const Limited&) = delete;
-  Limited& operator=(const Limited&) = delete;
-  ~Limited() { trismooth::limit_instruction_set(before_); }
-
- private:
-  InstructionSet before_;
-};
 
 /// Neighbours of a vertex at the origin or beside it: of one kind of difficulty.
 template <class T>
@@ -106,7 +93,7 @@ TEMPLATE_PRODUCT_TEST_CASE(
   using T = std::tuple_element_t<1, TestType>;
   const Update method;
   for (const InstructionSet most : {InstructionSet::baseline, InstructionSet::avx2}) {
-    const Limited limited(most);
+    const LimitedInstructions limited(most);
     test_meshes::Random random(23);
     int moved = 0;
     int stayed = 0;

@@ -45,7 +45,7 @@ class FakeBackend final : public trismooth::Backend {
 
   std::string name() const override { return "cuda"; }
 
-  std::unique_ptr<trismooth::PreparedSmoother> prepare(const trismooth::MeshRings& mesh,
+  std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
                                                        std::span<const trismooth::Triangle> triangles,
                                                        std::span<const trismooth::Point2<double>> local,
                                                        const trismooth::SmoothingOptions& options) const override {
@@ -53,7 +53,8 @@ class FakeBackend final : public trismooth::Backend {
     fail_at(Failure::prepare, local.size());
     trismooth::SmoothingOptions on_cpu = options;
     on_cpu.order = trismooth::Order::colour;  // the CPU has no other
-    return std::make_unique<Smoother>(*this, trismooth::cpu_backend().prepare(mesh, triangles, local, on_cpu));
+    return std::make_unique<Smoother>(*this,
+                                      trismooth::cpu_backend().prepare(std::move(mesh), triangles, local, on_cpu));
   }
 
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
@@ -71,6 +72,7 @@ class FakeBackend final : public trismooth::Backend {
                                                             std::span<const trismooth::Triangle> triangles,
                                                             const trismooth::Constraints& constraints,
                                                             const trismooth::SmoothingOptions& options) const override {
+    fail_at(Failure::rings, static_cast<std::size_t>(vertex_count));
     ++prepared;
     fail_at(Failure::prepare, static_cast<std::size_t>(vertex_count));
     return std::make_unique<Mesh>(*this, vertex_count, triangles, constraints, options);
@@ -113,7 +115,7 @@ class FakeBackend final : public trismooth::Backend {
                                          constraints);
       trismooth::SmoothingOptions on_cpu = options;
       on_cpu.backend = nullptr;
-      on_cpu.topology = trismooth::Topology::halfedge;
+      on_cpu.topology = trismooth::Topology::host;
       on_cpu.order = trismooth::Order::colour;  // the CPU has no other
       plan_ = std::make_unique<trismooth::SmoothingPlan>(vertex_count, triangles, constraints, on_cpu);
     }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/prefetch.h"
+#include "trismooth/base/triangle_view.h"
+
+namespace trismooth {
+
+/// The corners of a triangle, in canonical order.
+using CornerPoints = std::array<Point2<double>, 3>;
+
+inline CornerPoints corner_points(const TriangleView& view, std::size_t triangle) {
+  const Triangle corners = canonical_corners(view, triangle);
+  return {view.points[static_cast<std::size_t>(corners[0])], view.points[static_cast<std::size_t>(corners[1])],
+          view.points[static_cast<std::size_t>(corners[2])]};
+}
+
+/// Calls body(first, corners) for triangles [begin, end) of the view in order, some hundred at a time: `corners` are
+/// those of triangle `first` and its successors. They are gathered before anything is computed, and asked for earlier
+/// still, since only that overlaps the cache misses of a mesh in random order. (No more at a time: the stack of a
+/// program that has no memory left does not grow.)
+template <class Body>
+void for_corners(const TriangleView& view, std::size_t begin, std::size_t end, const Body& body) {
+  constexpr std::size_t at_once = 256;
+  constexpr std::size_t ahead = 48;
+  std::array<CornerPoints, at_once> corners;
+  for (std::size_t first = begin; first < end; first += at_once) {
+    const std::size_t count = std::min(at_once, end - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const std::int32_t v : view.triangles[std::min(first + i + ahead, view.triangles.size() - 1)]) {
+        prefetch(&view.points[static_cast<std::size_t>(v)]);
+      }
+      corners[i] = corner_points(view, first + i);
+    }
+    body(first, std::span<const CornerPoints>(corners).first(count));
+  }
+}
+
+}  // namespace trismooth

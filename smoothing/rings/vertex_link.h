@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace trismooth {
+
+/// A side of a triangle, opposite of the corner that is looked from; it runs as the triangle is listed.
+struct LinkEdge {
+  std::int32_t from;
+  std::int32_t to;
+};
+
+/// How the triangles around a vertex hang together, where all of them are listed alike.
+enum class Fan : std::uint8_t {
+  closed,  ///< once around the vertex
+  open,    ///< from one boundary edge to another
+  other    ///< not one fan, or not listed alike, or an edge of three triangles or more
+};
+
+/// More triangles around a vertex are not walked around: every step looks at all of them.
+inline constexpr std::size_t most_link_edges = 64;
+
+/// The edges of a link by the vertices at which they begin, of which `Size` are looked at together and without
+/// branches: which one it is cannot be guessed.
+template <std::size_t Size>
+class LinkBegins {
+ public:
+  explicit LinkBegins(std::span<const LinkEdge> link) {
+    begins_.fill(-1);
+    std::ranges::transform(link, begins_.begin(), &LinkEdge::from);
+  }
+
+  /// A bit for each edge that begins at `vertex`.
+  auto at(std::int32_t vertex) const {
+    std::conditional_t<Size <= 32, std::uint32_t, std::uint64_t> edges = 0;
+    for (std::size_t i = 0; i < Size; ++i) {
+      edges |= decltype(edges){begins_[i] == vertex} << i;
+    }
+    return edges;
+  }
+
+ private:
+  std::array<std::int32_t, Size> begins_;
+};
+
+/// walk_link() of no more than `Size` edges.
+template <std::size_t Size>
+Fan walk_link_of(std::span<const LinkEdge> link, std::int32_t* ring) {
+  const LinkBegins<Size> begins(link);
+  const auto size = static_cast<std::int32_t>(link.size());
+  std::int32_t met = 0;
+  std::int32_t vertex = 0;
+  // Meets vertices as long as each begins one edge, up to where the walk began, or as many as there are edges.
+  const auto walk_from = [&](std::int32_t begin) {
+    met = 0;
+    vertex = begin;
+    for (auto edges = begins.at(vertex); std::has_single_bit(edges); edges = begins.at(vertex)) {
+      ring[met++] = vertex;
+      vertex = link[static_cast<std::size_t>(std::countr_zero(edges))].to;
+      if (vertex == begin || met == size) {
+        return;
+      }
+    }
+  };
+  walk_from(std::ranges::min(link, {}, &LinkEdge::from).from);
+  if (met == size && vertex == ring[0]) {
+    return Fan::closed;
+  }
+  // An open fan begins at the one vertex to which no edge runs. (Two such make two walks, neither over all edges.)
+  const auto first = std::ranges::find_if(
+      link, [link](const LinkEdge& edge) { return std::ranges::find(link, edge.from, &LinkEdge::to) == link.end(); });
+  if (first == link.end()) {
+    return Fan::other;
+  }
+  walk_from(first->from);
+  return met == size && begins.at(vertex) == 0 ? Fan::open : Fan::other;
+}
+
+/// Walks along the link of a vertex (one edge at least, no more than most_link_edges). Where it is closed, writes its
+/// vertices to `ring`, one for each edge, from the smallest on. Elsewhere `ring` is left with anything.
+inline Fan walk_link(std::span<const LinkEdge> link, std::int32_t* ring) {
+  return link.size() <= 8    ? walk_link_of<8>(link, ring)
+         : link.size() <= 16 ? walk_link_of<16>(link, ring)
+                             : walk_link_of<most_link_edges>(link, ring);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/point2.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/sweeps/ring_lanes.h"
+#include "trismooth/smoothing/sweeps/sides_in_lanes.h"
+#include "trismooth/smoothing/sweeps/vertex_visits.h"
+
+namespace trismooth {
+
+/// Finds what the mean-ratio method says of the first `count` of `vertices`, whose rings are of one size; the others
+/// come next. The few that its energy alone does not decide are left undecided.
+template <class T, bool shaped, bool is_last>
+using MeanRatioLanes = void (*)(const MeanRatio<T, shaped, is_last>& method, const RingView& rings,
+                                const Point2<T>* points, std::span<const std::int32_t> vertices, int count,
+                                int ring_size, LaneMoves<T>& found);
+
+/// That by these instructions: the bits of the method's vertex_move().
+template <class T, bool shaped, bool is_last>
+MeanRatioLanes<T, shaped, is_last> mean_ratio_lanes(InstructionSet instructions);
+
+/// Those of AVX2, where TRISMOOTH_HAS_AVX2_SOURCES is defined.
+template <class T, bool shaped, bool is_last>
+MeanRatioLanes<T, shaped, is_last> mean_ratio_lanes_avx2();
+
+template <class T, bool shaped, bool is_last>
+class SideBySide<T, MeanRatio<T, shaped, is_last>> {
+ public:
+  using Method = MeanRatio<T, shaped, is_last>;
+
+  SideBySide(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
+      : method_(method), rings_(rings), points_(points) {}
+
+  static constexpr bool holds(int ring_size) { return ring_size <= largest_ring_in_lanes; }
+
+  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size) {
+    find_(method_, rings_, points_.data(), vertices, count, ring_size, moves_);
+    return moves_;
+  }
+
+ private:
+  LaneMoves<T> moves_;
+  const Method& method_;
+  const RingView& rings_;
+  std::span<const Point2<T>> points_;
+  MeanRatioLanes<T, shaped, is_last> find_ = mean_ratio_lanes<T, shaped, is_last>(instruction_set());
+};
+
+}  // namespace trismooth
