@@ -2,50 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
+
 namespace trismooth {
 
-std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
-                                          std::span<const std::int32_t> cells, std::size_t cell_count,
-                                          std::string_view suffix) {
-  std::vector<std::vector<double>> columns(metrics.size(), std::vector<double>(cell_count, 0.0));
-  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(view, t);
-    const auto cell = static_cast<std::size_t>(cells[t]);
-    for (std::size_t m = 0; m < metrics.size(); ++m) {
-      double value = evaluate(metrics[m], view.points[static_cast<std::size_t>(a)],
-                              view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]);
-      if (metrics[m] == Metric::area) {
-        value = std::ldexp(value, 2 * view.exponent);
-      }
-      value = std::clamp(value, -largest_annotation, largest_annotation);
-      // A strip is as bad as the worst of its triangles, which come one after the other.
-      double& of_cell = columns[m][cell];
-      const bool is_next_of_strip = t > 0 && cells[t] == cells[t - 1];
-      const bool is_worse = info(metrics[m]).larger_is_better ? value < of_cell : value > of_cell;
-      of_cell = is_next_of_strip && !is_worse ? of_cell : value;
-    }
+namespace {
+
+/// Values that a thread takes at a time.
+constexpr std::int64_t annotation_grain = 16384;
+
+/// `size` numbers, 0 at first.
+template <class T>
+std::vector<T> zeros(std::size_t size, Workers& workers) {
+  std::vector<T> numbers;
+  shared_resize(numbers, size, workers);
+  return numbers;
+}
+
+/// The first triangle from `t` on that is not of the cell of the one before it.
+std::size_t next_of_other_cell(std::span<const std::int32_t> cells, std::size_t t) {
+  while (t > 0 && t < cells.size() && cells[t] == cells[t - 1]) {
+    ++t;
   }
+  return t;
+}
+
+}  // namespace
+
+std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
+                                          std::span<const std::int32_t> cells, std::size_t cell_count, Workers& workers,
+                                          std::string_view suffix) {
   std::vector<DataArray> arrays;
   arrays.reserve(metrics.size());
-  for (std::size_t m = 0; m < metrics.size(); ++m) {
-    arrays.push_back(make_data_array(annotation_name(info(metrics[m]).name).append(suffix), 1, std::move(columns[m])));
+  for (const Metric metric : metrics) {
+    std::vector<double> values = zeros<double>(cell_count, workers);
+    workers.for_blocks(std::ssize(view.triangles), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
+      const std::size_t first = next_of_other_cell(cells, static_cast<std::size_t>(begin));
+      const std::size_t last = next_of_other_cell(cells, static_cast<std::size_t>(end));
+      for (std::size_t t = first; t < last; ++t) {
+        const auto [a, b, c] = canonical_corners(view, t);
+        double value = evaluate(metric, view.points[static_cast<std::size_t>(a)],
+                                view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]);
+        if (metric == Metric::area) {
+          value = std::ldexp(value, 2 * view.exponent);
+        }
+        value = std::clamp(value, -largest_annotation, largest_annotation);
+        // A strip is as bad as the worst of its triangles, which come one after the other.
+        double& of_cell = values[static_cast<std::size_t>(cells[t])];
+        const bool is_next_of_strip = t > first && cells[t] == cells[t - 1];
+        const bool is_worse = info(metric).larger_is_better ? value < of_cell : value > of_cell;
+        of_cell = is_next_of_strip && !is_worse ? of_cell : value;
+      }
+    });
+    arrays.push_back(make_data_array(annotation_name(info(metric).name).append(suffix), 1, std::move(values)));
   }
   return arrays;
 }
 
-DataArray fixed_annotation(std::span<const std::uint8_t> reasons) {
-  std::vector<std::uint8_t> flags(reasons.size());
-  std::ranges::transform(reasons, flags.begin(), [](std::uint8_t reason) { return reason != 0 ? 1 : 0; });
+DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& workers) {
+  std::vector<std::uint8_t> flags = zeros<std::uint8_t>(reasons.size(), workers);
+  workers.for_blocks(std::ssize(reasons), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+      flags[v] = reasons[v] != 0 ? 1 : 0;
+    }
+  });
   return make_data_array(annotation_name("fixed"), 1, std::move(flags));
 }
 
-DataArray displacement_annotation(std::span<const double> before, std::span<const double> after) {
-  std::vector<double> displacements(after.size());
-  std::ranges::transform(after, before, displacements.begin(), std::minus<>());
+DataArray displacement_annotation(std::span<const double> before, std::span<const double> after, Workers& workers) {
+  std::vector<double> displacements = zeros<double>(after.size(), workers);
+  workers.for_blocks(std::ssize(after), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      displacements[i] = after[i] - before[i];
+    }
+  });
   return make_data_array(annotation_name("displacement"), 3, std::move(displacements));
 }
 

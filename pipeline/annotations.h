@@ -15,6 +15,8 @@
 
 namespace trismooth {
 
+class Workers;
+
 /// The annotations of a run. Their names, here and in docs/command_line.md, stay:
 ///
 ///     trismooth:METRIC         cells   the metric's value (see metrics.h), of the mesh as it is written
@@ -29,14 +31,14 @@ inline constexpr double largest_annotation = 1e30;
 /// behind their names. `cells` has the file's cell of every triangle of the view; other cells have 0. The area is in
 /// the file's unit. Values are at most 1e30 in amount, so that every format can hold them. Complexity: linear.
 std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
-                                          std::span<const std::int32_t> cells, std::size_t cell_count,
+                                          std::span<const std::int32_t> cells, std::size_t cell_count, Workers& workers,
                                           std::string_view suffix = {});
 
 /// `reasons` has, for every vertex, what holds it (see hold.h), 0 for a free one. An array of uint8.
-DataArray fixed_annotation(std::span<const std::uint8_t> reasons);
+DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& workers);
 
 /// From x, y, z of every vertex before and after. An array of float64, 3 a vertex.
-DataArray displacement_annotation(std::span<const double> before, std::span<const double> after);
+DataArray displacement_annotation(std::span<const double> before, std::span<const double> after, Workers& workers);
 
 /// The metrics that `text` names, separated by commas: "shape,min_angle". Throws std::invalid_argument for a name that
 /// is none, with those that are, and for one that comes twice.

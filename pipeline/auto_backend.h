@@ -15,7 +15,8 @@ inline constexpr std::int64_t free_vertices_for_cuda = 1'000'000;
 /// be used and the mesh has free_vertices_for_cuda or more, else the CPU. Where CUDA fails, also in the middle of a
 /// smoothing, the CPU does the whole work from the beginning: the bits are the same. SmoothingResult::backend names the
 /// one that was taken; where a mesh is large enough for CUDA and the CPU smooths it, SmoothingResult::backend_note says
-/// why. It lives as long as the program; several threads may use it at the same time.
+/// why. run_pipeline() starts CUDA, on the default device, while it reads a large file. It lives as long as the
+/// program; several threads may use it at the same time.
 const Backend& auto_backend();
 
 }  // namespace trismooth

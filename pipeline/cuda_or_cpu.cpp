@@ -106,6 +106,12 @@ std::int64_t count_free(const OneRings& rings) {
 CudaOrCpu::CudaOrCpu(CudaSupport cuda, const Backend& cpu, std::int64_t free_vertices)
     : cuda_(std::move(cuda)), cpu_(cpu), free_vertices_(free_vertices) {}
 
+void CudaOrCpu::start(std::int64_t vertices) const {
+  if (is_large(vertices)) {
+    cuda_.problem();
+  }
+}
+
 std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                                      std::span<const Point2<double>> local,
                                                      const SmoothingOptions& options) const {

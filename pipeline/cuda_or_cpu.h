@@ -21,6 +21,9 @@ class CudaOrCpu final : public Backend {
   /// "auto". Results name the backend that was taken.
   std::string name() const override { return "auto"; }
 
+  /// Starts CUDA's default device for a large mesh.
+  void start(std::int64_t vertices) const override;
+
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;

@@ -1,7 +1,11 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <future>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,6 +61,7 @@ class Run {
     const Stopwatch watch;
     options_.smoothing.validate();
     require_known_formats(options_);
+    start_backend();
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
     timed(Stage::check_before, result_.timings_ms.check_before, [&] {
@@ -95,6 +100,18 @@ class Run {
     const Stopwatch watch;
     body();
     milliseconds += watch.milliseconds();
+  }
+
+  /// A device starts while the file is read.
+  void start_backend() {
+    std::error_code no_size;
+    const std::uintmax_t bytes = std::filesystem::file_size(options_.input, no_size);
+    if (const Backend* const backend = options_.smoothing.backend; backend != nullptr && options_.output && !no_size) {
+      const auto vertices = static_cast<std::int64_t>(bytes / bytes_of_vertex);
+      // Where the system refuses a thread this is put off for ever, which does no harm.
+      starting_ =
+          std::async(std::launch::async | std::launch::deferred, [backend, vertices] { backend->start(vertices); });
+    }
   }
 
   void read() {
@@ -366,22 +383,27 @@ class Run {
   }
   TriangleView view() const { return view(local_); }
 
-  std::vector<DataArray> metrics_of_cells(std::string_view suffix = {}) const {
-    return metric_annotations(options_.annotated_metrics, view(), mesh_.cells, document_.cells.size(), suffix);
+  std::vector<DataArray> metrics_of_cells(std::string_view suffix = {}) {
+    return metric_annotations(options_.annotated_metrics, view(), mesh_.cells, document_.cells.size(), workers_,
+                              suffix);
   }
 
-  AddedArrays annotations() const {
+  AddedArrays annotations() {
     AddedArrays added;
     added.cell_arrays = metrics_of_cells();
     std::ranges::copy(metrics_before_, std::back_inserter(added.cell_arrays));
-    added.point_arrays.push_back(fixed_annotation(found_.fixed));
+    added.point_arrays.push_back(fixed_annotation(found_.fixed, workers_));
     if (result_.smoothing) {
-      added.point_arrays.push_back(displacement_annotation(input_points_, document_.points));
+      added.point_arrays.push_back(displacement_annotation(input_points_, document_.points, workers_));
     }
     return added;
   }
 
+  /// What a vertex and its two triangles take in a file, about.
+  static constexpr std::uintmax_t bytes_of_vertex = 64;
+
   const PipelineOptions& options_;
+  std::future<void> starting_;  ///< the backend
   SmoothingOptions smoothing_;  ///< with the sizes of the file, where it is asked for them
   Workers workers_;
   PipelineResult result_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "trismooth/base/counting_sort.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/metrics.h"
 
@@ -51,28 +52,25 @@ RegionQuality quality_of(const TriangleView& view, std::span<const std::int32_t>
 
 std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<const std::int32_t> region_of,
                                           std::int32_t region_count, int threads) {
+  Workers workers(threads);
   // The triangles by region, in their order within each.
-  std::vector<std::size_t> offsets(static_cast<std::size_t>(region_count) + 1, 0);
-  for (const std::int32_t region : region_of) {
-    ++offsets[static_cast<std::size_t>(region) + 1];
-  }
-  for (std::size_t r = 1; r < offsets.size(); ++r) {
-    offsets[r] += offsets[r - 1];
-  }
   std::vector<std::int32_t> members(region_of.size());
-  std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t t = 0; t < region_of.size(); ++t) {
-    members[next[static_cast<std::size_t>(region_of[t])]++] = static_cast<std::int32_t>(t);
-  }
+  const std::vector<std::int64_t> offsets = counting_sort(
+      std::ssize(region_of), region_count, [&](std::int64_t t) { return region_of[static_cast<std::size_t>(t)]; },
+      [&](std::int64_t t, std::int64_t place) {
+        members[static_cast<std::size_t>(place)] = static_cast<std::int32_t>(t);
+      },
+      workers);
 
   std::vector<Chunk> chunks;
   for (std::size_t r = 0; r + 1 < offsets.size(); ++r) {
-    for (std::size_t begin = offsets[r]; begin < offsets[r + 1]; begin += chunk_size) {
-      chunks.push_back({r, begin, std::min(begin + chunk_size, offsets[r + 1])});
+    const auto end = static_cast<std::size_t>(offsets[r + 1]);
+    for (auto begin = static_cast<std::size_t>(offsets[r]); begin < end; begin += chunk_size) {
+      chunks.push_back({r, begin, std::min(begin + chunk_size, end)});
     }
   }
   std::vector<RegionQuality> partials(chunks.size());
-  Workers(threads).for_blocks(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       partials[i] = quality_of(view, std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin));
     }

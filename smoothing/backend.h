@@ -52,6 +52,12 @@ class Backend {
   /// "cpu", "cuda".
   virtual std::string name() const = 0;
 
+  /// Starts what the backend is slow to start, a driver and its device, as far as a mesh of about so many vertices is
+  /// worth that; returns when it has. For callers who have something else to do meanwhile: call it on a thread of its
+  /// own, before or beside any other function. Nothing depends on it: what is not started then starts when it is
+  /// needed, and what fails then fails again, and is told, where it is needed.
+  virtual void start(std::int64_t /*vertices*/) const {}
+
   /// Makes a mesh ready whose rings are known: renumbering, colouring, whatever the backend needs. `mesh`:
   /// moved here, its memory is released as soon as it can be. `triangles` are those of the mesh; they are looked at
   /// only where options.measures_shape() or options.untangles(). `local` are the vertices in the local frame; they

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -71,6 +72,18 @@ TEST_CASE("a small mesh asks no driver") {
   const FakeBackend cuda;
   const CudaOrCpu automatic({&cuda, true, []() -> std::string { throw std::logic_error("asked"); }, {}});
   CHECK(smooth_with(&automatic, trismooth::Topology::device).result.backend == "cpu");
+}
+
+TEST_CASE("a device is started for a large mesh alone") {
+  const FakeBackend cuda;
+  int asked = 0;
+  const CudaOrCpu automatic({&cuda, true, [&asked] { return ++asked, std::string(); }, {}}, trismooth::cpu_backend(),
+                            vertices);
+  automatic.start(vertices - 1);
+  CHECK(asked == 0);
+  automatic.start(vertices);
+  CHECK(asked == 1);
+  CudaOrCpu({}).start(std::numeric_limits<std::int64_t>::max());  // none to start
 }
 
 TEST_CASE("without a device, or without CUDA in the build, auto smooths on the CPU and says why") {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iomanip>
 #include <span>
 #include <string>
@@ -134,6 +136,41 @@ TEST_CASE("the paper's versions find the topology on the device only where that 
   options.smoothing.backend = &device;
   trismooth::run_pipeline(options);
   CHECK(device.rings_found == 0);
+}
+
+TEST_CASE("the backend starts while the file is read, and what it has not started then it starts later") {
+  const Files files(test_meshes::jittered_grid(100, 100, 0.45, 5));
+  PipelineOptions options = files.options();
+  const PipelineResult expected = trismooth::run_pipeline(options);
+
+  fakes::FakeBackend device;
+  std::promise<void> has_read;
+  bool was_read_meanwhile = false;
+  device.when_started = [&] {
+    was_read_meanwhile = has_read.get_future().wait_for(std::chrono::seconds(60)) == std::future_status::ready;
+    throw trismooth::DeviceError("it fails to start");  // and need not tell it
+  };
+  options.smoothing.backend = &device;
+  options.stage_started = [&](trismooth::Stage stage) {
+    if (stage == trismooth::Stage::topology) {
+      has_read.set_value();
+    }
+    return trismooth::Progress::proceed;
+  };
+  const PipelineResult found = trismooth::run_pipeline(options);
+  CHECK(was_read_meanwhile);
+  CHECK(found.coordinates_hash == expected.coordinates_hash);
+  CHECK(found.smoothing->backend == "cuda");
+  // About as many as there are: whether a device pays is decided by that.
+  CHECK(device.started_for > 5'000);
+  CHECK(device.started_for < 20'000);
+
+  const fakes::FakeBackend not_needed;
+  options.smoothing.backend = &not_needed;
+  options.output.reset();
+  options.stage_started = {};
+  trismooth::run_pipeline(options);
+  CHECK(not_needed.started_for == -1);
 }
 
 TEST_CASE("a mesh of triangle strips is smoothed to the bits of its triangles, and its strips stay") {

@@ -53,7 +53,7 @@ TEST_CASE("the quality of a region is that of a mesh of its triangles alone") {
 }
 
 TEST_CASE("regions get the same bits from every number of threads") {
-  const auto mesh = test_meshes::jittered_grid(80, 80, 0.4, 4);
+  const auto mesh = test_meshes::jittered_grid(130, 130, 0.4, 4);
   std::vector<std::int32_t> region_of(mesh.triangles.size());
   for (std::size_t t = 0; t < region_of.size(); ++t) {
     region_of[t] = static_cast<std::int32_t>(t % 7 == 0);

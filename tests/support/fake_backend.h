@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
@@ -78,12 +79,21 @@ class FakeBackend final : public trismooth::Backend {
     return std::make_unique<Mesh>(*this, vertex_count, triangles, constraints, options);
   }
 
+  void start(std::int64_t vertices) const override {
+    started_for = vertices;
+    if (when_started) {
+      when_started();
+    }
+  }
+
   /// From now on it fails there.
   void fail_next_at(Failure failure) { failure_ = failure; }
 
-  mutable std::atomic<int> prepared = 0;     ///< calls of prepare() and prepare_mesh()
-  mutable std::atomic<int> smoothed = 0;     ///< of smooth()
-  mutable std::atomic<int> rings_found = 0;  ///< of find_rings()
+  mutable std::atomic<int> prepared = 0;               ///< calls of prepare() and prepare_mesh()
+  mutable std::atomic<int> smoothed = 0;               ///< of smooth()
+  mutable std::atomic<int> rings_found = 0;            ///< of find_rings()
+  mutable std::atomic<std::int64_t> started_for = -1;  ///< vertices; -1: it was not started
+  std::function<void()> when_started;                  ///< what start() does, on the thread that calls it
 
  private:
   class Smoother final : public trismooth::PreparedSmoother {
