@@ -76,7 +76,7 @@ class RingSmoother final : public PreparedSmoother {
       reversed_ = mesh.reversed;
     }
     if (options.measures_shape() || options.untangles()) {
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed);
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed, copier_.workers());
     }
     context_.synchronize();
     prepare_ms_ = watch.milliseconds();

@@ -37,7 +37,7 @@ class CpuSmoother final : public PreparedSmoother {
     const Stopwatch watch;
     rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_);
     if (options.measures_shape() || options.untangles()) {
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, fixed_);
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, fixed_, workers_);
     }
     if (options.untangles()) {
       triangles_.assign(triangles.begin(), triangles.end());
@@ -164,11 +164,11 @@ class CpuSmoother final : public PreparedSmoother {
     FixedTriangles fixed_triangles;
   };
 
-  FixedTriangles fixed_triangles(const TurnedComponents& turned) const {
-    return {triangles_, turned_over(reversed_, turned), fixed_};
+  FixedTriangles fixed_triangles(const TurnedComponents& turned) {
+    return {triangles_, turned_over(reversed_, turned), fixed_, workers_};
   }
 
-  Turned turn(TurnedComponents components) const {
+  Turned turn(TurnedComponents components) {
     Turned turned{std::move(components), rings_, {}};
     turned.rings.neighbours = turned_neighbours(rings_.view(), triangles_, turned.components);
     turned.fixed_triangles = fixed_triangles(turned.components);

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -21,13 +23,21 @@ class FixedTriangles {
   /// Those of a mesh. `reversed`: one flag a triangle, as Orientation::reversed; `fixed`: one byte a vertex, 0 is free.
   /// Complexity: linear.
   FixedTriangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                 std::span<const std::uint8_t> fixed) {
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto& [a, b, c] = triangles[t];
-      if (fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0) {
-        corners_.push_back(canonical_corners(triangles[t], reversed[t] != 0));
-      }
-    }
+                 std::span<const std::uint8_t> fixed, Workers& workers) {
+    // Memory that is never touched costs nothing.
+    corners_.resize(triangles.size());
+    const std::int64_t count = for_each_numbered(
+        std::ssize(triangles),
+        [&](std::int64_t t) {
+          const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+          return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0;
+        },
+        [&](std::int64_t number, std::int64_t t) {
+          corners_[static_cast<std::size_t>(number)] =
+              canonical_corners(triangles[static_cast<std::size_t>(t)], reversed[static_cast<std::size_t>(t)] != 0);
+        },
+        workers);
+    corners_.resize(static_cast<std::size_t>(count));
   }
 
   /// Their smallest shape quotient, where position(v) is vertex v in the local frame; infinite where there is none.
@@ -50,7 +60,7 @@ class FixedTriangles {
   }
 
  private:
-  std::vector<Triangle> corners_;  ///< in canonical order
+  BulkVector<Triangle> corners_;  ///< in canonical order
 };
 
 }  // namespace trismooth

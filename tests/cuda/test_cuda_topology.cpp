@@ -342,6 +342,7 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
   for (std::size_t v = 0; v <= 40; ++v) {
     half_mirrored.points[v].y = -half_mirrored.points[v].y;
   }
+  Workers workers(1);
   cuda::Context context;
   const cuda::DeviceBuffer<Triangle> triangles(context, mesh.triangles);
   cuda::DeviceTopology topology(context, mesh.vertex_count(), static_cast<std::int32_t>(mesh.triangles.size()),
@@ -359,9 +360,8 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
     rings.neighbours.download(found.neighbours);
     require_same(found, expected.rings);
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          FixedTriangles(positions.triangles, expected.reversed, expected.fixed).smallest_quotient([&](std::int32_t v) {
-            return positions.points[v];
-          }));
+          FixedTriangles(positions.triangles, expected.reversed, expected.fixed, workers)
+              .smallest_quotient([&](std::int32_t v) { return positions.points[v]; }));
     return changed;
   };
   CHECK(orient_by(mesh));
@@ -373,6 +373,7 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
 }
 
 TEST_CASE("the smallest quotient of the triangles without a free vertex is the host's") {
+  Workers workers(1);
   for (const auto& [name, mesh] : test_meshes::zoo()) {
     CAPTURE(name);
     const MeshRings expected = find_on_host(mesh, {});
@@ -384,7 +385,7 @@ TEST_CASE("the smallest quotient of the triangles without a free vertex is the h
                                   NeighbourSearch::one_thread);
     CHECK(topology.orient(points.data()));
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          FixedTriangles(mesh.triangles, expected.reversed, expected.fixed)
+          FixedTriangles(mesh.triangles, expected.reversed, expected.fixed, workers)
               .smallest_quotient([&points_of = mesh.points](std::int32_t v) { return points_of[v]; }));
   }
   cuda::Context context;

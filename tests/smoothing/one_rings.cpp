@@ -38,9 +38,9 @@ Analysed analysed(const Mesh& mesh, int threads = 1) {
 
 double smallest_fixed_quotient(const Mesh& mesh) {
   const Analysed found = analysed(mesh);
-  return trismooth::FixedTriangles(mesh.triangles, found.reversed, found.hold).smallest_quotient([&](std::int32_t v) {
-    return mesh.points[v];
-  });
+  Workers workers(1);
+  return trismooth::FixedTriangles(mesh.triangles, found.reversed, found.hold, workers)
+      .smallest_quotient([&](std::int32_t v) { return mesh.points[v]; });
 }
 
 /// The triangle in consistent orientation, beginning with its smallest index.
@@ -123,4 +123,32 @@ TEST_CASE("the smallest fixed quotient is that of the triangles whose three corn
 
   const Mesh star = test_meshes::star(6);
   CHECK(std::isinf(smallest_fixed_quotient(star)));
+}
+
+TEST_CASE("fixed triangles are found by every number of threads") {
+  const Mesh mesh = test_meshes::partly_reversed(test_meshes::jittered_grid(200, 200, 0.3, 4), 2);
+  test_meshes::Random random(3);
+  std::vector<std::uint8_t> fixed(mesh.points.size());
+  std::ranges::generate(fixed, [&] { return static_cast<std::uint8_t>(random.below(3)); });
+  std::vector<std::uint8_t> reversed(mesh.triangles.size());
+  std::ranges::generate(reversed, [&] { return static_cast<std::uint8_t>(random.below(2)); });
+  double smallest = std::numeric_limits<double>::infinity();
+  std::int64_t inverted = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0) {
+      const double quotient =
+          naive::element_quotient(mesh.points, reversed[t] != 0 ? Triangle{a, c, b} : Triangle{a, b, c});
+      smallest = std::min(smallest, quotient);
+      inverted += quotient > 0 ? 0 : 1;
+    }
+  }
+  const auto position = [&](std::int32_t v) { return mesh.points[v]; };
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
+    Workers workers(threads);
+    const trismooth::FixedTriangles found(mesh.triangles, reversed, fixed, workers);
+    CHECK(found.smallest_quotient(position) == smallest);
+    CHECK(found.inverted(position) == inverted);
+  }
 }
