@@ -131,7 +131,9 @@ SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
   TRISMOOTH_CUDA_CHECK(
       cudaMemcpyAsync(&entries, begins.data() + count, sizeof(entries), cudaMemcpyDeviceToHost, context.stream()));
   context.synchronize();
-  to.long_rings = DeviceBuffer<std::int32_t>(context, entries);
+  // See SlottedRing.
+  to.long_rings = DeviceBuffer<std::int32_t>(context, std::size_t{entries} + RingRecord<Slot>::slots);
+  to.long_rings.fill_bytes(0);
   copy_long_rings<<<blocks, block_size, 0, context.stream()>>>(view, begins.data(), to.records.data(),
                                                                to.long_rings.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());

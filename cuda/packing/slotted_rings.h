@@ -51,24 +51,26 @@ struct alignas(16) RingRecord {
   }
 };
 
-/// One ring of them, in memory.
+/// One ring of them, in memory. `long_rings` has RingRecord::slots entries or more: where a ring is short, what
+/// operator[] does not read has an address that may be read all the same. compute-sanitizer takes loads that a
+/// predicate turns off for loads.
 template <class Slot>
 class SlottedRing {
  public:
   TRISMOOTH_HOST_DEVICE SlottedRing(std::int32_t vertex, const RingRecord<Slot>& record, const std::int32_t* long_rings)
       : first_(sizeof(Slot) == 2 ? vertex : 0),
         slots_(reinterpret_cast<const Slot*>(record.words)),
-        long_ring_(record.is_long() ? long_rings + record.long_begin() : nullptr) {}
+        long_ring_(long_rings + (record.is_long() ? record.long_begin() : 0)),
+        is_long_(record.is_long()) {}
 
   /// The number of neighbour `i`.
-  TRISMOOTH_HOST_DEVICE std::int32_t operator[](int i) const {
-    return long_ring_ != nullptr ? long_ring_[i] : first_ + slots_[i];
-  }
+  TRISMOOTH_HOST_DEVICE std::int32_t operator[](int i) const { return is_long_ ? long_ring_[i] : first_ + slots_[i]; }
 
  private:
   std::int32_t first_;
   const Slot* slots_;
   const std::int32_t* long_ring_;
+  bool is_long_;
 };
 
 /// For kernels. Vertices from `size` on have no ring: they are fixed.
