@@ -29,11 +29,18 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> stay(Point2<T> position) {
   return {position, false};
 }
 
-/// A move to `target`, unless that is where the vertex is or no finite point.
+/// Whether a vertex moves to `target`: not where that is where it is or no finite point. Of numbers or of lanes of
+/// numbers, so without branches: & and | are meant.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE auto is_move(Point2<T> position, Point2<T> target) -> decltype(position.x == target.x) {
+  return (target.x - target.x == T{}) & (target.y - target.y == T{}) &
+         ((target.x != position.x) | (target.y != position.y));
+}
+
+/// A move to `target`, if it is one.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE Move<T> move_to(Point2<T> position, Point2<T> target) {
-  const bool finite = target.x - target.x == T(0) && target.y - target.y == T(0);
-  return finite && !(target == position) ? Move<T>{target, true} : stay(position);
+  return is_move(position, target) ? Move<T>{target, true} : stay(position);
 }
 
 /// The Laplacian position: the mean of the neighbours, summed in ring order (the paper's equations 1 and 2).
@@ -60,8 +67,17 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> updated(const Update& method, std::int32
   }
 }
 
-/// What a vertex does, and where it moves the sum of its squared distances to its neighbours, by which the move is
-/// measured: added in ring order, from where it was.
+/// The sum of the squared distances of a vertex to its neighbours, added in ring order.
+template <class T, class Ring>
+constexpr TRISMOOTH_HOST_DEVICE T squares_around(Point2<T> position, const Ring& ring) {
+  T sum = 0;
+  for (int i = 0; i < ring.size(); ++i) {
+    sum += squared_length(ring[i] - position);
+  }
+  return sum;
+}
+
+/// What a vertex does, and where it moves squares_around() where it was, by which the move is measured.
 template <class T>
 struct VertexMove {
   Move<T> move;
@@ -70,11 +86,7 @@ struct VertexMove {
 
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE VertexMove<T> with_squares(const Move<T>& move, Point2<T> position, const Ring& ring) {
-  VertexMove<T> result{move, T(0)};
-  for (int i = 0; i < ring.size() && move.moved; ++i) {
-    result.squares += squared_length(ring[i] - position);
-  }
-  return result;
+  return {move, move.moved ? squares_around(position, ring) : T(0)};
 }
 
 /// The update of vertex v with what measures it. A method that has come by that sum has a function vertex_move().

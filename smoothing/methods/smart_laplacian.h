@@ -72,6 +72,12 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> smart_move(Point2<T> position, Point2<T>
 /// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
 /// quality of the vertex's triangles gets strictly larger, and no more of them are inverted than before.
 struct SmartLaplacian {
+  /// Where the vertex is to go if that is better.
+  template <class T, class Ring>
+  static constexpr TRISMOOTH_HOST_DEVICE Point2<T> target(Point2<T> /*position*/, const Ring& ring) {
+    return laplacian_position<T>(ring);
+  }
+
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
     return update(position, ring, worst_quotient(position, ring));
@@ -80,7 +86,7 @@ struct SmartLaplacian {
   /// The same where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
-    return smart_move(position, laplacian_position<T>(ring), ring, before);
+    return smart_move(position, target(position, ring), ring, before);
   }
 };
 

@@ -30,6 +30,12 @@ TRISMOOTH_HOST_DEVICE Point2<T> length_weighted_position(Point2<T> position, con
 /// Length-weighted Laplacian smoothing (T. D. Blacker and M. B. Stephenson 1991), with the test of
 /// the smart one: that alone keeps it from making elements worse.
 struct WeightedLaplacian {
+  /// Where the vertex is to go if that is better.
+  template <class T, class Ring>
+  static TRISMOOTH_HOST_DEVICE Point2<T> target(Point2<T> position, const Ring& ring) {
+    return length_weighted_position(position, ring);
+  }
+
   template <class T, class Ring>
   static TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
     return update(position, ring, worst_quotient(position, ring));
@@ -38,7 +44,7 @@ struct WeightedLaplacian {
   /// The same where `before`, the smallest quotient around the vertex, is known.
   template <class T, class Ring>
   static TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
-    return smart_move(position, length_weighted_position(position, ring), ring, before);
+    return smart_move(position, target(position, ring), ring, before);
   }
 };
 

@@ -23,39 +23,12 @@ struct RingInLane {
   constexpr Point2<T> operator[](int i) const { return {rings.x[i][lane], rings.y[i][lane]}; }
 };
 
-/// Where a method would have a vertex.
-template <class Update, class T, class Ring>
-constexpr Point2<T> target_of(Update /*method*/, Point2<T> /*position*/, const Ring& ring) {
-  return laplacian_position<T>(ring);
-}
-template <class T, class Ring>
-constexpr Point2<T> target_of(WeightedLaplacian /*method*/, Point2<T> position, const Ring& ring) {
-  return length_weighted_position(position, ring);
-}
-
-/// Whether move_to() moves. (No branches, which loops over lanes cannot have: & and | are meant.)
-template <class T>
-constexpr bool is_move(Point2<T> position, Point2<T> target) {
-  const bool is_finite = (target.x - target.x == T(0)) & (target.y - target.y == T(0));
-  return is_finite & ((target.x != position.x) | (target.y != position.y));
-}
-
-/// VertexMove::squares.
-template <class T, class Ring>
-constexpr T squares_around(Point2<T> position, const Ring& ring) {
-  T sum = 0;
-  for (int i = 0; i < ring.size(); ++i) {
-    sum += squared_length(ring[i] - position);
-  }
-  return sum;
-}
-
 /// The method's update of one vertex, but for smart ones around inverted triangles: these take a second look.
 template <class Update, class T, class Ring>
 [[gnu::always_inline]] inline void update_lane(int lane, const Ring& ring, RingLanes<T>& rings) {
   constexpr bool is_smart = !std::is_same_v<Update, Laplacian>;
   const Point2<T> position{rings.position_x[lane], rings.position_y[lane]};
-  const Point2<T> target = target_of(Update{}, position, ring);
+  const Point2<T> target = Update::target(position, ring);
   bool moves = is_move(position, target);
   bool is_undecided = false;
   if constexpr (is_smart) {

@@ -61,10 +61,8 @@ class MeanRatioGroup {
       return may_grow;
     });
     alone = alone || !move.is_valid;
-    // As move_to() has it.
     const Point2<V> target = move.target;
-    const Mask is_finite = target.x - target.x == T(0) && target.y - target.y == T(0);
-    const Mask moves = move.moved && is_finite && (target.x != positions.x || target.y != positions.y);
+    const Mask moves = move.moved && is_move(positions, target);
     const V one = V{} + T(1);
     put(target.x, &found.target_x[begin]);
     put(target.y, &found.target_y[begin]);
