@@ -349,7 +349,7 @@ TEST_CASE("however little memory is left: an error that says how much is needed,
         CAPTURE(left, refused);
         CHECK(left < enough);
         // A plan may hold all that it needs from when it was made on.
-        const bool plan = way.name.find("a plan") == 0;
+        const bool plan = way.name.starts_with("a plan");
         CHECK((refused > 0 || plan));
         // Memory is back: so is the result.
         std::vector<double> again;

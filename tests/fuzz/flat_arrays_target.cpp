@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -286,7 +287,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// Thrown by a progress callback: somebody else's error.
-struct Interruption {};
+struct Interruption : std::exception {};
 
 struct Case {
   Arrays arrays;

@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path input_path = "input";
+constexpr const char* input_path = "input";
 
 /// Reads what must be readable, having been written by us.
 MeshDocument read_again(FileFormat format, const std::string& bytes, const std::string& what) {

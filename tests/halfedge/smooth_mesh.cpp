@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -61,7 +62,7 @@ Points points_of(const TriangleMesh& mesh) {
 double shape_in_space(const Points& points, const Triangle& t, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d ab = points[t[1]] - points[t[0]];
   const Eigen::Vector3d ac = points[t[2]] - points[t[0]];
-  return 2 * std::sqrt(3.0) * ab.cross(ac).dot(normal) /
+  return 2 * std::numbers::sqrt3 * ab.cross(ac).dot(normal) /
          (ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm());
 }
 

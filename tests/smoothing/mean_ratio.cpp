@@ -24,8 +24,6 @@ using trismooth::Point2;
 
 namespace mean_ratio_test {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A vertex, number 0, in a ring, numbers 1, 2, ..., and what the method aims at there.
 template <class T>
 struct Scene {
