@@ -1,5 +1,7 @@
 #include "trismooth/cuda/backend.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -7,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/overwriting.h"
@@ -56,8 +59,13 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
 
 /// One-rings of the host on the device.
 DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
-  const std::vector<std::uint32_t> offsets(rings.offsets.begin(), rings.offsets.end());
-  return {copier.uploaded(std::span(offsets)), copier.uploaded(std::span(rings.neighbours))};
+  constexpr std::int64_t grain = 32768;
+  BulkVector<std::uint32_t> offsets(rings.offsets.size());
+  copier.workers().for_blocks(std::ssize(offsets), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::transform(rings.offsets.begin() + begin, rings.offsets.begin() + end, offsets.begin() + begin,
+                   [](std::int64_t offset) { return static_cast<std::uint32_t>(offset); });
+  });
+  return {copier.uploaded(std::span<const std::uint32_t>(offsets)), copier.uploaded(std::span(rings.neighbours))};
 }
 
 class RingSmoother final : public PreparedSmoother {
@@ -177,6 +185,12 @@ class CudaBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
+    return prepare_kept(mesh, triangles, local, options);
+  }
+
+  std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                                 std::span<const Point2<double>> local,
+                                                 const SmoothingOptions& options) const override {
     options.validate();
     require_device();
     return std::make_unique<RingSmoother>(mesh, triangles, local, options);

@@ -1,10 +1,13 @@
 #include "trismooth/pipeline/cuda_or_cpu.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
@@ -60,7 +63,7 @@ class FallingBackSmoother final : public PreparedSmoother {
                          const std::optional<LocalFrame>& frame) override {
     if (!fell_back_) {
       // A device that fails on the way back has written some of them.
-      const std::vector<Point2<double>> before(points.begin(), points.end());
+      const BulkVector<Point2<double>> before = copied(points);
       try {
         SmoothingResult result = smoother_->smooth(points, storage, frame);
         result.timings.prepare += std::exchange(device_start_ms_, 0);
@@ -76,6 +79,15 @@ class FallingBackSmoother final : public PreparedSmoother {
   std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
 
  private:
+  BulkVector<Point2<double>> copied(std::span<const Point2<double>> points) const {
+    constexpr std::int64_t grain = 16384;
+    BulkVector<Point2<double>> copy(points.size());
+    Workers(options_.threads).for_blocks(std::ssize(points), grain, [&](std::int64_t begin, std::int64_t end) {
+      std::copy(points.begin() + begin, points.begin() + end, copy.begin() + begin);
+    });
+    return copy;
+  }
+
   void fall_back(const LocalFrame& frame, std::span<const Point2<double>> points, std::string note) {
     const LocalPoints local = entered(frame, points);
     smoother_ = std::make_unique<NotedSmoother>(
@@ -93,11 +105,16 @@ class FallingBackSmoother final : public PreparedSmoother {
   bool fell_back_ = false;
 };
 
-std::int64_t count_free(const OneRings& rings) {
-  std::int64_t count = 0;
-  for (std::int32_t v = 0; v < rings.vertex_count(); ++v) {
-    count += rings.is_free(v) ? 1 : 0;
-  }
+std::int64_t count_free(const OneRings& rings, int threads) {
+  constexpr std::int64_t grain = 65536;
+  std::atomic<std::int64_t> count{0};
+  Workers(threads).for_blocks(rings.vertex_count(), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t count_here = 0;
+    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+      count_here += rings.is_free(v) ? 1 : 0;
+    }
+    count.fetch_add(count_here, std::memory_order_relaxed);
+  });
   return count;
 }
 
@@ -115,7 +132,7 @@ void CudaOrCpu::start(std::int64_t vertices) const {
 std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                                      std::span<const Point2<double>> local,
                                                      const SmoothingOptions& options) const {
-  if (!is_large(count_free(mesh.rings))) {
+  if (!is_large(count_free(mesh.rings, options.threads))) {
     return cpu_.prepare(std::move(mesh), triangles, local, options);
   }
   // The first to ask starts CUDA, which can take longer than the smoothing.
@@ -124,8 +141,8 @@ std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<c
   const double start_ms = watch.milliseconds();
   if (note.empty()) {
     try {
-      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare(mesh, triangles, local, options), start_ms,
-                                                   cpu_, std::move(mesh), triangles, options);
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare_kept(mesh, triangles, local, options),
+                                                   start_ms, cpu_, std::move(mesh), triangles, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }

@@ -66,6 +66,13 @@ class Backend {
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
+  /// The same for a caller who keeps the mesh. It is copied where the backend has no other way.
+  virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
+                                                         std::span<const Point2<double>> local,
+                                                         const SmoothingOptions& options) const {
+    return prepare(mesh, triangles, local, options);
+  }
+
   /// Finds the rings of a mesh with the backend's own means: what find_mesh_rings() finds, in every number, with the
   /// same errors. Nothing where the backend leaves that to the host. For Topology::device. With
   /// Execution::single_block the CUDA backend finds the neighbours by one thread, as the paper does.
