@@ -1,6 +1,7 @@
 #include "trismooth/base/workers.h"
 
 #include <cstddef>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "trismooth/base/block_line.h"
 #include "trismooth/base/worker_threads.h"
 
 namespace trismooth {
@@ -71,6 +73,19 @@ void Workers::share_out(std::int64_t size, std::int64_t grain, const Callee<std:
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, static_cast<std::size_t>(grain)),
                       [&](const auto& range) { body(range.begin(), range.end()); });
   });
+}
+
+void Workers::line_up(std::size_t count, std::size_t places, const Callee<std::size_t, std::size_t>& work,
+                      const Callee<std::size_t, std::size_t>& then) {
+  const BlockLine::Step work_step = std::ref(work);
+  const BlockLine::Step then_step = std::ref(then);
+  BlockLine line(count, places, work_step, then_step);
+  for_blocks(count_, 1, [&line](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      line.serve();
+    }
+  });
+  line.rethrow();
 }
 
 }  // namespace trismooth

@@ -182,9 +182,8 @@ void write_patched(const std::filesystem::path& path, std::string_view bytes, co
   const std::size_t part_bytes = std::min(workers.part_bytes, FileWorkers::default_part_bytes);
   BufferedWriter writer(path);
   const PatchedFile file(bytes, sites, points, std::max(std::size_t{1}, part_bytes / bytes_a_site));
-  OrderedBlocks(writer, workers.workers).write(file.block_count(), [&file](std::size_t block, MemoryBlock& out) {
-    file.append_block(block, out);
-  });
+  OrderedBlocks([&writer](std::string_view block) { writer.write(block); }, workers)
+      .write(file.block_count(), [&file](std::size_t block, MemoryBlock& out) { file.append_block(block, out); });
   writer.write(bytes.substr(file.end_of_sites()));
   writer.write(suffix);
   writer.close();

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cstdint>
 #include <new>
+#include <numeric>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -113,5 +115,93 @@ TEST_CASE("an exception in a loop reaches the caller") {
     };
     CHECK_THROWS_WITH(loop(), "at 500");
     CHECK_THROWS_AS(workers.run(loop), std::runtime_error);
+  }
+}
+
+TEST_CASE("blocks in order are each worked on once and handed on one behind the other, few at a time") {
+  for (const int threads : {1, 2, 3, 8}) {
+    Workers workers(threads);
+    for (const std::size_t count : {0, 1, 2, 3, 7, 500}) {
+      for (const std::size_t places : {1, 2, 5, 1000}) {
+        CAPTURE(threads, count, places);
+        std::vector<std::atomic<int>> at_place(places);
+        std::atomic<bool> shared_place{false};
+        std::vector<std::size_t> values(count, 0);  // written by `work`, read by `then`
+        std::vector<std::size_t> order;
+        workers.for_blocks_in_order(
+            count, places,
+            [&](std::size_t block, std::size_t place) {
+              if (++at_place[place] != 1) {
+                shared_place = true;
+              }
+              values[block] += block + 1;
+            },
+            [&](std::size_t block, std::size_t place) {
+              order.push_back(values[block]);
+              --at_place[place];
+            });
+        CHECK_FALSE(shared_place);
+        std::vector<std::size_t> expected(count);
+        std::iota(expected.begin(), expected.end(), std::size_t{1});
+        CHECK(order == expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("blocks in order are worked on by many threads at a time, while others are handed on") {
+  const int threads = 3;
+  Workers workers(threads);
+  std::atomic<int> inside{0};
+  std::atomic<bool> together{false};
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto meet = [&](std::size_t /*block*/, std::size_t /*place*/) {
+    ++inside;
+    while (!together && std::chrono::steady_clock::now() < give_up) {
+      together = together || inside >= threads;
+      std::this_thread::yield();
+    }
+    --inside;
+  };
+  // The first block is handed on while others are at work: only then are there three.
+  workers.for_blocks_in_order(
+      100, 100,
+      [&](std::size_t block, std::size_t place) {
+        if (block > 0) {
+          meet(block, place);
+        }
+      },
+      meet);
+  CHECK(together);
+}
+
+TEST_CASE(
+    "of blocks in order, the first that fails ends it: those before it are handed on, and its exception is thrown") {
+  for (const int threads : {1, 2, 8}) {
+    Workers workers(threads);
+    for (std::size_t round = 0; round < 200; ++round) {
+      const std::size_t in_work = round % 50;
+      const std::size_t in_then = 7 * round % 50;
+      CAPTURE(threads, in_work, in_then);
+      std::size_t handed_on = 0;
+      const auto loop = [&] {
+        workers.for_blocks_in_order(
+            50, 1 + round % 9,
+            [&](std::size_t block, std::size_t) {
+              if (block >= in_work) {
+                throw std::runtime_error("work " + std::to_string(block));
+              }
+            },
+            [&](std::size_t block, std::size_t) {
+              if (block == in_then) {
+                throw std::runtime_error("then " + std::to_string(block));
+              }
+              ++handed_on;
+            });
+      };
+      const bool then_first = in_then < in_work;
+      CHECK_THROWS_WITH(loop(), then_first ? "then " + std::to_string(in_then) : "work " + std::to_string(in_work));
+      CHECK(handed_on == std::min(in_work, in_then));
+    }
   }
 }
