@@ -16,8 +16,8 @@ namespace trismooth {
 struct Codec {
   /// Reads the file at `path`, whose bytes are `bytes`. Throws ReadError.
   MeshDocument (*read_shared)(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
-  /// Writes the document from scratch to the plain path `path`. Throws WriteError.
-  void (*write)(const std::filesystem::path& path, const MeshDocument& document);
+  /// Writes the document from scratch to the plain path `path`: the same bytes for all workers. Throws WriteError.
+  void (*write_shared)(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
   /// What the format cannot hold of the document, one sentence each.
   std::vector<std::string> (*what_is_lost)(const MeshDocument& document);
 
@@ -25,6 +25,12 @@ struct Codec {
   MeshDocument read(const std::filesystem::path& path, FileBytes bytes) const {
     Workers alone(1);
     return read_shared(path, std::move(bytes), FileWorkers(alone));
+  }
+
+  /// write_shared() on this thread alone.
+  void write(const std::filesystem::path& path, const MeshDocument& document) const {
+    Workers alone(1);
+    write_shared(path, document, FileWorkers(alone));
   }
 };
 

@@ -91,7 +91,7 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
   const bool adds = takes_added_arrays(document, format) && !(added.point_arrays.empty() && added.cell_arrays.empty());
   const bool expands = !holds_strips(format) && has_strips(document);
   if (!adds && !expands) {
-    codec_of(format).write(path, document);
+    codec_of(format).write_shared(path, document, FileWorkers(workers));
     return;
   }
   MeshDocument changed = document;
@@ -99,7 +99,7 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
     replace_annotations(changed.point_arrays, added.point_arrays);
     replace_annotations(changed.cell_arrays, added.cell_arrays);
   }
-  codec_of(format).write(path, expands ? with_strips_as_triangles(changed) : changed);
+  codec_of(format).write_shared(path, expands ? with_strips_as_triangles(changed) : changed, FileWorkers(workers));
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ struct AddedArrays {
 /// what_is_lost). The file is written beside the target, flushed and renamed over it: whatever stood there survives
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly.
 /// Throws WriteError, also for such an extension, and where an array has not a row for every point or cell.
-/// `threads`, as of read_mesh(), encode a document that is written in the format it was read from; the bytes are the
-/// same for every number of them.
+/// `threads`, as of read_mesh(), encode the document; the bytes are the same for every number of them.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {},
                 int threads = 1);
 

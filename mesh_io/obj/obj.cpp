@@ -32,27 +32,26 @@ std::string_view statement_of(std::uint8_t type) {
   }
 }
 
-void write_obj(const std::filesystem::path& path, const MeshDocument& document) {
+void write_obj(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const CellList& cells = document.cells;
-  TextMeshWriter writer(path);
+  TextMeshWriter writer(path, workers);
   if (document.points.empty()) {
     // An empty file is no OBJ, but comments alone are a mesh of nothing.
-    writer.word("# no vertices").end_line();
+    writer.write_line([](TextLines& line) { line.word("# no vertices"); });
   }
-  for (std::size_t i = 0; i < document.points.size(); i += 3) {
-    writer.word("v").number(document.points[i]).number(document.points[i + 1]).number(document.points[i + 2]);
-    writer.end_line();
-  }
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  writer.write_lines(document.point_count(), [&points = document.points](TextLines& lines, std::size_t i) {
+    lines.word("v").number(points[3 * i]).number(points[3 * i + 1]).number(points[3 * i + 2]).end_line();
+  });
+  writer.write_lines(cells.size(), [&cells](TextLines& lines, std::size_t cell) {
     const std::string_view statement = statement_of(cells.types[cell]);
     if (!statement.empty()) {
-      writer.word(statement);
+      lines.word(statement);
       for (const std::int32_t vertex : cells[cell]) {
-        writer.integer(std::int64_t{vertex} + 1);
+        lines.number(std::int64_t{vertex} + 1);
       }
-      writer.end_line();
+      lines.end_line();
     }
-  }
+  });
   writer.close();
 }
 

@@ -17,26 +17,25 @@ bool is_face(std::uint8_t type) {
   return std::ranges::find(face_types, type) != face_types.end();
 }
 
-void write_off(const std::filesystem::path& path, const MeshDocument& document) {
+void write_off(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const CellList& cells = document.cells;
-  TextMeshWriter writer(path);
-  writer.word("OFF").end_line();
-  writer.integer(static_cast<std::int64_t>(document.point_count()))
-      .integer(std::ranges::count_if(cells.types, &is_face))
-      .integer(0)
-      .end_line();
-  for (std::size_t i = 0; i < document.points.size(); i += 3) {
-    writer.number(document.points[i]).number(document.points[i + 1]).number(document.points[i + 2]).end_line();
-  }
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  TextMeshWriter writer(path, workers);
+  writer.write_line([](TextLines& line) { line.word("OFF"); });
+  writer.write_line([&](TextLines& line) {
+    line.number(document.point_count()).number(std::ranges::count_if(cells.types, &is_face)).number(0);
+  });
+  writer.write_lines(document.point_count(), [&points = document.points](TextLines& lines, std::size_t i) {
+    lines.number(points[3 * i]).number(points[3 * i + 1]).number(points[3 * i + 2]).end_line();
+  });
+  writer.write_lines(cells.size(), [&cells](TextLines& lines, std::size_t cell) {
     if (is_face(cells.types[cell])) {
-      writer.integer(static_cast<std::int64_t>(cells[cell].size()));
+      lines.number(cells[cell].size());
       for (const std::int32_t vertex : cells[cell]) {
-        writer.integer(vertex);
+        lines.number(vertex);
       }
-      writer.end_line();
+      lines.end_line();
     }
-  }
+  });
   writer.close();
 }
 

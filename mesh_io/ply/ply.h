@@ -27,7 +27,7 @@ MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const 
 
 /// Writes the document as little-endian PLY: double coordinates (float where point_type is float32), faces, then
 /// lines as element edge, and every point and cell array as scalar properties. Throws WriteError.
-void write_ply(const std::filesystem::path& path, const MeshDocument& document);
+void write_ply(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
 
 /// What write_ply leaves out or changes, one sentence each.
 std::vector<std::string> what_ply_loses(const MeshDocument& document);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/document/other_cells.h"
 #include "trismooth/mesh_io/ply/ply.h"
@@ -22,12 +23,12 @@ namespace {
 
 /// Appends the number as little-endian bytes.
 template <class T>
-void append_bytes(std::string& bytes, T number) {
-  auto stored = std::bit_cast<std::array<char, sizeof(T)>>(number);
+void append_bytes(MemoryBlock& bytes, T number) {
+  auto stored = std::bit_cast<std::array<std::byte, sizeof(T)>>(number);
   if constexpr (std::endian::native == std::endian::big) {
     std::ranges::reverse(stored);
   }
-  bytes.append(stored.data(), stored.size());
+  std::memcpy(bytes.extend(sizeof(T)), stored.data(), sizeof(T));
 }
 
 /// One component of an array, as a scalar property of an element.
@@ -90,7 +91,7 @@ std::vector<WrittenProperty> cell_properties(const MeshDocument& document) {
   return written_properties(document.cell_arrays, {"vertex_indices", "vertex_index", "vertex1", "vertex2"});
 }
 
-void append_row(std::string& bytes, std::span<const WrittenProperty> properties, std::size_t row) {
+void append_row(MemoryBlock& bytes, std::span<const WrittenProperty> properties, std::size_t row) {
   for (const WrittenProperty& property : properties) {
     const DataArray& array = *property.array;
     visit_scalar_type(array.type, [&](auto number) {
@@ -161,45 +162,54 @@ std::string make_header(const MeshDocument& document, const WrittenCells& cells)
   return header + "end_header\n";
 }
 
-void write_points(BufferedWriter& writer, const MeshDocument& document) {
-  const std::vector<WrittenProperty> properties = point_properties(document);
-  std::string row;
-  for (std::size_t v = 0; v < document.point_count(); ++v) {
-    row.clear();
-    for (const double coordinate : std::span(document.points).subspan(3 * v, 3)) {
-      if (document.point_type == ScalarType::float32) {
-        append_bytes(row, static_cast<float>(coordinate));
-      } else {
-        append_bytes(row, coordinate);
-      }
-    }
-    append_row(row, properties, v);
-    writer.write(row);
+std::size_t row_bytes(std::size_t own, std::span<const WrittenProperty> properties) {
+  for (const WrittenProperty& property : properties) {
+    own += size_of(property.type);
   }
+  return own;
 }
 
-void write_cells(BufferedWriter& writer, const MeshDocument& document, const WrittenCells& cells) {
+void write_points(OrderedBlocks& blocks, const MeshDocument& document) {
+  const std::vector<WrittenProperty> properties = point_properties(document);
+  const std::size_t bytes_each = row_bytes(3 * size_of(document.point_type), properties);
+  blocks.write_rows(document.point_count(), bytes_each, [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+    for (std::size_t v = begin; v < end; ++v) {
+      for (const double coordinate : std::span(document.points).subspan(3 * v, 3)) {
+        if (document.point_type == ScalarType::float32) {
+          append_bytes(bytes, static_cast<float>(coordinate));
+        } else {
+          append_bytes(bytes, coordinate);
+        }
+      }
+      append_row(bytes, properties, v);
+    }
+  });
+}
+
+void write_cells(OrderedBlocks& blocks, const MeshDocument& document, const WrittenCells& cells) {
   const std::vector<WrittenProperty> properties = cell_properties(document);
-  std::string row;
-  const auto write_row = [&](std::size_t cell) {
+  const std::size_t bytes_each = row_bytes(1 + 3 * sizeof(std::int32_t), properties);
+  const auto append_cell = [&](MemoryBlock& bytes, std::size_t cell) {
     for (const std::int32_t vertex : document.cells[cell]) {
-      append_bytes(row, vertex);
+      append_bytes(bytes, vertex);
     }
-    append_row(row, properties, cell);
-    writer.write(row);
-    row.clear();
+    append_row(bytes, properties, cell);
   };
-  for (const std::size_t face : cells.faces) {
-    if (cells.has_long_faces()) {
-      append_bytes(row, static_cast<std::int32_t>(document.cells[face].size()));
-    } else {
-      append_bytes(row, static_cast<std::uint8_t>(document.cells[face].size()));
+  blocks.write_rows(cells.faces.size(), bytes_each, [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+    for (const std::size_t face : std::span(cells.faces).subspan(begin, end - begin)) {
+      if (cells.has_long_faces()) {
+        append_bytes(bytes, static_cast<std::int32_t>(document.cells[face].size()));
+      } else {
+        append_bytes(bytes, static_cast<std::uint8_t>(document.cells[face].size()));
+      }
+      append_cell(bytes, face);
     }
-    write_row(face);
-  }
-  for (const std::size_t line : cells.lines) {
-    write_row(line);
-  }
+  });
+  blocks.write_rows(cells.lines.size(), bytes_each, [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+    for (const std::size_t line : std::span(cells.lines).subspan(begin, end - begin)) {
+      append_cell(bytes, line);
+    }
+  });
 }
 
 /// Says which arrays are not in `properties` and which are there in another form.
@@ -231,12 +241,13 @@ void describe_arrays(std::vector<std::string>& lost, std::string_view kind, cons
 
 }  // namespace
 
-void write_ply(const std::filesystem::path& path, const MeshDocument& document) {
+void write_ply(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const WrittenCells cells(document.cells);
   BufferedWriter writer(path);
-  writer.write(make_header(document, cells));
-  write_points(writer, document);
-  write_cells(writer, document, cells);
+  OrderedBlocks blocks([&writer](std::string_view block) { writer.write(block); }, workers);
+  blocks.write(make_header(document, cells));
+  write_points(blocks, document);
+  write_cells(blocks, document, cells);
   writer.close();
 }
 

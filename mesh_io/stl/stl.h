@@ -26,7 +26,7 @@ MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const 
 /// Writes the document's triangles as one solid of ASCII STL (binary STL would round coordinates to float32), in the
 /// shortest texts that read back to the same float64, each with its unit normal, which is 0 0 0 for a degenerate
 /// triangle. Throws WriteError.
-void write_stl(const std::filesystem::path& path, const MeshDocument& document);
+void write_stl(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
 
 /// What write_stl leaves out or changes, one sentence each.
 std::vector<std::string> what_stl_loses(const MeshDocument& document);

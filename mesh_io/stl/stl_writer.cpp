@@ -4,10 +4,11 @@
 #include <span>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/other_cells.h"
 #include "trismooth/mesh_io/stl/point_welder.h"
 #include "trismooth/mesh_io/stl/stl.h"
-#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_block.h"
 
 namespace trismooth {
 
@@ -42,23 +43,22 @@ Vector unit_normal(const Vector& a, const Vector& b, const Vector& c) {
   return length > 0 ? Vector{n[0] / length + 0.0, n[1] / length + 0.0, n[2] / length + 0.0} : Vector{};
 }
 
-void append_vector(std::string& text, const Vector& vector) {
+void append_vector(TextBlock& text, const Vector& vector) {
   for (const double component : vector) {
-    text += ' ';
-    append_number(text, component);
+    text.text(' ').number(component);
   }
-  text += '\n';
+  text.text('\n');
 }
 
-void append_facet(std::string& text, const std::array<Vector, 3>& corners) {
-  text += "  facet normal";
+void append_facet(TextBlock& text, const std::array<Vector, 3>& corners) {
+  text.text("  facet normal");
   append_vector(text, unit_normal(corners[0], corners[1], corners[2]));
-  text += "    outer loop\n";
+  text.text("    outer loop\n");
   for (const Vector& corner : corners) {
-    text += "      vertex";
+    text.text("      vertex");
     append_vector(text, corner);
   }
-  text += "    endloop\n  endfacet\n";
+  text.text("    endloop\n  endfacet\n");
 }
 
 void describe_arrays(std::vector<std::string>& lost, std::string_view kind, std::span<const DataArray> arrays) {
@@ -97,21 +97,22 @@ void describe_points(std::vector<std::string>& lost, const MeshDocument& documen
 
 }  // namespace
 
-void write_stl(const std::filesystem::path& path, const MeshDocument& document) {
+void write_stl(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
+  constexpr std::size_t facet_bytes = 320;
   BufferedWriter writer(path);
-  writer.write("solid trismooth\n");
-  std::string text;
-  for (std::size_t c = 0; c < document.cells.size(); ++c) {
-    if (document.cells.types[c] != cell_type::triangle) {
-      continue;
+  OrderedBlocks blocks([&writer](std::string_view block) { writer.write(block); }, workers);
+  blocks.write("solid trismooth\n");
+  blocks.write_rows(document.cells.size(), facet_bytes, [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+    TextBlock text(bytes);
+    for (std::size_t c = begin; c < end; ++c) {
+      if (document.cells.types[c] == cell_type::triangle) {
+        const auto vertices = document.cells[c];
+        append_facet(
+            text, {point_at(document, vertices[0]), point_at(document, vertices[1]), point_at(document, vertices[2])});
+      }
     }
-    const auto vertices = document.cells[c];
-    text.clear();
-    append_facet(text,
-                 {point_at(document, vertices[0]), point_at(document, vertices[1]), point_at(document, vertices[2])});
-    writer.write(text);
-  }
-  writer.write("endsolid trismooth\n");
+  });
+  blocks.write("endsolid trismooth\n");
   writer.close();
 }
 

@@ -96,8 +96,4 @@ void append_number(std::string& text, double value) {
   append_shortest(text, value);
 }
 
-void append_integer(std::string& text, std::int64_t value) {
-  append_shortest(text, value);
-}
-
 }  // namespace trismooth

@@ -38,7 +38,4 @@ extern template std::optional<std::uint64_t> parse_integer_as(std::string_view);
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);
 
-/// Appends the number's decimal digits.
-void append_integer(std::string& text, std::int64_t value);
-
 }  // namespace trismooth

@@ -1,33 +1,88 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/ordered_blocks.h"
+#include "trismooth/mesh_io/text/text_block.h"
 
 namespace trismooth {
 
-/// Writes the lines of a text mesh file: words and numbers, a blank between two of one line.
-class TextMeshWriter {
+/// Lines of words and numbers, a blank between two of one line.
+class TextLines {
  public:
-  explicit TextMeshWriter(const std::filesystem::path& path) : writer_(path) {}
+  /// Appends to `bytes`, which must outlive it.
+  explicit TextLines(MemoryBlock& bytes) : text_(bytes) {}
 
-  TextMeshWriter& word(std::string_view text);
-  /// The shortest text that reads back to the same value.
-  TextMeshWriter& number(double value);
-  TextMeshWriter& integer(std::int64_t value);
-  /// Ends the line. Throws WriteError.
-  void end_line();
-  /// Closes the file. Throws WriteError.
-  void close();
+  TextLines& word(std::string_view text) {
+    separate();
+    text_.text(text);
+    return *this;
+  }
+  /// A whole number, or the shortest text that reads back to the same value.
+  template <class T>
+  TextLines& number(T value) {
+    separate();
+    text_.number(value);
+    return *this;
+  }
+  void end_line() {
+    text_.text('\n');
+    is_empty_ = true;
+  }
 
  private:
-  void separate();
+  void separate() {
+    if (!is_empty_) {
+      text_.text(' ');
+    }
+    is_empty_ = false;
+  }
 
+  TextBlock text_;
+  bool is_empty_ = true;  ///< the line, so far
+};
+
+/// Writes a text mesh file. Lists of lines are formatted by all workers; the bytes are the same for every number.
+class TextMeshWriter {
+ public:
+  /// Throws WriteError.
+  TextMeshWriter(const std::filesystem::path& path, const FileWorkers& workers)
+      : writer_(path), blocks_([this](std::string_view block) { writer_.write(block); }, workers) {}
+  TextMeshWriter(const TextMeshWriter&) = delete;
+  TextMeshWriter& operator=(const TextMeshWriter&) = delete;
+
+  /// Calls `format`(lines, i) for i = 0 to `count` - 1, on any worker, which appends whole lines, or none, to `lines`.
+  /// Throws WriteError.
+  template <class Format>
+  void write_lines(std::size_t count, const Format& format) {
+    constexpr std::size_t line_bytes = 64;
+    blocks_.write_rows(count, line_bytes, [&format](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+      TextLines lines(bytes);
+      for (std::size_t i = begin; i < end; ++i) {
+        format(lines, i);
+      }
+    });
+  }
+
+  /// One line. Throws WriteError.
+  template <class Format>
+  void write_line(const Format& format) {
+    write_lines(1, [&format](TextLines& lines, std::size_t /*i*/) {
+      format(lines);
+      lines.end_line();
+    });
+  }
+
+  /// Closes the file. Throws WriteError.
+  void close() { writer_.close(); }
+
+ private:
   BufferedWriter writer_;
-  std::string line_;
+  OrderedBlocks blocks_;
 };
 
 }  // namespace trismooth

@@ -51,9 +51,10 @@ class VtkLegacyFile : public OriginalFile {
     // All that is edited stands behind the coordinates.
     const auto& edits = layout_.without_annotations;
     const std::size_t unedited = edits.empty() ? bytes_.size() : edits.front().begin;
-    write_patched(path, bytes.substr(0, bytes.size() - (bytes_.size() - unedited)), *sites, document.points,
-                  edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays),
-                  FileWorkers(workers));
+    write_patched(
+        path, bytes.substr(0, bytes.size() - (bytes_.size() - unedited)), *sites, document.points,
+        edited(bytes_, unedited, edits) + suffix(document, added_point_arrays, added_cell_arrays, FileWorkers(workers)),
+        FileWorkers(workers));
   }
 
  private:
@@ -61,9 +62,10 @@ class VtkLegacyFile : public OriginalFile {
   /// takes POINT_DATA after CELL_DATA and the other way round, but neither after itself: arrays of the section that the
   /// file ends in stand first, as more of it.
   std::string suffix(const MeshDocument& document, std::span<const DataArray> point_arrays,
-                     std::span<const DataArray> cell_arrays) const {
+                     std::span<const DataArray> cell_arrays, const FileWorkers& workers) const {
     std::string text;
-    VtkLegacyOutput output(layout_.binary, [&](std::string_view block) { text += block; });
+    VtkLegacyOutput output(
+        layout_.binary, [&text](std::string_view block) { text += block; }, workers);
     // Ends an unfinished last line, and METADATA, which lasts until an empty line.
     output.text("\n\n");
     const auto add_points = [&] {
@@ -89,7 +91,6 @@ class VtkLegacyFile : public OriginalFile {
       add_points();
       add_cells();
     }
-    output.flush();
     return text;
   }
 

@@ -1,18 +1,13 @@
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_writer.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/free_names.h"
-#include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_names.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_roles.h"
 
@@ -20,7 +15,8 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::size_t legacy_block_bytes = std::size_t{1} << 16;
+/// About what a number takes as text.
+constexpr std::size_t number_bytes = 16;
 
 bool is_finite(const DataArray& array) {
   return visit_scalar_type(array.type, [&](auto zero) {
@@ -39,10 +35,11 @@ bool are_finite(std::span<const DataArray> arrays) {
 
 template <class T>
 void write_points_as(VtkLegacyOutput& output, std::span<const double> points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    output.number(static_cast<T>(points[i]), i % 3 == 2 ? '\n' : ' ');
-  }
-  output.end_numbers();
+  output.numbers(points.size() / 3, 3 * number_bytes, [points](VtkLegacyNumbers& numbers, std::size_t point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      numbers.append(static_cast<T>(points[3 * point + axis]), axis == 2 ? '\n' : ' ');
+    }
+  });
 }
 
 void write_points(VtkLegacyOutput& output, const MeshDocument& document) {
@@ -59,19 +56,17 @@ void write_points(VtkLegacyOutput& output, const MeshDocument& document) {
 void write_cells(VtkLegacyOutput& output, const CellList& cells) {
   output.text("CELLS " + std::to_string(cells.size()) + " " + std::to_string(cells.size() + cells.connectivity.size()) +
               "\n");
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  output.numbers(cells.size(), 2 * number_bytes, [&cells](VtkLegacyNumbers& numbers, std::size_t cell) {
     const std::span<const std::int32_t> vertices = cells[cell];
-    output.number(static_cast<std::int32_t>(vertices.size()), vertices.empty() ? '\n' : ' ');
+    numbers.append(static_cast<std::int32_t>(vertices.size()), vertices.empty() ? '\n' : ' ');
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      output.number(vertices[i], i + 1 == vertices.size() ? '\n' : ' ');
+      numbers.append(vertices[i], i + 1 == vertices.size() ? '\n' : ' ');
     }
-  }
-  output.end_numbers();
+  });
   output.text("CELL_TYPES " + std::to_string(cells.size()) + "\n");
-  for (const std::uint8_t type : cells.types) {
-    output.number(std::int32_t{type}, '\n');
-  }
-  output.end_numbers();
+  output.numbers(cells.size(), sizeof(std::int32_t), [&cells](VtkLegacyNumbers& numbers, std::size_t cell) {
+    numbers.append(std::int32_t{cells.types[cell]}, '\n');
+  });
 }
 
 /// The arrays under names of which no two are the same.
@@ -106,41 +101,6 @@ void write_section(VtkLegacyOutput& output, VtkLegacyData data, std::size_t rows
 
 }  // namespace
 
-void VtkLegacyOutput::text(std::string_view text) {
-  block_ += text;
-  if (block_.size() >= legacy_block_bytes) {
-    flush();
-  }
-}
-
-template <class T>
-void VtkLegacyOutput::number(T value, char separator) {
-  if (binary_) {
-    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::little) {
-      std::ranges::reverse(bytes);
-    }
-    block_.append(bytes.data(), bytes.size());
-  } else {
-    if constexpr (std::is_floating_point_v<T>) {
-      append_number(block_, value);
-    } else {
-      std::array<char, 24> digits{};
-      block_.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-    }
-    block_ += separator;
-  }
-  if (block_.size() >= legacy_block_bytes) {
-    flush();
-  }
-}
-
-void VtkLegacyOutput::end_numbers() {
-  if (binary_) {
-    text("\n");
-  }
-}
-
 void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::span<const std::string> taken_names) {
   if (arrays.empty()) {
     return;
@@ -160,25 +120,20 @@ void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::span<const s
 
 void VtkLegacyOutput::values(const DataArray& array) {
   visit_scalar_type(array.type, [&](auto zero) {
-    const auto numbers = array.as<decltype(zero)>();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      number(numbers[i], (i + 1) % array.components == 0 ? '\n' : ' ');
-    }
+    const auto values = array.as<decltype(zero)>();
+    this->numbers(values.size(), number_bytes, [&](VtkLegacyNumbers& numbers, std::size_t i) {
+      numbers.append(values[i], (i + 1) % array.components == 0 ? '\n' : ' ');
+    });
   });
-  end_numbers();
   text(vtk_legacy_metadata(array.description.get()));
 }
 
-void VtkLegacyOutput::flush() {
-  sink_(block_);
-  block_.clear();
-}
-
-void write_vtk_legacy(const std::filesystem::path& path, const MeshDocument& document) {
+void write_vtk_legacy(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const bool binary =
       !are_finite(document.point_arrays) || !are_finite(document.cell_arrays) || !are_finite(document.field_arrays);
   BufferedWriter writer(path);
-  VtkLegacyOutput output(binary, [&](std::string_view block) { writer.write(block); });
+  VtkLegacyOutput output(
+      binary, [&](std::string_view block) { writer.write(block); }, workers);
   output.text("# vtk DataFile Version 3.0\nwritten by trismooth\n");
   output.text(binary ? "BINARY\n" : "ASCII\n");
   output.text("DATASET UNSTRUCTURED_GRID\n");
@@ -187,7 +142,6 @@ void write_vtk_legacy(const std::filesystem::path& path, const MeshDocument& doc
   write_cells(output, document.cells);
   write_section(output, VtkLegacyData::points, document.point_count(), document.point_arrays);
   write_section(output, VtkLegacyData::cells, document.cells.size(), document.cell_arrays);
-  output.flush();
   writer.close();
 }
 

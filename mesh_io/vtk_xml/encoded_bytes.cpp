@@ -4,49 +4,11 @@
 #include <cstring>
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
+#include "trismooth/mesh_io/vtk_xml/base64.h"
 
 namespace trismooth {
 
 namespace {
-
-constexpr std::uint8_t not_base64 = 255;
-
-constexpr std::array<std::uint8_t, 256> base64_values() {
-  std::array<std::uint8_t, 256> values{};
-  values.fill(not_base64);
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < alphabet.size(); ++i) {
-    values[static_cast<unsigned char>(alphabet[i])] = static_cast<std::uint8_t>(i);
-  }
-  return values;
-}
-
-constexpr std::array<std::uint8_t, 256> base64_value_of = base64_values();
-
-std::uint8_t base64_value_at(const char* character) {
-  return base64_value_of[static_cast<unsigned char>(*character)];
-}
-
-void store(std::byte* bytes, std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
-  bytes[0] = static_cast<std::byte>((a << 2) | (b >> 4));
-  bytes[1] = static_cast<std::byte>(((b & 15) << 4) | (c >> 2));
-  bytes[2] = static_cast<std::byte>(((c & 3) << 6) | d);
-}
-
-/// Decodes groups of four characters up to the first one that holds another character; how many those are.
-std::size_t decode_plain_groups(const char* text, std::size_t groups, std::byte* bytes) {
-  for (std::size_t group = 0; group < groups; ++group, text += 4, bytes += 3) {
-    const std::uint8_t a = base64_value_at(text);
-    const std::uint8_t b = base64_value_at(text + 1);
-    const std::uint8_t c = base64_value_at(text + 2);
-    const std::uint8_t d = base64_value_at(text + 3);
-    if ((a | b | c | d) > 63) {
-      return group;
-    }
-    store(bytes, a, b, c, d);
-  }
-  return groups;
-}
 
 bool is_space(char c) {
   return c == ' ' || c == '\n' || c == '\r' || c == '\t';
@@ -77,7 +39,7 @@ bool EncodedBytes::decode_group(std::byte* bytes, std::size_t& count) {
       ++padding;
       continue;
     }
-    value = base64_value_at(&character);
+    value = base64_value(character);
     if (value == not_base64 || padding != 0) {
       return false;
     }
@@ -85,7 +47,7 @@ bool EncodedBytes::decode_group(std::byte* bytes, std::size_t& count) {
   if (padding > 2) {
     return false;
   }
-  store(bytes, values[0], values[1], values[2], values[3]);
+  store_base64_group(bytes, values[0], values[1], values[2], values[3]);
   padded_ = padding != 0;
   count = 3 - padding;
   return true;
@@ -114,7 +76,7 @@ bool EncodedBytes::read(std::byte* bytes, std::size_t count) {
     }
     // Whole groups without white space or padding, which is nearly all there is.
     const std::size_t groups = padded_ ? 0 : std::min(count / 3, (text_.size() - position_) / 4);
-    const std::size_t decoded = decode_plain_groups(text_.data() + position_, groups, bytes);
+    const std::size_t decoded = decode_base64_groups(text_.data() + position_, groups, bytes);
     bytes += 3 * decoded;
     count -= 3 * decoded;
     position_ += 4 * decoded;
@@ -132,7 +94,7 @@ bool EncodedBytes::read(std::byte* bytes, std::size_t count) {
 std::size_t EncodedBytes::decode_groups(std::byte* bytes, std::size_t groups, const FileWorkers& workers) {
   const char* const text = text_.data() + position_;
   const bool plain = all_file_blocks(workers, groups, 4, [&](std::size_t begin, std::size_t end) {
-    return decode_plain_groups(text + 4 * begin, end - begin, bytes + 3 * begin) == end - begin;
+    return decode_base64_groups(text + 4 * begin, end - begin, bytes + 3 * begin) == end - begin;
   });
   if (!plain) {
     return 0;

@@ -128,7 +128,7 @@ class VtkXmlOriginal : public OriginalFile {
     }
     add_arrays(added_point_arrays, *copy->GetPointData());
     add_arrays(added_cell_arrays, *copy->GetCellData());
-    write_vtk_xml(path, *copy, file_.encoding, file_.attributes, workers);
+    write_vtk_xml(path, *copy, file_.encoding, file_.attributes, FileWorkers(workers));
   }
 
  private:
@@ -288,14 +288,15 @@ std::vector<std::size_t> all_cells(const CellList& cells) {
   return all;
 }
 
-void write_unstructured_grid(const std::filesystem::path& path, const MeshDocument& document) {
+void write_unstructured_grid(const std::filesystem::path& path, const MeshDocument& document,
+                             const FileWorkers& workers) {
   const auto types = vtkSmartPointer<vtkUnsignedCharArray>::New();
   types->SetNumberOfValues(static_cast<vtkIdType>(document.cells.size()));
   std::ranges::copy(document.cells.types, types->GetPointer(0));
   const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
   grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells)));
   set_points_and_arrays(*grid, document, document.cell_arrays);
-  write_vtk_xml(path, *grid, {});
+  write_vtk_xml(path, *grid, {}, {}, workers);
 }
 
 /// The cells that a vtkPolyData holds, group by group.
@@ -328,7 +329,7 @@ DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
   return {array.name, array.type, array.components, *bytes, bytes, array.description};
 }
 
-void write_poly_data(const std::filesystem::path& path, const MeshDocument& document) {
+void write_poly_data(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const auto groups = group_cells(document.cells);
   const vtkSmartPointer<vtkPolyData> data = make_poly_data();
   data->SetVerts(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::verts)]));
@@ -342,7 +343,7 @@ void write_poly_data(const std::filesystem::path& path, const MeshDocument& docu
                            [&order](const DataArray& array) { return with_rows(array, order); });
   }
   set_points_and_arrays(*data, document, cell_arrays);
-  write_vtk_xml(path, *data, {});
+  write_vtk_xml(path, *data, {}, {}, workers);
 }
 
 std::vector<std::string> lost_in_unstructured_grid(const MeshDocument& document) {

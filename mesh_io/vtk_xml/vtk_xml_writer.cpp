@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <tbb/task_arena.h>
@@ -35,10 +34,12 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
+#include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_block.h"
 #include "trismooth/mesh_io/vtk_xml/output_stream_buffer.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_base64_stream.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
@@ -48,22 +49,27 @@ namespace trismooth {
 
 namespace {
 
+/// Six numbers a line, as VTK's writer does it.
 template <class T>
-void write_text(std::ostream& stream, vtkIndent indent, std::span<const T> values) {
+void write_text(std::ostream& stream, vtkIndent indent, std::span<const T> values, const FileWorkers& workers) {
   constexpr std::size_t columns = 6;
+  constexpr std::size_t number_bytes = 12;
   std::ostringstream margin;
   margin << indent;
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += i % columns == 0 ? margin.view() : std::string_view();
-    append_number(text, values[i]);
-    text += (i + 1) % columns == 0 || i + 1 == values.size() ? '\n' : ' ';
-    if (text.size() > (std::size_t{1} << 16)) {
-      stream << text;
-      text.clear();
+  const auto write = [&stream](std::string_view text) {
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  };
+  const auto append = [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+    TextBlock text(bytes);
+    for (std::size_t row = begin; row < end; ++row) {
+      text.text(margin.view());
+      const std::size_t last = std::min(values.size(), (row + 1) * columns);
+      for (std::size_t i = row * columns; i < last; ++i) {
+        text.number(values[i]).text(i + 1 == last ? '\n' : ' ');
+      }
     }
-  }
-  stream << text;
+  };
+  OrderedBlocks(write, workers).write_rows((values.size() + columns - 1) / columns, columns * number_bytes, append);
 }
 
 /// Ranges that VTK has computed for the array. It would write them beside the numbers, by chance (where something
@@ -82,29 +88,6 @@ void forget_ranges(vtkFieldData& fields) {
   }
 }
 
-/// Encodes the first bytes that are written apart from the others: an array's size, where VTK's writer uses it.
-class SizeApartStream : public vtkBase64OutputStream {
- public:
-  static vtkSmartPointer<SizeApartStream> make() {
-    auto* const stream = new SizeApartStream;
-    stream->InitializeObjectBase();
-    return vtkSmartPointer<SizeApartStream>::Take(stream);
-  }
-
-  int StartWriting() override {
-    is_first_ = true;
-    return vtkBase64OutputStream::StartWriting();
-  }
-  int Write(const void* data, std::size_t length) override {
-    const int written = vtkBase64OutputStream::Write(data, length);
-    const bool was_first = std::exchange(is_first_, false);
-    return written != 0 && (!was_first || (EndWriting() != 0 && vtkBase64OutputStream::StartWriting() != 0)) ? 1 : 0;
-  }
-
- private:
-  bool is_first_ = true;
-};
-
 /// VTK's writer with faults mended: it writes -0 as 0 in text, values that are not finite as text that its own reader
 /// cannot read, and ranges that it has just computed. It also writes to a stream of ours, so it does not delete what it
 /// failed to write.
@@ -119,9 +102,19 @@ class ExactWriter : public Writer {
 
   void set_stream(std::ostream& stream) { this->Stream = &stream; }
   void set_file_attributes(const XmlAttributes& attributes) { attributes_ = attributes; }
-  void encode_sizes_apart() { this->SetDataStream(SizeApartStream::make()); }
+  /// Those who encode, which must outlive the writer; `apart`, of base64 in the elements.
+  void set_workers(const FileWorkers& workers, VtkBase64Stream::Apart apart) {
+    workers_ = &workers;
+    Writer::SetDataStream(VtkBase64Stream::make(workers, apart));
+  }
 
  protected:
+  /// VTK's writer makes a stream by itself for appended data.
+  void SetDataStream(vtkOutputStream* stream) override {
+    const bool is_base64 = vtkBase64OutputStream::SafeDownCast(stream) != nullptr;
+    Writer::SetDataStream(is_base64 ? VtkBase64Stream::make(*workers_, VtkBase64Stream::Apart::nothing) : stream);
+  }
+
   void WriteFileAttributes() override {
     if (attributes_.empty()) {
       Writer::WriteFileAttributes();
@@ -143,10 +136,10 @@ class ExactWriter : public Writer {
 
   void WriteInlineData(vtkAbstractArray* array, vtkIndent indent) override {
     const auto view = view_as_data_array(array);
-    if (this->DataMode == vtkXMLWriter::Ascii && view && view->type == ScalarType::float32) {
-      write_text(*this->Stream, indent, view->as<float>());
-    } else if (this->DataMode == vtkXMLWriter::Ascii && view && view->type == ScalarType::float64) {
-      write_text(*this->Stream, indent, view->as<double>());
+    if (this->DataMode == vtkXMLWriter::Ascii && view) {
+      visit_scalar_type(view->type, [&](auto zero) {
+        write_text(*this->Stream, indent, view->template as<decltype(zero)>(), *workers_);
+      });
     } else {
       Writer::WriteInlineData(array, indent);
     }
@@ -155,6 +148,7 @@ class ExactWriter : public Writer {
 
  private:
   XmlAttributes attributes_;
+  const FileWorkers* workers_ = nullptr;
 };
 
 /// The name and the component names as VTK's writer has to get them: it puts them into attributes as they are.
@@ -252,7 +246,7 @@ std::vector<std::span<const std::byte>> numbers_of(vtkPointSet& data) {
 
 template <class Writer>
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, Workers& workers) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, const FileWorkers& workers) {
   const vtkSmartPointer<ExactWriter<Writer>> writer = ExactWriter<Writer>::make();
   VtkMessages messages;
   messages.watch(writer);
@@ -267,12 +261,11 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
   writer->SetEncodeAppendedData(encoding.appended_base64);
   writer->SetByteOrder(encoding.big_endian ? vtkXMLWriter::BigEndian : vtkXMLWriter::LittleEndian);
   writer->SetHeaderType(encoding.wide_block_headers ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
-  writer->SetCompressor(workers.count() == 1 ? make_vtk_compressor(encoding.compressor)
-                                             : make_vtk_compressor(encoding.compressor, numbers_of(data), workers));
+  writer->SetCompressor(workers.workers.count() == 1
+                            ? make_vtk_compressor(encoding.compressor)
+                            : make_vtk_compressor(encoding.compressor, numbers_of(data), workers.workers));
   writer->set_file_attributes(attributes);
-  if (encoding.sizes_apart) {
-    writer->encode_sizes_apart();
-  }
+  writer->set_workers(workers, encoding.sizes_apart ? VtkBase64Stream::Apart::first : VtkBase64Stream::Apart::nothing);
   // VTK loops over the types of cells on TBB's threads where it was built with it; a user may have asked for one.
   const bool written = tbb::task_arena(1).execute([&] { return writer->Write() != 0; });
   const unsigned long code = writer->GetErrorCode();
@@ -284,7 +277,7 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 }
 
 void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vtkPointSet& data,
-                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, Workers& workers) {
+                     const VtkXmlEncoding& encoding, const XmlAttributes& attributes, const FileWorkers& workers) {
   const vtkSmartPointer<vtkPointSet> copy = shallow_copy(data);
   for (vtkFieldData* const fields : {static_cast<vtkFieldData*>(copy->GetPointData()),
                                      static_cast<vtkFieldData*>(copy->GetCellData()), copy->GetFieldData()}) {
@@ -309,12 +302,12 @@ void write_to_stream(std::ostream& stream, const std::filesystem::path& path, vt
 void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
                    const XmlAttributes& attributes) {
   Workers alone(1);
-  write_vtk_xml(path, data, encoding, attributes, alone);
+  write_vtk_xml(path, data, encoding, attributes, FileWorkers(alone));
 }
 
 void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
-                   const XmlAttributes& attributes, Workers& workers) {
-  constexpr std::size_t for_buffers = std::size_t{4} << 20;
+                   const XmlAttributes& attributes, const FileWorkers& workers) {
+  const std::size_t for_buffers = (std::size_t{2} << 20) * (1 + static_cast<std::size_t>(workers.workers.count()));
   constexpr std::size_t kibibyte = 1024;  // what VTK counts in
   require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
   std::error_code error;
