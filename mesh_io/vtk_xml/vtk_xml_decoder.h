@@ -9,15 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include <vtkDataCompressor.h>
-#include <vtkSmartPointer.h>
-
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_array_places.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_uncompressor.h"
 #include "trismooth/mesh_io/vtk_xml/xml_tree.h"
 
 namespace trismooth {
@@ -65,27 +63,10 @@ class VtkXmlDecoder {
  private:
   void read_bytes(const XmlElement& array, std::size_t word_size, std::optional<std::uint64_t> expected,
                   MemoryBlock& bytes, Surplus surplus = Surplus::noted);
-  /// These say whether the array has more than was expected; so far it is all in `bytes`, or as much as was needed.
+  /// Says whether the array has more than was expected; it is all in `bytes`.
   bool read_plain(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
                   std::optional<std::uint64_t> expected, MemoryBlock& bytes);
-  bool read_compressed(const XmlElement& array, EncodedBytes& source, std::size_t word_size,
-                       std::optional<std::uint64_t> expected, MemoryBlock& bytes);
-  std::size_t uncompress_shared(EncodedBytes& source, const std::vector<std::uint64_t>& compressed_sizes,
-                                std::uint64_t block_size, std::uint64_t last_size, std::size_t wanted,
-                                MemoryBlock& bytes) const;
-  const unsigned char* compressed_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size);
-  void uncompress_block(const XmlElement& array, EncodedBytes& source, std::uint64_t compressed_size,
-                        std::uint64_t size, MemoryBlock& bytes);
-  std::vector<std::uint64_t> read_header_words(const XmlElement& array, EncodedBytes& source, std::size_t count) const;
-  void check_size(const XmlElement& array, std::uint64_t size, std::size_t word_size,
-                  std::optional<std::uint64_t> expected) const;
   void take_surplus(const XmlElement& array, const char* place, Surplus surplus, std::string_view what);
-  std::uint64_t appended_offset_of(const XmlElement& array) const;
-  EncodedBytes source_of(const XmlElement& array) const;
-  std::string_view text_of(const XmlElement& array) const;
-
-  [[noreturn]] void fail(const XmlElement& array, const std::string& message) const;
-  [[noreturn]] void fail_at(const XmlElement& array, const char* place, const std::string& message) const;
 
   template <class T>
   bool read_plain_numbers(const XmlElement& array, std::uint64_t count, MemoryBlock& numbers);
@@ -93,18 +74,14 @@ class VtkXmlDecoder {
   void read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers,
                          Surplus surplus);
 
-  std::filesystem::path path_;
-  std::string_view bytes_;
-  VtkXmlHeader header_;
+  VtkXmlArrayPlaces places_;
   FileWorkers workers_;
+  std::optional<VtkXmlUncompressor> uncompressor_;  ///< where the file states a compressor
   std::vector<std::string>& losses_;
   std::optional<bool> sizes_apart_;
-  VtkMessages messages_;
-  vtkSmartPointer<vtkDataCompressor> compressor_;
   std::uint64_t appended_used_ = 0;
   std::set<std::uint64_t> offsets_read_;              ///< of arrays in the appended data
   std::vector<const XmlElement*> empty_in_appended_;  ///< those that expect_empty() got
-  std::vector<unsigned char> compressed_block_;
 };
 
 }  // namespace trismooth
