@@ -2,24 +2,10 @@
 
 #include <array>
 #include <cstring>
-#include <string_view>
 
 namespace trismooth {
 
 namespace {
-
-constexpr std::string_view base64_alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-constexpr std::array<std::uint8_t, 256> base64_values() {
-  std::array<std::uint8_t, 256> values{};
-  values.fill(not_base64);
-  for (std::size_t i = 0; i < base64_alphabet.size(); ++i) {
-    values[static_cast<unsigned char>(base64_alphabet[i])] = static_cast<std::uint8_t>(i);
-  }
-  return values;
-}
-
-constexpr std::array<std::uint8_t, 256> base64_value_of = base64_values();
 
 /// The two characters of every twelve bits.
 constexpr std::array<std::array<char, 2>, 4096> base64_pairs() {
@@ -40,16 +26,6 @@ void store_group(std::byte* target, std::byte a, std::byte b, std::byte c) {
 }
 
 }  // namespace
-
-std::uint8_t base64_value(char character) {
-  return base64_value_of[static_cast<unsigned char>(character)];
-}
-
-void store_base64_group(std::byte* bytes, std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
-  bytes[0] = static_cast<std::byte>((a << 2) | (b >> 4));
-  bytes[1] = static_cast<std::byte>(((b & 15) << 4) | (c >> 2));
-  bytes[2] = static_cast<std::byte>(((c & 3) << 6) | d);
-}
 
 std::size_t decode_base64_groups(const char* text, std::size_t groups, std::byte* bytes) {
   for (std::size_t group = 0; group < groups; ++group, text += base64_group_characters, bytes += base64_group_bytes) {

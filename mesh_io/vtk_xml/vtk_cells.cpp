@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <vtkCellArray.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkTypeInt64Array.h>
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 
@@ -45,6 +48,30 @@ void append_indices(vtkCellArray& from, const FileWorkers& workers, CellList& ce
   } else {
     append_indices(values_of(from.GetOffsetsArray32()), values_of(from.GetConnectivityArray32()), workers, cells);
   }
+}
+
+template <class Array>
+vtkSmartPointer<vtkCellArray> make_cells_of(const CellList& cells, std::span<const std::size_t> chosen,
+                                            std::size_t length, const FileWorkers& workers) {
+  using Index = typename Array::ValueType;
+  const auto offsets = vtkSmartPointer<Array>::New();
+  const auto connectivity = vtkSmartPointer<Array>::New();
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(chosen.size()) + 1);
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(length));
+  Index* const begins = offsets->GetPointer(0);
+  begins[0] = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    begins[i + 1] = begins[i] + static_cast<Index>(cells[chosen[i]].size());
+  }
+  Index* const vertices = connectivity->GetPointer(0);
+  for_file_blocks(workers, chosen.size(), 3 * sizeof(Index), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::ranges::copy(cells[chosen[i]], vertices + begins[i]);
+    }
+  });
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  result->SetData(offsets, connectivity);
+  return result;
 }
 
 }  // namespace
@@ -100,6 +127,17 @@ void append_cells(vtkCellArray& from, PolyDataGroup group, const FileWorkers& wo
   for (std::size_t cell = first; cell + 1 < cells.offsets.size(); ++cell) {
     cells.types.push_back(cell_type_of(group, static_cast<std::size_t>(cells.offsets[cell + 1] - cells.offsets[cell])));
   }
+}
+
+vtkSmartPointer<vtkCellArray> make_vtk_cells(const CellList& cells, std::span<const std::size_t> chosen,
+                                             const FileWorkers& workers) {
+  std::size_t length = 0;
+  for (const std::size_t cell : chosen) {
+    length += cells[cell].size();
+  }
+  return length <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())
+             ? make_cells_of<vtkTypeInt32Array>(cells, chosen, length, workers)
+             : make_cells_of<vtkTypeInt64Array>(cells, chosen, length, workers);
 }
 
 }  // namespace trismooth

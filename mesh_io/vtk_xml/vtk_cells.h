@@ -7,6 +7,7 @@
 #include <string>
 
 #include <vtkCellArray.h>
+#include <vtkSmartPointer.h>
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
@@ -29,5 +30,9 @@ std::uint8_t cell_type_of(PolyDataGroup group, std::size_t vertices);
 /// Appends the cells of a VTK cell array whose indices fit 32 bits; one type a cell, or those of the group.
 void append_cells(vtkCellArray& from, std::span<const std::uint8_t> types, const FileWorkers& workers, CellList& cells);
 void append_cells(vtkCellArray& from, PolyDataGroup group, const FileWorkers& workers, CellList& cells);
+
+/// The cells of those numbers as a VTK cell array; 32 bits wide where that suffices.
+vtkSmartPointer<vtkCellArray> make_vtk_cells(const CellList& cells, std::span<const std::size_t> chosen,
+                                             const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -262,26 +262,6 @@ MeshDocument read(const std::filesystem::path& path, FileBytes bytes, const File
   }
 }
 
-/// The cells of these numbers as a VTK cell array; 32 bits wide where that suffices.
-vtkSmartPointer<vtkCellArray> make_vtk_cells(const CellList& cells, std::span<const std::size_t> chosen) {
-  std::size_t length = 0;
-  for (const std::size_t cell : chosen) {
-    length += cells[cell].size();
-  }
-  auto result = vtkSmartPointer<vtkCellArray>::New();
-  if (length <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    result->Use32BitStorage();
-  }
-  result->AllocateExact(static_cast<vtkIdType>(chosen.size()), static_cast<vtkIdType>(length));
-  for (const std::size_t cell : chosen) {
-    result->InsertNextCell(static_cast<int>(cells[cell].size()));
-    for (const std::int32_t vertex : cells[cell]) {
-      result->InsertCellPoint(vertex);
-    }
-  }
-  return result;
-}
-
 std::vector<std::size_t> all_cells(const CellList& cells) {
   std::vector<std::size_t> all(cells.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -294,7 +274,7 @@ void write_unstructured_grid(const std::filesystem::path& path, const MeshDocume
   types->SetNumberOfValues(static_cast<vtkIdType>(document.cells.size()));
   std::ranges::copy(document.cells.types, types->GetPointer(0));
   const vtkSmartPointer<vtkUnstructuredGrid> grid = make_unstructured_grid();
-  grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells)));
+  grid->SetCells(types, make_vtk_cells(document.cells, all_cells(document.cells), workers));
   set_points_and_arrays(*grid, document, document.cell_arrays);
   write_vtk_xml(path, *grid, {}, {}, workers);
 }
@@ -332,10 +312,10 @@ DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
 void write_poly_data(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const auto groups = group_cells(document.cells);
   const vtkSmartPointer<vtkPolyData> data = make_poly_data();
-  data->SetVerts(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::verts)]));
-  data->SetLines(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::lines)]));
-  data->SetPolys(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::polys)]));
-  data->SetStrips(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::strips)]));
+  data->SetVerts(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::verts)], workers));
+  data->SetLines(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::lines)], workers));
+  data->SetPolys(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::polys)], workers));
+  data->SetStrips(make_vtk_cells(document.cells, groups[static_cast<std::size_t>(PolyDataGroup::strips)], workers));
   std::vector<DataArray> cell_arrays = document.cell_arrays;
   const std::vector<std::size_t> order = joined(groups);
   if (order.size() != document.cells.size() || !std::ranges::is_sorted(order)) {
