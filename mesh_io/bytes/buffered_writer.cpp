@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "trismooth/mesh_io/bytes/broken_pipe.h"
 #include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
@@ -61,6 +62,7 @@ void BufferedWriter::flush() {
 }
 
 void BufferedWriter::write_out(std::string_view bytes) {
+  const BrokenPipeIsError this_thread;  // which may be a worker
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written >= 0) {

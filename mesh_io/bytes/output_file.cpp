@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -142,13 +141,6 @@ class Folder {
   int descriptor_;
 };
 
-sigset_t broken_pipe() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGPIPE);
-  return signals;
-}
-
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
@@ -161,8 +153,7 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
   if (direct_) {
     target_ = target;
     path_ = target;
-    const sigset_t signals = broken_pipe();
-    ::pthread_sigmask(SIG_BLOCK, &signals, &signals_before_);
+    broken_pipe_is_error_.emplace();
     return;
   }
   target_ = follow_links(target);
@@ -178,16 +169,7 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
 }
 
 OutputFile::~OutputFile() {
-  if (direct_) {
-    if (sigismember(&signals_before_, SIGPIPE) == 0) {
-      const sigset_t signals = broken_pipe();
-      constexpr timespec no_time{};
-      ::sigtimedwait(&signals, nullptr, &no_time);  // one that is pending is of our writes
-      ::pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
-    }
-    return;
-  }
-  if (!done_) {
+  if (!direct_ && !done_) {
     ::unlink(path_.c_str());
     forget(path_.native());
   }

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 
 #include <sys/types.h>
+
+#include "trismooth/mesh_io/bytes/broken_pipe.h"
 
 namespace trismooth {
 
@@ -58,7 +59,7 @@ class OutputFile {
   std::optional<Attributes> old_;  ///< of the target
   bool direct_ = false;
   bool done_ = false;
-  sigset_t signals_before_{};  ///< where it is written directly
+  std::optional<BrokenPipeIsError> broken_pipe_is_error_;  ///< where it is written directly
 };
 
 }  // namespace trismooth
