@@ -175,8 +175,25 @@ TEST_CASE("blocks in order are worked on by many threads at a time, while others
   CHECK(together);
 }
 
-TEST_CASE(
-    "of blocks in order, the first that fails ends it: those before it are handed on, and its exception is thrown") {
+TEST_CASE("no block in order begins before there is a place for it") {
+  const std::size_t places = 2;
+  Workers workers(4);
+  std::atomic<std::size_t> begun{0};
+  std::atomic<bool> too_early{false};
+  workers.for_blocks_in_order(
+      20, places, [&](std::size_t /*block*/, std::size_t /*place*/) { ++begun; },
+      [&](std::size_t block, std::size_t /*place*/) {
+        // The others would go on now, if they could.
+        for (int i = 0; i < 5000 && !too_early; ++i) {
+          too_early = begun > block + places;
+          std::this_thread::yield();
+        }
+      });
+  CHECK_FALSE(too_early);
+  CHECK(begun == 20);
+}
+
+TEST_CASE("of blocks in order the first that fails is the last one, and its exception reaches the caller") {
   for (const int threads : {1, 2, 8}) {
     Workers workers(threads);
     for (std::size_t round = 0; round < 200; ++round) {
