@@ -13,11 +13,13 @@ void OrderedBlocks::write_all(std::size_t count, const AnyEncode& encode) {
   workers_.workers.for_blocks_in_order(
       count, places,
       [&](std::size_t block, std::size_t place) {
-        buffers_[place].truncate(0);
-        encode.call(encode.object, block, buffers_[place]);
+        MemoryBlock& bytes = buffers_[place].bytes;
+        bytes.truncate(0);
+        encode.call(encode.object, block, bytes);
       },
       [&](std::size_t /*block*/, std::size_t place) {
-        sink_({reinterpret_cast<const char*>(buffers_[place].data()), buffers_[place].size()});
+        const MemoryBlock& bytes = buffers_[place].bytes;
+        sink_({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
       });
 }
 

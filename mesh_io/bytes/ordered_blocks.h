@@ -54,11 +54,16 @@ class OrderedBlocks {
     void (*call)(const void* object, std::size_t block, MemoryBlock& bytes);
   };
 
+  /// In cache lines of its own: its size changes with every number, and threads would take it from each other.
+  struct alignas(128) Buffer {
+    MemoryBlock bytes;
+  };
+
   void write_all(std::size_t count, const AnyEncode& encode);
 
   ByteSink sink_;
   FileWorkers workers_;
-  std::vector<MemoryBlock> buffers_;
+  std::vector<Buffer> buffers_;
 };
 
 }  // namespace trismooth
