@@ -3,57 +3,21 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
-#include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/obj/obj_plain_reader.h"
+#include "trismooth/mesh_io/obj/obj_statements.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
 namespace {
-
-/// The numbers of the cells by the statement (usemtl, g) that stands before them.
-class CellNumbering {
- public:
-  /// A statement with this name stands after `cells` cells.
-  void start(std::string name, std::size_t cells) {
-    numbers_.resize(cells, current_);
-    used_ = true;
-    current_ = names_.try_emplace(std::move(name), static_cast<std::int32_t>(names_.size())).first->second;
-  }
-
-  /// Adds the array of all `cells` cells, if there was any statement.
-  void move_to(std::vector<DataArray>& arrays, std::string array_name, std::size_t cells) {
-    if (used_) {
-      numbers_.resize(cells, current_);
-      arrays.push_back(make_data_array(std::move(array_name), 1, std::move(numbers_)));
-    }
-  }
-
- private:
-  std::map<std::string, std::int32_t, std::less<>> names_;
-  std::vector<std::int32_t> numbers_;
-  std::int32_t current_ = -1;
-  bool used_ = false;
-};
-
-/// Every statement begins with a word of letters, digits and underscores.
-bool is_keyword(std::string_view token) {
-  return std::ranges::all_of(token,
-                             [](char c) {
-                               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                                      c == '_';
-                             }) &&
-         !(token.front() >= '0' && token.front() <= '9');
-}
 
 class ObjReader {
  public:
@@ -73,9 +37,7 @@ class ObjReader {
       scanner_.fail_at(0, "is not an OBJ mesh: it has no vertices");
     }
     check_forward_references();
-    materials_.move_to(document_.cell_arrays, "material", document_.cells.size());
-    groups_.move_to(document_.cell_arrays, "group", document_.cells.size());
-    note_other_statements();
+    statements_.move_to(document_);
     return {std::move(document_), std::move(sites_)};
   }
 
@@ -83,20 +45,14 @@ class ObjReader {
   void read_statement(std::string_view keyword) {
     if (keyword == "v") {
       read_vertex();
-    } else if (keyword == "f" || keyword == "fo") {  // fo: the same, obsolete
-      read_element("face", 3);
-    } else if (keyword == "l") {
-      read_element("line", 2);
-    } else if (keyword == "p") {
-      read_element("point", 1);
+    } else if (const std::size_t least = least_vertices(keyword); least > 0) {
+      read_element(least == 1 ? "point" : least == 2 ? "line" : "face", least);
     } else if (keyword == "usemtl") {
-      materials_.start(read_name(), document_.cells.size());
+      statements_.start_material(read_name(), document_.cells.size());
     } else if (keyword == "g") {
-      groups_.start(read_name(), document_.cells.size());
-    } else if (is_keyword(keyword)) {
-      if (other_statements_.size() < most_statements_named) {
-        other_statements_.insert(keyword);
-      }
+      statements_.start_group(read_name(), document_.cells.size());
+    } else if (is_obj_keyword(keyword)) {
+      statements_.add_other(keyword);
       read_name();
     } else {
       scanner_.fail("expected a statement of OBJ, got " + quoted(keyword));
@@ -122,7 +78,9 @@ class ObjReader {
                     ": expected 3 coordinates (and a weight, a colour or both), got " + std::to_string(count) +
                     (count == 1 ? " number" : " numbers"));
     }
-    has_colours_or_weights_ = has_colours_or_weights_ || count > 3;
+    if (count > 3) {
+      statements_.add_colours_or_weights();
+    }
   }
 
   void read_element(const char* what, std::size_t least) {
@@ -138,18 +96,7 @@ class ObjReader {
                                       ", got " + std::to_string(count));
     }
     cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
-    cells.types.push_back(type_of(least, count));
-  }
-
-  static std::uint8_t type_of(std::size_t least, std::size_t count) {
-    switch (least) {
-      case 1:
-        return count == 1 ? cell_type::vertex : cell_type::poly_vertex;
-      case 2:
-        return count == 2 ? cell_type::line : cell_type::poly_line;
-      default:
-        return count == 3 ? cell_type::triangle : count == 4 ? cell_type::quad : cell_type::polygon;
-    }
+    cells.types.push_back(obj_cell_type(least, count));
   }
 
   /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; the parts behind may be missing.
@@ -192,44 +139,24 @@ class ObjReader {
       std::string_view line = scanner_.next_line();
       more = line.ends_with('\\') && scanner_.offset() < scanner_.text().size();
       line.remove_suffix(more ? 1 : 0);
-      append_words(name, line);
+      append_name(name, line);
     }
     return name;
   }
 
-  static void append_words(std::string& text, std::string_view line) {
-    for (const std::string_view word : words_of(line)) {
-      text.append(text.empty() ? "" : " ").append(word);
-    }
-  }
-
-  void note_other_statements() {
-    std::string list = has_colours_or_weights_ ? "vertex colours or weights" : "";
-    for (const std::string_view keyword : other_statements_) {
-      list.append(list.empty() ? "" : ", ").append(keyword);
-    }
-    if (!list.empty()) {
-      document_.notes.push_back("Kept in OBJ output only: " + list + ".");
-    }
-  }
-
-  static constexpr std::size_t most_statements_named = 16;  // some "OBJ" files are something else altogether
-
   TextScanner scanner_;
   MeshDocument document_;
   CoordinateSites sites_;
-  CellNumbering materials_;
-  CellNumbering groups_;
-  std::set<std::string_view> other_statements_;
-  bool has_colours_or_weights_ = false;
+  ObjStatements statements_;
   std::int64_t highest_reference_ = 0;
   std::size_t highest_reference_offset_ = 0;
 };
 
 }  // namespace
 
-MeshDocument read_obj(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
-  auto [document, sites] = ObjReader(bytes, path).read();
+MeshDocument read_obj(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  auto plain = read_plain_obj(bytes, workers);
+  auto [document, sites] = plain ? std::move(*plain) : ObjReader(bytes, path).read();
   document.original = make_patched_original(std::move(bytes), std::move(sites));
   return std::move(document);
 }

@@ -6,10 +6,12 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/ply/ply.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
+#include "trismooth/mesh_io/ply/ply_plain_rows.h"
 #include "trismooth/mesh_io/ply/ply_source.h"
 #include "trismooth/mesh_io/ply/scalar_column.h"
 
@@ -19,12 +21,9 @@ namespace {
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
-/// The columns that hold the scalar properties of an element, at the properties' positions; nothing where a property
-/// is a list or in `others`.
-using Columns = std::vector<std::optional<ScalarColumn>>;
-
-Columns make_columns(const PlyElement& element, const std::set<std::string_view>& others) {
-  Columns columns(element.properties.size());
+/// Columns for the scalar properties of an element that are not in `others`.
+ScalarColumns make_columns(const PlyElement& element, const std::set<std::string_view>& others) {
+  ScalarColumns columns(element.properties.size());
   for (std::size_t p = 0; p < columns.size(); ++p) {
     const PlyProperty& property = element.properties[p];
     if (!property.is_list() && !others.contains(property.name)) {
@@ -46,7 +45,7 @@ void store(ScalarColumn& column, std::uint64_t row, const PlyNumber& number) {
 struct CellBlock {
   const PlyElement* element = nullptr;
   std::uint64_t cells = 0;
-  Columns columns;
+  ScalarColumns columns;
   std::map<std::string_view, std::size_t> positions;  ///< of the columns, by name
 
   CellBlock(const PlyElement& of_cells, const std::set<std::string_view>& others)
@@ -67,9 +66,10 @@ std::string row_label(const PlyElement& element, std::uint64_t row) {
 template <class Source>
 class BodyReader {
  public:
-  BodyReader(const std::filesystem::path& path, const PlyHeader& header, Source source)
+  BodyReader(const std::filesystem::path& path, const PlyHeader& header, Source source, Workers& workers)
       : path_(path),
         header_(header),
+        workers_(workers),
         vertex_count_(header.find("vertex")->count),
         source_(std::move(source)),
         zero_rows_left_(4 * source_.room()) {}
@@ -166,9 +166,21 @@ class BodyReader {
     }
     set_point_types(element);
     sites_.encoding = header_.encoding;
-    document_.points.resize(3 * element.count);
-    sites_.offsets.resize(3 * element.count);
-    Columns columns = make_columns(element, {axis_names.begin(), axis_names.end()});
+    shared_resize(document_.points, 3 * element.count, sites_.offsets, 3 * element.count, workers_);
+    ScalarColumns columns = make_columns(element, {axis_names.begin(), axis_names.end()});
+    if (!read_plain_vertices(source_, element, axis_of_property, document_.points, sites_.offsets, columns)) {
+      read_vertices_one_by_one(element, axis_of_property, columns);
+    }
+    note_unread_lists(element, std::nullopt);
+    for (auto& column : columns) {
+      if (column) {
+        document_.point_arrays.push_back(column->take_array());
+      }
+    }
+  }
+
+  void read_vertices_one_by_one(const PlyElement& element, const std::vector<int>& axis_of_property,
+                                ScalarColumns& columns) {
     read_rows(
         element, std::nullopt,
         [&](std::uint64_t row, std::size_t p, const PlyNumber& number) {
@@ -185,12 +197,6 @@ class BodyReader {
           sites_.offsets[coordinate] = source_.number_offset();
         },
         [](std::uint64_t, const PlyNumber&) {}, [](std::uint64_t) {});
-    note_unread_lists(element, std::nullopt);
-    for (auto& column : columns) {
-      if (column) {
-        document_.point_arrays.push_back(column->take_array());
-      }
-    }
   }
 
   /// x, y and z may be of different types, as where offsets along one axis are large.
@@ -238,6 +244,15 @@ class BodyReader {
   void read_faces(const PlyElement& element) {
     const std::optional<std::size_t> list = find_index_list(element);
     CellBlock block(element, {});
+    if (element.count > 0 &&
+        !read_plain_faces(source_, element, *list, vertex_count_, document_.cells, block.columns, workers_)) {
+      read_faces_one_by_one(element, list, block);
+    }
+    note_unread_lists(element, list);
+    blocks_.push_back(std::move(block));
+  }
+
+  void read_faces_one_by_one(const PlyElement& element, std::optional<std::size_t> list, CellBlock& block) {
     std::vector<std::int32_t> vertices;
     read_rows(
         element, list,
@@ -251,8 +266,6 @@ class BodyReader {
           document_.cells.append(cell_type::of_face(vertices.size()), vertices);
           vertices.clear();
         });
-    note_unread_lists(element, list);
-    blocks_.push_back(std::move(block));
   }
 
   void read_edges(const PlyElement& element) {
@@ -424,6 +437,7 @@ class BodyReader {
 
   const std::filesystem::path& path_;
   const PlyHeader& header_;
+  Workers& workers_;
   std::uint64_t vertex_count_;
   Source source_;
   /// A file of many properties of faces and many edges could ask for zeros out of all proportion to its size.
@@ -458,13 +472,15 @@ void check_vertex_element(const std::filesystem::path& path, const PlyHeader& he
 
 }  // namespace
 
-MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
+MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
   const PlyHeader header = parse_ply_header(path, bytes);
   check_vertex_element(path, header);
   auto [document, sites] =
       header.encoding == CoordinateEncoding::text
-          ? BodyReader(path, header, PlyTextSource(path, bytes, header.size)).read()
-          : BodyReader(path, header, PlyBinarySource(path, bytes, header.size, header.encoding)).read();
+          ? BodyReader(path, header, PlyTextSource(path, bytes, header.size, workers), workers.workers).read()
+          : BodyReader(path, header, PlyBinarySource(path, bytes, header.size, header.encoding, workers),
+                       workers.workers)
+                .read();
   document.original = make_patched_original(std::move(bytes), std::move(sites));
   return std::move(document);
 }

@@ -1,20 +1,21 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/ply/ply_binary_numbers.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -41,8 +42,9 @@ inline bool is_padding(std::string_view bytes) {
 /// The rows of an ASCII file. A row may run over several lines, but the next row begins on a new one.
 class PlyTextSource {
  public:
-  PlyTextSource(const std::filesystem::path& path, std::string_view bytes, std::size_t begin)
-      : scanner_(bytes, path, TextScanner::Comments::none, begin) {}
+  PlyTextSource(const std::filesystem::path& path, std::string_view bytes, std::size_t begin,
+                const FileWorkers& workers)
+      : scanner_(bytes, path, TextScanner::Comments::none, begin), plain_rows_(bytes, workers) {}
 
   /// The fewest bytes that a number takes: a digit and the space after it.
   static std::uint64_t least_bytes(ScalarType /*type*/) { return 2; }
@@ -95,18 +97,35 @@ class PlyTextSource {
   /// True where a row may end: nothing but the next row's line follows.
   bool at_row_end() { return scanner_.at_end_of_line(); }
 
+  /// A reader of plain numbers from here on, which moves nothing here.
+  PlainNumbers plain_numbers() const { return {scanner_.text(), scanner_.offset()}; }
+
+  /// Reads `rows` rows of as many numbers as there are `types` (see PlainRows::read) and stands behind them; false
+  /// where that fails.
+  template <class Body>
+  bool read_plain_rows(std::size_t rows, std::span<const ScalarType> types, const Body& body) {
+    const auto end = plain_rows_.read(scanner_.offset(), rows, types.size(), body);
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+
   [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
 
  private:
   TextScanner scanner_;
+  PlainRows plain_rows_;
 };
 
 /// The rows of a binary file of either byte order.
 class PlyBinarySource {
  public:
-  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, CoordinateEncoding encoding)
+  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, CoordinateEncoding encoding,
+                  const FileWorkers& workers)
       : path_(std::move(path)),
         bytes_(bytes),
+        workers_(workers),
         offset_(begin),
         number_offset_(begin),
         swapped_((encoding == CoordinateEncoding::big_endian) == (std::endian::native == std::endian::little)) {}
@@ -120,17 +139,12 @@ class PlyBinarySource {
 
   PlyNumber number(ScalarType type, std::string_view label) {
     return visit_scalar_type(type, [&](auto zero) -> PlyNumber {
-      std::array<char, sizeof(zero)> stored{};
       number_offset_ = offset_;
-      if (room() < stored.size()) {
+      auto number = zero;
+      if (!plain_numbers().next(number)) {
         fail("expected " + std::string(label) + ", got the end of the file");
       }
-      std::memcpy(stored.data(), bytes_.data() + offset_, stored.size());
-      if (swapped_) {
-        std::ranges::reverse(stored);
-      }
-      offset_ += stored.size();
-      const auto number = std::bit_cast<decltype(zero)>(stored);
+      offset_ += sizeof(number);
       if constexpr (std::is_floating_point_v<decltype(zero)>) {
         return {static_cast<double>(number)};
       } else {
@@ -150,6 +164,34 @@ class PlyBinarySource {
 
   bool at_row_end() const { return true; }
 
+  PlyBinaryNumbers plain_numbers() const { return {bytes_, offset_, swapped_}; }
+
+  /// Reads `rows` rows of numbers of the `types`, for which there is room, as PlyTextSource does.
+  template <class Body>
+  bool read_plain_rows(std::size_t rows, std::span<const ScalarType> types, const Body& body) {
+    if (workers_.part_bytes == FileWorkers::serial) {
+      return false;
+    }
+    std::size_t row_bytes = 0;
+    for (const ScalarType type : types) {
+      row_bytes += size_of(type);
+    }
+    std::size_t last_number = 0;  // set by the one block that holds the last row
+    const bool plain = all_file_blocks(workers_, rows, row_bytes, [&](std::size_t first, std::size_t last) {
+      PlyBinaryNumbers numbers(bytes_, offset_ + first * row_bytes, swapped_);
+      const bool read = body(numbers, first, last);
+      if (last == rows) {
+        last_number = numbers.token_offset();
+      }
+      return read;
+    });
+    if (plain) {
+      number_offset_ = last_number;
+      offset_ += rows * row_bytes;
+    }
+    return plain;
+  }
+
   [[noreturn]] void fail(const std::string& message) const {
     throw ReadError(path_, "byte " + std::to_string(number_offset_) + ": " + message);
   }
@@ -157,6 +199,7 @@ class PlyBinarySource {
  private:
   std::filesystem::path path_;
   std::string_view bytes_;
+  FileWorkers workers_;
   std::size_t offset_;
   std::size_t number_offset_;
   bool swapped_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@ class ScalarColumn {
   /// The same for a column of a 64-bit integer type; of uint64, numbers of 2^63 or more are given less 2^64.
   void store_whole(std::size_t row, std::int64_t value);
 
+  /// The same for a number of the column's own type.
+  template <class T>
+  void put(std::size_t row, T value) {
+    std::memcpy(bytes_.data() + row * sizeof(value), &value, sizeof(value));
+  }
+
   /// Adds the rows of another column of the same type at the end.
   void append(const ScalarColumn& column);
 
@@ -39,5 +47,9 @@ class ScalarColumn {
   ScalarType type_;
   std::vector<std::byte> bytes_;
 };
+
+/// The columns that hold scalar properties of an element, at the properties' positions; nothing where a property is a
+/// list, or is held elsewhere.
+using ScalarColumns = std::vector<std::optional<ScalarColumn>>;
 
 }  // namespace trismooth

@@ -53,7 +53,7 @@ class PlainRows {
 
   static End end_of(const PlainNumbers& numbers) { return {numbers.token_offset(), numbers.offset()}; }
   std::optional<End> read_parts(std::size_t offset, std::size_t rows, std::size_t columns, const AnyBody& body);
-  void count_tokens();
+  void count_tokens_of_parts();
 
   std::string_view text_;
   FileWorkers workers_;

@@ -18,8 +18,8 @@
 #include "broken.h"
 #include "choices.h"
 #include "document_checks.h"
-#include "memory_file.h"
 #include "smoothing_checks.h"
+#include "support/memory_file.h"
 #include "support/readings.h"
 #include "targets.h"
 
@@ -27,6 +27,7 @@
 /// smoothed to something that is not worse, written and read again, and converted.
 namespace fuzz {
 
+using test_support::MemoryFile;
 using trismooth::DataArray;
 using trismooth::FileFormat;
 using trismooth::MeshDocument;
@@ -207,9 +208,14 @@ void check_added_arrays(const MeshDocument& document) {
 void check_parts(FileFormat format, const std::string& bytes) {
   trismooth::Workers alone(1);
   using trismooth::FileWorkers;
-  const std::string serial = test_support::reading_of(codec_of(format), bytes, FileWorkers(alone, FileWorkers::serial));
+  const auto reading = [&](std::size_t part_bytes) {
+    const FileWorkers workers(alone, part_bytes);
+    return keeps_bytes(format) ? test_support::reading_and_sites_of(codec_of(format), bytes, workers)
+                               : test_support::reading_of(codec_of(format), bytes, workers);
+  };
+  const std::string serial = reading(FileWorkers::serial);
   for (const std::size_t part_bytes : {std::size_t{1}, 2 + bytes.size() % 61, FileWorkers::whole}) {
-    require(test_support::reading_of(codec_of(format), bytes, FileWorkers(alone, part_bytes)) == serial,
+    require(reading(part_bytes) == serial,
             "in parts of " + std::to_string(part_bytes) + " bytes, another document or error");
   }
 }

@@ -9,8 +9,8 @@
 
 #include "choices.h"
 #include "document_checks.h"
-#include "memory_file.h"
 #include "support/accepted_files.h"
+#include "support/memory_file.h"
 #include "support/test_meshes.h"
 
 namespace fuzz {
@@ -41,7 +41,7 @@ std::string grid(FileFormat format) {
   for (const trismooth::Triangle& triangle : mesh.triangles) {
     document.cells.append(trismooth::cell_type::triangle, triangle);
   }
-  const MemoryFile file;
+  const test_support::MemoryFile file;
   codec_of(format).write(file.path(), document);
   return file.bytes();
 }

@@ -1,14 +1,14 @@
 #include "trismooth/mesh_io/text/plain_rows.h"
 
 #include <charconv>
+#include <cstring>
 
 #include "trismooth/mesh_io/text/number_text.h"
 
-#include "support/readings.h"
-#include "vtk_legacy_files.h"
+#include "catch.h"
+#include "support/dice.h"
 
-using test_support::reading_of;
-using trismooth::Codec;
+using test_support::Dice;
 using trismooth::FileWorkers;
 using trismooth::PlainNumbers;
 using trismooth::PlainRows;
@@ -46,61 +46,6 @@ Rows read_rows(const std::string& text, std::size_t offset, std::size_t rows, st
   result.last_number = end->last_number;
   result.offset = end->offset;
   return result;
-}
-
-/// 0 to below - 1, by a fixed rule.
-class Dice {
- public:
-  std::size_t below(std::size_t limit) {
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<std::size_t>(state_ >> 33) % limit;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
-struct Sample {
-  std::string name;
-  const Codec& codec;
-  std::string bytes;
-};
-
-std::string off_text(const std::string& keyword, const std::string& after_vertex, const std::string& line_end,
-                     const std::string& face) {
-  std::string text = keyword + line_end + "9 8 0" + line_end;
-  for (int i = 0; i < 9; ++i) {
-    text += "0." + std::to_string(i * 37) + " " + std::to_string(-i) + "e-3 " + std::to_string(i % 2) + after_vertex +
-            line_end;
-  }
-  for (int i = 0; i < 8; ++i) {
-    text += face + line_end;
-  }
-  return text;
-}
-
-std::vector<Sample> samples() {
-  using trismooth::off_codec;
-  std::vector<Sample> all{
-      {"plain", off_codec, off_text("OFF", "", "\n", "3 0 1 2")},
-      {"quads, CR LF", off_codec, off_text("OFF", "", "\r\n", "4 0 1 2 3")},
-      {"blanks", off_codec, off_text("  OFF ", " \t", " \n\n ", "3  0\t1 \v2 ")},
-      {"comments", off_codec, off_text("OFF # 1 2 3", " # 7 8", "\n", "3 0 1 2 # 3")},
-      {"vertex colours", off_codec, off_text("COFF", " 1 0 0.5", "\n", "3 0 1 2")},
-      {"face colours", off_codec, off_text("OFF", "", "\n", "3 0 1 2 255 0 0")},
-      {"a face over two lines", off_codec, off_text("OFF", "", "\n", "3 0\n1 2")},
-      {"an index out of range", off_codec, off_text("OFF", "", "\n", "3 0 1 9")},
-      {"plus signs", off_codec, off_text("OFF", "", "\n", "3 +0 1 2")},
-      {"counts glued to the keyword", off_codec, "OFF" + off_text("", "", "\n", "3 0 1 2").substr(1)},
-  };
-  for (const bool with_offsets : {false, true}) {
-    legacy_test::Builder file = legacy_test::grid_file(false, with_offsets);
-    all.push_back({with_offsets ? "legacy VTK with offsets" : "legacy VTK", trismooth::vtk_legacy_codec, file.bytes()});
-    file.text("POINT_DATA 9\n");
-    legacy_test::add_attributes(file, 9, false, "p_");
-    all.push_back({"legacy VTK with arrays", trismooth::vtk_legacy_codec, file.bytes()});
-  }
-  return all;
 }
 
 }  // namespace
@@ -223,32 +168,4 @@ TEST_CASE("numbers read as parse_number() and parse_integer_as() read them") {
   std::int32_t value = 0;
   CHECK(PlainNumbers("1234567 89", 0).next(value));
   CHECK(value == 1234567);
-}
-
-TEST_CASE("text files give the same document in parts of any size, and the same errors when they are damaged") {
-  Workers alone(1);
-  Workers two(2);
-  Dice dice;
-  for (const Sample& sample : samples()) {
-    INFO(sample.name);
-    const std::string expected = reading_of(sample.codec, sample.bytes, FileWorkers(alone, FileWorkers::serial));
-    for (std::size_t part_bytes = 1; part_bytes <= sample.bytes.size() + 1; ++part_bytes) {
-      INFO(part_bytes);
-      REQUIRE(reading_of(sample.codec, sample.bytes, FileWorkers(alone, part_bytes)) == expected);
-    }
-    REQUIRE(reading_of(sample.codec, sample.bytes, FileWorkers(two, 16)) == expected);
-    for (int round = 0; round < 400; ++round) {
-      std::string damaged = sample.bytes;
-      constexpr std::string_view characters = "#x-+.e\n \t\\/190nN";
-      damaged[dice.below(damaged.size())] = characters[dice.below(characters.size())];
-      if (round % 4 == 0) {
-        damaged.resize(dice.below(damaged.size()));
-      }
-      INFO(damaged);
-      const std::string serial = reading_of(sample.codec, damaged, FileWorkers(alone, FileWorkers::serial));
-      for (const std::size_t part_bytes : {1 + dice.below(8), 1 + dice.below(200), FileWorkers::whole}) {
-        REQUIRE(reading_of(sample.codec, damaged, FileWorkers(alone, part_bytes)) == serial);
-      }
-    }
-  }
 }

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace fuzz {
+namespace test_support {
 
 /// A regular file that is in memory only, with a path: for writers, which write to paths.
 class MemoryFile {
@@ -42,4 +42,4 @@ class MemoryFile {
   std::filesystem::path path_;
 };
 
-}  // namespace fuzz
+}  // namespace test_support

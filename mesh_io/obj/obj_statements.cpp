@@ -1,0 +1,74 @@
+#include "trismooth/mesh_io/obj/obj_statements.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "trismooth/mesh_io/text/blanks.h"
+
+namespace trismooth {
+
+bool is_obj_keyword(std::string_view token) {
+  return std::ranges::all_of(token,
+                             [](char c) {
+                               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                                      c == '_';
+                             }) &&
+         !(token.front() >= '0' && token.front() <= '9');
+}
+
+std::size_t least_vertices(std::string_view keyword) {
+  if (keyword == "f" || keyword == "fo") {
+    return 3;
+  }
+  return keyword == "l" ? 2 : keyword == "p" ? 1 : 0;
+}
+
+std::uint8_t obj_cell_type(std::size_t least, std::size_t vertices) {
+  switch (least) {
+    case 1:
+      return vertices == 1 ? cell_type::vertex : cell_type::poly_vertex;
+    case 2:
+      return vertices == 2 ? cell_type::line : cell_type::poly_line;
+    default:
+      return cell_type::of_face(vertices);
+  }
+}
+
+void append_name(std::string& name, std::string_view line) {
+  for (const std::string_view word : words_of(line)) {
+    name.append(name.empty() ? "" : " ").append(word);
+  }
+}
+
+void ObjStatements::add_other(std::string_view keyword) {
+  if (others_.size() < most_named && !others_.contains(keyword)) {
+    others_.emplace(keyword);
+  }
+}
+
+void ObjStatements::move_to(MeshDocument& document) {
+  materials_.move_to(document.cell_arrays, "material", document.cells.size());
+  groups_.move_to(document.cell_arrays, "group", document.cells.size());
+  std::string list = has_colours_or_weights_ ? "vertex colours or weights" : "";
+  for (const std::string& keyword : others_) {
+    list.append(list.empty() ? "" : ", ").append(keyword);
+  }
+  if (!list.empty()) {
+    document.notes.push_back("Kept in OBJ output only: " + list + ".");
+  }
+}
+
+void ObjStatements::CellNumbering::start(std::string name, std::size_t cells) {
+  numbers_.resize(cells, current_);
+  used_ = true;
+  current_ = names_.try_emplace(std::move(name), static_cast<std::int32_t>(names_.size())).first->second;
+}
+
+void ObjStatements::CellNumbering::move_to(std::vector<DataArray>& arrays, std::string array_name, std::size_t cells) {
+  if (used_) {
+    numbers_.resize(cells, current_);
+    arrays.push_back(make_data_array(std::move(array_name), 1, std::move(numbers_)));
+  }
+}
+
+}  // namespace trismooth

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace trismooth {
+
+/// Reads numbers of either byte order, one behind the other, with the interface of PlainNumbers. Inline, since meshes
+/// hold millions of numbers. The bytes must outlive the reader.
+class PlyBinaryNumbers {
+ public:
+  /// Reads from `offset` on.
+  PlyBinaryNumbers(std::string_view bytes, std::size_t offset, bool swapped)
+      : bytes_(bytes), offset_(offset), number_offset_(offset), swapped_(swapped) {}
+
+  /// The next number; false where the bytes end before.
+  template <class T>
+  bool next(T& value) {
+    number_offset_ = offset_;
+    if (bytes_.size() - offset_ < sizeof(T)) {
+      return false;
+    }
+    std::array<char, sizeof(T)> stored;
+    std::memcpy(stored.data(), bytes_.data() + offset_, sizeof(T));
+    if (swapped_) {
+      std::ranges::reverse(stored);
+    }
+    offset_ += sizeof(T);
+    value = std::bit_cast<T>(stored);
+    return true;
+  }
+
+  /// A row may end anywhere.
+  static bool at_end_of_line() { return true; }
+
+  /// Byte offset of the number that was read last / of what is read next.
+  std::size_t token_offset() const { return number_offset_; }
+  std::size_t offset() const { return offset_; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t offset_;
+  std::size_t number_offset_;
+  bool swapped_;
+};
+
+}  // namespace trismooth
