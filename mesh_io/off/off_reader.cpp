@@ -16,8 +16,8 @@
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/off/off_binary_reader.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
+#include "trismooth/mesh_io/off/off_plain_rows.h"
 #include "trismooth/mesh_io/text/number_text.h"
-#include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -132,31 +132,29 @@ class OffReader {
                  bytes_left() + 1 - vertex_count_ * 2 * numbers_each);
   }
 
-  /// Vertices that are three coordinates each, a line each or more, nothing else.
+  void read_vertices() {
+    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_);
+    if (!read_plain_vertices()) {
+      read_vertices_one_by_one();
+    }
+    if (has_vertex_colours_ && !keyword_.colours) {
+      document_.notes.push_back("The keyword " + keyword_.text_or_default() +
+                                " declares no colours; the numbers after the coordinates are read as colours.");
+    }
+  }
+
   bool read_plain_vertices() {
-    const auto end = plain_rows_.read(
-        scanner_.offset(), vertex_count_, 3, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-          bool plain = true;
-          for (std::size_t vertex = first; vertex < last && plain; ++vertex) {
-            for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
-              plain = plain && numbers.next(document_.points[i]) && std::isfinite(document_.points[i]);
-              sites_.offsets[i] = numbers.token_offset();
-            }
-            plain = plain && numbers.at_end_of_line();
-          }
-          return plain;
-        });
+    const auto end = vertex_count_ == 0
+                         ? std::nullopt
+                         : plain_rows_.read_vertices(scanner_.offset(), vertex_count_, keyword_, document_, sites_);
     if (end) {
       scanner_.resume(end->last_number, end->offset);
+      has_vertex_colours_ = find_array(document_.point_arrays, "colours") != nullptr;
     }
     return end.has_value();
   }
 
-  void read_vertices() {
-    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_);
-    if (vertex_count_ > 0 && keyword_.least_extras() == 0 && read_plain_vertices()) {
-      return;
-    }
+  void read_vertices_one_by_one() {
     std::vector<double> normals;
     std::vector<double> texture_coordinates;
     normals.reserve(keyword_.normals ? 3 * vertex_count_ : 0);
@@ -196,50 +194,13 @@ class OffReader {
       document_.point_arrays.push_back(make_data_array("texture_coordinates", 2, std::move(texture_coordinates)));
     }
     note_unless_uniform(colours, "vertex");
-    if (has_vertex_colours_ && !keyword_.colours) {
-      document_.notes.push_back("The keyword " + keyword_.text_or_default() +
-                                " declares no colours; the numbers after the coordinates are read as colours.");
-    }
-  }
-
-  /// Faces of one kind without colours.
-  bool read_plain_faces() {
-    PlainNumbers first_face(scanner_.text(), scanner_.offset());
-    std::size_t degree = 0;
-    if (!first_face.next(degree) || degree < 3 || degree > bytes_left() / 2 / face_count_) {
-      return false;
-    }
-    CellList& cells = document_.cells;
-    shared_resize(cells.connectivity, degree * face_count_, cells.offsets, face_count_ + 1, workers_);
-    shared_resize(cells.types, face_count_, workers_);
-    const auto end =
-        plain_rows_.read(scanner_.offset(), face_count_, degree + 1,
-                         [this, degree, &cells](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                           const auto vertices = static_cast<std::int32_t>(vertex_count_);
-                           bool plain = true;
-                           for (std::size_t face = first; face < last && plain; ++face) {
-                             std::size_t corners = 0;
-                             plain = numbers.next(corners) && corners == degree;
-                             for (std::size_t i = degree * face; i < degree * (face + 1) && plain; ++i) {
-                               std::int32_t& vertex = cells.connectivity[i];
-                               plain = numbers.next(vertex) && vertex >= 0 && vertex < vertices;
-                             }
-                             plain = plain && numbers.at_end_of_line();
-                             cells.offsets[face + 1] = static_cast<std::int64_t>(degree * (face + 1));
-                             cells.types[face] = cell_type::of_face(degree);
-                           }
-                           return plain;
-                         });
-    if (!end) {
-      cells = {};
-      return false;
-    }
-    scanner_.resume(end->last_number, end->offset);
-    return true;
   }
 
   void read_faces() {
-    if (face_count_ > 0 && read_plain_faces()) {
+    const auto end =
+        face_count_ == 0 ? std::nullopt : plain_rows_.read_faces(scanner_.offset(), face_count_, document_);
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
       return;
     }
     CellList& cells = document_.cells;
@@ -340,7 +301,7 @@ class OffReader {
 
   TextScanner scanner_;
   Workers& workers_;
-  PlainRows plain_rows_;
+  OffPlainRows plain_rows_;
   OffKeyword keyword_;
   bool is_binary_ = false;
   bool has_vertex_colours_ = false;

@@ -1,21 +1,22 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/ply/plain_count.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 #include "trismooth/mesh_io/ply/scalar_column.h"
+#include "trismooth/mesh_io/text/plain_list_rows.h"
 
 namespace trismooth {
 
-// Rows of a PLY file that are all alike, read in parts, by all workers. Where anything in them is unusual or wrong the
+// Rows of a PLY file, read in parts, by all workers. Where anything in them is unusual or wrong the
 // answer is false, the source stands where it stood, and somebody else has to read them, and to say what is wrong.
 // Source is PlyTextSource or PlyBinarySource.
 
@@ -37,17 +38,6 @@ bool read_plain_coordinate(Numbers& numbers, double& coordinate, std::uint64_t& 
   coordinate = static_cast<double>(value);
   site = numbers.token_offset();
   return plain;
-}
-
-/// The next number, of an integer type; -1 where it is of another type, negative or beyond int64.
-template <class Numbers>
-std::int64_t plain_count(Numbers& numbers, ScalarType type) {
-  return visit_scalar_type(type, [&](auto value) -> std::int64_t {
-    if constexpr (std::is_integral_v<decltype(value)>) {
-      return numbers.next(value) ? static_cast<std::int64_t>(value) : -1;
-    }
-    return -1;
-  });
 }
 
 /// Reads the next `indices.size()` numbers, which are of an integer type and below `vertices`.
@@ -87,7 +77,7 @@ bool read_plain_vertices(Source& source, const PlyElement& element, std::span<co
     }
     types.push_back(property.type);
   }
-  if (element.count == 0 || !has_room(source, element.count, types)) {
+  if (element.count == 0 || !source.reads_parts() || !has_room(source, element.count, types)) {
     return false;
   }
   return source.read_plain_rows(element.count, types, [&](auto& numbers, std::size_t first, std::size_t last) {
@@ -108,65 +98,129 @@ bool read_plain_vertices(Source& source, const PlyElement& element, std::span<co
   });
 }
 
-/// Reads faces that all have as many vertices as the first one, in the list at position `list`, and appends them;
-/// scalar properties go to their columns. Other lists are not plain.
+/// Reads the element "face": appends its rows to the cells.
 template <class Source>
-bool read_plain_faces(Source& source, const PlyElement& element, std::size_t list, std::uint64_t vertices,
-                      CellList& cells, ScalarColumns& columns, Workers& workers) {
-  const PlyProperty& property = element.properties[list];
-  auto first_row = source.plain_numbers();
-  std::int64_t declared = -1;
-  for (std::size_t p = 0; p < element.properties.size(); ++p) {
-    if (p == list) {
-      declared = plain_count(first_row, *property.count_type);
-    } else if (element.properties[p].is_list()) {
-      return false;
-    } else if (p < list && !read_plain_number(first_row, *columns[p], 0)) {
+class PlainFaceReader {
+ public:
+  /// `list` is the position of the list of vertices, of which the file has `vertices`. Scalar properties go to their
+  /// columns, which have their size. Other lists are not plain.
+  PlainFaceReader(Source& source, const PlyElement& element, std::size_t list, std::uint64_t vertices, CellList& cells,
+                  ScalarColumns& columns, Workers& workers)
+      : source_(source),
+        element_(element),
+        list_(list),
+        vertices_(vertices),
+        cells_(cells),
+        columns_(columns),
+        workers_(workers),
+        cells_before_(cells.size()),
+        corners_before_(cells.connectivity.size()) {}
+
+  bool read() {
+    const auto lists = std::ranges::count_if(element_.properties, &PlyProperty::is_list);
+    if (element_.count == 0 || lists != 1 || !source_.reads_parts()) {
       return false;
     }
-  }
-  if (declared < 3 || static_cast<std::uint64_t>(declared) > source.room()) {
-    return false;
-  }
-  const auto degree = static_cast<std::size_t>(declared);
-  std::vector<ScalarType> types(degree, property.type);
-  types.push_back(*property.count_type);
-  for (const auto& column : columns) {
-    if (column) {
-      types.push_back(column->type());
+    if (read_equal() || read_mixed()) {
+      return true;
     }
-  }
-  if (!has_room(source, element.count, types)) {
+    make_room(0, 0);
     return false;
   }
-  const std::size_t cells_before = cells.size();
-  const std::size_t corners_before = cells.connectivity.size();
-  shared_resize(cells.connectivity, corners_before + degree * element.count, cells.offsets,
-                cells_before + element.count + 1, workers);
-  shared_resize(cells.types, cells_before + element.count, workers);
-  const bool plain =
-      source.read_plain_rows(element.count, types, [&](auto& numbers, std::size_t first, std::size_t last) {
-        bool all = true;
-        for (std::size_t row = first; row < last && all; ++row) {
-          const std::size_t corner = corners_before + degree * row;
-          for (std::size_t p = 0; p < columns.size() && all; ++p) {
-            all = p != list ? read_plain_number(numbers, *columns[p], row)
-                            : plain_count(numbers, *property.count_type) == declared &&
-                                  read_plain_indices(numbers, property.type, vertices,
-                                                     std::span(cells.connectivity).subspan(corner, degree));
+
+ private:
+  /// Faces with as many vertices as the first one. Those of a part may differ, if they have as many together: the next
+  /// part begins where it should then.
+  bool read_equal() {
+    auto first_row = source_.plain_numbers();
+    for (std::size_t p = 0; p < list_; ++p) {
+      if (!read_plain_number(first_row, *columns_[p], 0)) {
+        return false;
+      }
+    }
+    const PlyProperty& property = element_.properties[list_];
+    const std::int64_t declared = next_plain_count(first_row, *property.count_type);
+    if (declared < 3 || static_cast<std::uint64_t>(declared) > source_.room()) {
+      return false;
+    }
+    const auto degree = static_cast<std::size_t>(declared);
+    std::vector<ScalarType> types(degree, property.type);
+    types.push_back(*property.count_type);
+    for (const auto& column : columns_) {
+      if (column) {
+        types.push_back(column->type());
+      }
+    }
+    if (!has_room(source_, element_.count, types)) {
+      return false;
+    }
+    make_room(element_.count, degree * element_.count);
+    return source_.read_plain_rows(element_.count, types, [&](auto& numbers, std::size_t first, std::size_t last) {
+      return read_part(numbers, {first, last, degree * first, degree * last});
+    });
+  }
+
+  bool read_mixed() {
+    const auto rows = source_.find_plain_lists(element_, list_);
+    if (!rows.items()) {
+      return false;
+    }
+    make_room(element_.count, *rows.items());
+    const auto end =
+        rows.read([this](auto& numbers, const PlainListRows::Part& part) { return read_part(numbers, part); });
+    if (end) {
+      source_.resume(*end);
+    }
+    return end.has_value();
+  }
+
+  void make_room(std::size_t faces, std::size_t corners) {
+    shared_resize(cells_.connectivity, corners_before_ + corners, cells_.offsets, cells_before_ + faces + 1, workers_);
+    shared_resize(cells_.types, cells_before_ + faces, workers_);
+  }
+
+  template <class Numbers>
+  bool read_part(Numbers& numbers, const PlainListRows::Part& part) {
+    const PlyProperty& property = element_.properties[list_];
+    std::size_t item = part.first_item;
+    for (std::size_t row = part.first; row < part.last; ++row) {
+      std::size_t degree = 0;
+      for (std::size_t p = 0; p < columns_.size(); ++p) {
+        if (p != list_) {
+          if (!read_plain_number(numbers, *columns_[p], row)) {
+            return false;
           }
-          all = all && numbers.at_end_of_line();
-          cells.offsets[cells_before + row + 1] = static_cast<std::int64_t>(corner + degree);
-          cells.types[cells_before + row] = cell_type::of_face(degree);
+          continue;
         }
-        return all;
-      });
-  if (!plain) {
-    cells.connectivity.resize(corners_before);
-    cells.offsets.resize(cells_before + 1);
-    cells.types.resize(cells_before);
+        const std::int64_t declared = next_plain_count(numbers, *property.count_type);
+        if (declared < 3 || static_cast<std::uint64_t>(declared) > part.last_item - item) {
+          return false;
+        }
+        degree = static_cast<std::size_t>(declared);
+        if (!read_plain_indices(numbers, property.type, vertices_,
+                                std::span(cells_.connectivity).subspan(corners_before_ + item, degree))) {
+          return false;
+        }
+        item += degree;
+      }
+      if (!numbers.at_end_of_line()) {
+        return false;
+      }
+      cells_.offsets[cells_before_ + row + 1] = static_cast<std::int64_t>(corners_before_ + item);
+      cells_.types[cells_before_ + row] = cell_type::of_face(degree);
+    }
+    return item == part.last_item;
   }
-  return plain;
-}
+
+  Source& source_;
+  const PlyElement& element_;
+  std::size_t list_;
+  std::uint64_t vertices_;
+  CellList& cells_;
+  ScalarColumns& columns_;
+  Workers& workers_;
+  std::size_t cells_before_;
+  std::size_t corners_before_;
+};
 
 }  // namespace trismooth

@@ -245,7 +245,7 @@ class BodyReader {
     const std::optional<std::size_t> list = find_index_list(element);
     CellBlock block(element, {});
     if (element.count > 0 &&
-        !read_plain_faces(source_, element, *list, vertex_count_, document_.cells, block.columns, workers_)) {
+        !PlainFaceReader(source_, element, *list, vertex_count_, document_.cells, block.columns, workers_).read()) {
       read_faces_one_by_one(element, list, block);
     }
     note_unread_lists(element, list);

@@ -12,9 +12,11 @@
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/ply/ply_binary_list_rows.h"
 #include "trismooth/mesh_io/ply/ply_binary_numbers.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_list_rows.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -44,7 +46,7 @@ class PlyTextSource {
  public:
   PlyTextSource(const std::filesystem::path& path, std::string_view bytes, std::size_t begin,
                 const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::none, begin), plain_rows_(bytes, workers) {}
+      : scanner_(bytes, path, TextScanner::Comments::none, begin), workers_(workers), plain_rows_(bytes, workers) {}
 
   /// The fewest bytes that a number takes: a digit and the space after it.
   static std::uint64_t least_bytes(ScalarType /*type*/) { return 2; }
@@ -97,6 +99,8 @@ class PlyTextSource {
   /// True where a row may end: nothing but the next row's line follows.
   bool at_row_end() { return scanner_.at_end_of_line(); }
 
+  /// Whether rows are to be read in parts, if they are plain.
+  bool reads_parts() const { return workers_.part_bytes != FileWorkers::serial; }
   /// A reader of plain numbers from here on, which moves nothing here.
   PlainNumbers plain_numbers() const { return {scanner_.text(), scanner_.offset()}; }
 
@@ -106,15 +110,22 @@ class PlyTextSource {
   bool read_plain_rows(std::size_t rows, std::span<const ScalarType> types, const Body& body) {
     const auto end = plain_rows_.read(scanner_.offset(), rows, types.size(), body);
     if (end) {
-      scanner_.resume(end->last_number, end->offset);
+      resume(*end);
     }
     return end.has_value();
   }
+
+  /// The rows of an element with one list, at that position; each on a line.
+  PlainListRows find_plain_lists(const PlyElement& element, std::size_t /*list*/) const {
+    return {scanner_.text(), scanner_.offset(), element.count, element.properties.size() - 1, workers_};
+  }
+  void resume(const PlainRows::End& end) { scanner_.resume(end.last_number, end.offset); }
 
   [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
 
  private:
   TextScanner scanner_;
+  FileWorkers workers_;
   PlainRows plain_rows_;
 };
 
@@ -164,14 +175,12 @@ class PlyBinarySource {
 
   bool at_row_end() const { return true; }
 
+  bool reads_parts() const { return workers_.part_bytes != FileWorkers::serial; }
   PlyBinaryNumbers plain_numbers() const { return {bytes_, offset_, swapped_}; }
 
   /// Reads `rows` rows of numbers of the `types`, for which there is room, as PlyTextSource does.
   template <class Body>
   bool read_plain_rows(std::size_t rows, std::span<const ScalarType> types, const Body& body) {
-    if (workers_.part_bytes == FileWorkers::serial) {
-      return false;
-    }
     std::size_t row_bytes = 0;
     for (const ScalarType type : types) {
       row_bytes += size_of(type);
@@ -186,10 +195,17 @@ class PlyBinarySource {
       return read;
     });
     if (plain) {
-      number_offset_ = last_number;
-      offset_ += rows * row_bytes;
+      resume({last_number, offset_ + rows * row_bytes});
     }
     return plain;
+  }
+
+  PlyBinaryListRows find_plain_lists(const PlyElement& element, std::size_t list) const {
+    return {bytes_, offset_, swapped_, element, list, workers_};
+  }
+  void resume(const PlainRows::End& end) {
+    number_offset_ = end.last_number;
+    offset_ = end.offset;
   }
 
   [[noreturn]] void fail(const std::string& message) const {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/text/line_parts.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
+
+namespace trismooth {
+
+/// Reads sections of a text whose rows, a line each, are a list of any length with its length in front of it, and
+/// equally many numbers beside it: in parts, by all workers, as PlainRows does.
+class PlainListRows {
+ public:
+  /// What a part holds: rows [first, last), and of all items of all lists those in [first_item, last_item).
+  struct Part {
+    std::size_t first;
+    std::size_t last;
+    std::size_t first_item;
+    std::size_t last_item;
+  };
+
+  /// Looks for `rows` rows, 1 or more, with `beside` numbers beside each list and its length, in the lines behind
+  /// `offset`, where a line ends or begins. `text` must outlive the object.
+  PlainListRows(std::string_view text, std::size_t offset, std::size_t rows, std::size_t beside,
+                const FileWorkers& workers);
+
+  /// The items of all lists; nothing where there are too few rows or numbers.
+  std::optional<std::size_t> items() const { return items_; }
+
+  /// Calls body(numbers, part) for parts of the rows, in any order, on any worker: it reads these rows from `numbers`,
+  /// each up to the end of its line, and answers false where it cannot, or where there are more items than it should
+  /// find. Nothing where any part could not be read. Only where items() is known.
+  template <class Body>
+  std::optional<PlainRows::End> read(const Body& body) const {
+    PlainRows::End end{};  // set by the one part that holds the last row
+    const bool plain = lines_.all_of([&](std::size_t number) {
+      const Part& part = parts_[number];
+      if (part.first == part.last) {
+        return true;
+      }
+      const bool is_last = part.last == rows_;
+      // Rows that are as many as the lines, each up to the end of a line, are a line each.
+      PlainNumbers numbers(text_.substr(0, is_last ? end_ : lines_.end(number)), lines_.begin(number));
+      const bool read = body(numbers, part);
+      if (is_last) {
+        end = {numbers.token_offset(), numbers.offset()};
+      }
+      return read;
+    });
+    return plain ? std::optional(end) : std::nullopt;
+  }
+
+ private:
+  std::string_view text_;
+  LineParts lines_;
+  std::size_t rows_;
+  std::vector<Part> parts_;
+  std::optional<std::size_t> items_;
+  std::size_t end_ = 0;  ///< of the last row's line
+};
+
+}  // namespace trismooth
