@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -128,11 +129,12 @@ std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::
     shared_resize(cells.types, count, colours, components * count, workers_.workers);
   };
   const auto vertices = static_cast<std::int32_t>(document.point_count());
-  const auto read_part = [&](PlainNumbers& numbers, const PlainListRows::Part& part) {
+  const auto read_part = [&](PlainNumbers& numbers, const PlainListRows::Part& part, std::size_t least,
+                             std::size_t most) {
     std::size_t item = part.first_item;
     for (std::size_t face = part.first; face < part.last; ++face) {
       std::size_t corners = 0;
-      if (!numbers.next(corners) || corners < 3 || corners > part.last_item - item ||
+      if (!numbers.next(corners) || corners < least || corners > std::min(most, part.last_item - item) ||
           !read_indices(numbers, vertices, std::span(cells.connectivity).subspan(item, corners)) ||
           !read_fields(numbers, std::span(colours).subspan(components * face, components))) {
         return false;
@@ -145,19 +147,20 @@ std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::
   };
   std::optional<PlainRows::End> end;
   if (has_room(offset, count, 1 + degree + components)) {
-    // As if all faces were like the first one. Those of a part may differ, if they have as many vertices together: the
-    // next part begins where it should then.
+    // As if all faces were like the first one.
     make_room(degree * count);
     end = rows_.read(offset, count, 1 + degree + components,
                      [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                       return read_part(numbers, {first, last, degree * first, degree * last});
+                       return read_part(numbers, {first, last, degree * first, degree * last}, degree, degree);
                      });
   }
   if (!end) {
     const PlainListRows rows(text_, offset, count, components, workers_);
     if (rows.items()) {
       make_room(*rows.items());
-      end = rows.read(read_part);
+      end = rows.read([&](PlainNumbers& numbers, const PlainListRows::Part& part) {
+        return read_part(numbers, part, 3, std::numeric_limits<std::size_t>::max());
+      });
     }
   }
   if (!end) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -129,8 +130,12 @@ class PlainFaceReader {
   }
 
  private:
-  /// Faces with as many vertices as the first one. Those of a part may differ, if they have as many together: the next
-  /// part begins where it should then.
+  struct Degrees {
+    std::int64_t least;
+    std::int64_t most;
+  };
+
+  /// Faces with as many vertices as the first one.
   bool read_equal() {
     auto first_row = source_.plain_numbers();
     for (std::size_t p = 0; p < list_; ++p) {
@@ -156,7 +161,7 @@ class PlainFaceReader {
     }
     make_room(element_.count, degree * element_.count);
     return source_.read_plain_rows(element_.count, types, [&](auto& numbers, std::size_t first, std::size_t last) {
-      return read_part(numbers, {first, last, degree * first, degree * last});
+      return read_part(numbers, {first, last, degree * first, degree * last}, {declared, declared});
     });
   }
 
@@ -166,8 +171,9 @@ class PlainFaceReader {
       return false;
     }
     make_room(element_.count, *rows.items());
-    const auto end =
-        rows.read([this](auto& numbers, const PlainListRows::Part& part) { return read_part(numbers, part); });
+    const auto end = rows.read([this](auto& numbers, const PlainListRows::Part& part) {
+      return read_part(numbers, part, {3, std::numeric_limits<std::int32_t>::max()});
+    });
     if (end) {
       source_.resume(*end);
     }
@@ -180,7 +186,7 @@ class PlainFaceReader {
   }
 
   template <class Numbers>
-  bool read_part(Numbers& numbers, const PlainListRows::Part& part) {
+  bool read_part(Numbers& numbers, const PlainListRows::Part& part, Degrees degrees) {
     const PlyProperty& property = element_.properties[list_];
     std::size_t item = part.first_item;
     for (std::size_t row = part.first; row < part.last; ++row) {
@@ -193,7 +199,8 @@ class PlainFaceReader {
           continue;
         }
         const std::int64_t declared = next_plain_count(numbers, *property.count_type);
-        if (declared < 3 || static_cast<std::uint64_t>(declared) > part.last_item - item) {
+        if (declared < degrees.least || declared > degrees.most ||
+            static_cast<std::uint64_t>(declared) > part.last_item - item) {
           return false;
         }
         degree = static_cast<std::size_t>(declared);

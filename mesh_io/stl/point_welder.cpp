@@ -19,13 +19,17 @@ std::uint64_t mix(std::uint64_t bits) {
 
 PointWelder::PointWelder() : slots_(16, empty) {}
 
-std::size_t PointWelder::first_slot(const Point& point) const {
+std::uint64_t PointWelder::hash_of(const Point& point) {
   std::uint64_t hash = 0;
   for (const double coordinate : point) {
     // Adding 0 turns -0 into 0 and changes nothing else.
     hash = mix(hash + 0x9e3779b97f4a7c15U + std::bit_cast<std::uint64_t>(coordinate + 0.0));
   }
-  return static_cast<std::size_t>(hash) & (slots_.size() - 1);
+  return hash;
+}
+
+std::size_t PointWelder::first_slot(const Point& point) const {
+  return static_cast<std::size_t>(hash_of(point)) & (slots_.size() - 1);
 }
 
 std::int32_t PointWelder::add(const Point& point) {

@@ -1,16 +1,18 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/stl/point_welder.h"
 #include "trismooth/mesh_io/stl/stl.h"
+#include "trismooth/mesh_io/stl/stl_layout.h"
+#include "trismooth/mesh_io/stl/stl_plain_facets.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -18,21 +20,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::size_t title_bytes = 80;
-constexpr std::size_t binary_header_bytes = title_bytes + sizeof(std::uint32_t);
-constexpr std::size_t normal_bytes = 3 * sizeof(float);
-constexpr std::size_t binary_facet_bytes = 4 * normal_bytes + sizeof(std::uint16_t);
-
-/// The little-endian number at `offset`, which must be within `bytes`.
-template <class T>
-T number_at(std::string_view bytes, std::size_t offset) {
-  std::array<char, sizeof(T)> stored{};
-  std::memcpy(stored.data(), bytes.data() + offset, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) {
-    std::ranges::reverse(stored);
-  }
-  return std::bit_cast<T>(stored);
-}
+using stl_layout::number_at;
 
 /// True where the token is `word`, which is in lower case, in any case.
 bool is_word(std::string_view token, std::string_view word) {
@@ -59,10 +47,30 @@ class FacetCollector {
     }
   }
 
+  /// Facets that others have read, in place of those so far: none.
+  void adopt(PlainFacets facets, const FileWorkers& workers) {
+    CellList& cells = document_.cells;
+    sites_.offsets = std::move(facets.offsets);
+    sites_.vertices = std::move(facets.corners.vertices);
+    points_ = std::move(facets.corners.points);
+    const std::size_t count = sites_.vertices.size() / 3;
+    shared_resize(cells.connectivity, 3 * count, cells.offsets, count + 1, workers.workers);
+    shared_resize(cells.types, count, workers.workers);
+    for_file_blocks(workers, count, stl_layout::facet_bytes, [&](std::size_t first, std::size_t last) {
+      for (std::size_t facet = first; facet < last; ++facet) {
+        for (std::size_t corner = 3 * facet; corner < 3 * facet + 3; ++corner) {
+          cells.connectivity[corner] = sites_.vertices[corner];
+        }
+        cells.offsets[facet + 1] = static_cast<std::int64_t>(3 * facet + 3);
+        cells.types[facet] = cell_type::triangle;
+      }
+    });
+  }
+
   std::size_t facets() const { return document_.cells.size(); }
 
   MeshDocument finish(FileBytes bytes) {
-    document_.points = welder_.take_points();
+    document_.points = points_ ? std::move(*points_) : welder_.take_points();
     document_.original = make_patched_original(std::move(bytes), std::move(sites_));
     return std::move(document_);
   }
@@ -72,14 +80,15 @@ class FacetCollector {
   MeshDocument document_;
   CoordinateSites sites_;
   PointWelder welder_;
+  std::optional<std::vector<double>> points_;  ///< of facets that others have read
 };
 
-MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes) {
-  FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
-  const auto count = number_at<std::uint32_t>(bytes, title_bytes);
+/// Returns the attributes of the facets.
+std::vector<std::uint16_t> read_one_by_one(const std::filesystem::path& path, std::string_view bytes, std::size_t count,
+                                           FacetCollector& collector) {
   std::vector<std::uint16_t> attributes(count);
   for (std::size_t facet = 0; facet < count; ++facet) {
-    std::size_t offset = binary_header_bytes + facet * binary_facet_bytes + normal_bytes;
+    std::size_t offset = stl_layout::header_bytes + facet * stl_layout::facet_bytes + stl_layout::vector_bytes;
     for (int corner = 0; corner < 3; ++corner) {
       std::array<double, 3> point{};
       std::array<std::uint64_t, 3> offsets{};
@@ -95,6 +104,19 @@ MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes) {
     }
     attributes[facet] = number_at<std::uint16_t>(bytes, offset);
   }
+  return attributes;
+}
+
+MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
+  const auto count = number_at<std::uint32_t>(bytes, stl_layout::title_bytes);
+  std::vector<std::uint16_t> attributes;
+  if (auto plain = read_plain_binary_facets(bytes, count, workers)) {
+    collector.adopt(std::move(plain->facets), workers);
+    attributes = std::move(plain->attributes);
+  } else {
+    attributes = read_one_by_one(path, bytes, count, collector);
+  }
   MeshDocument document = collector.finish(std::move(bytes));
   if (std::ranges::any_of(attributes, [](std::uint16_t attribute) { return attribute != 0; })) {
     document.cell_arrays.push_back(make_data_array("attribute", 1, std::move(attributes)));
@@ -109,8 +131,9 @@ std::size_t begin_of_text(std::string_view bytes) {
 
 class TextReader {
  public:
-  TextReader(const std::filesystem::path& path, FileBytes bytes)
+  TextReader(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers)
       : bytes_(std::move(bytes)),
+        workers_(workers),
         scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)),
         collector_(path, CoordinateEncoding::text, ScalarType::float64) {}
 
@@ -122,6 +145,9 @@ class TextReader {
     expect("solid");
     do {
       names.append(names.empty() ? "" : ", ").append(quoted(trimmed(scanner_.next_line())));
+      if (solids == 0) {
+        read_plain_facets();
+      }
       read_solid();
       solid_of_facet.resize(collector_.facets(), solids);
       ++solids;
@@ -143,6 +169,14 @@ class TextReader {
   }
 
  private:
+  /// Reads all facets, where nothing but their 'endsolid' follows.
+  void read_plain_facets() {
+    if (auto plain = read_plain_text_facets(bytes_, scanner_.offset(), workers_)) {
+      collector_.adopt(std::move(plain->facets), workers_);
+      scanner_.resume(plain->last_word, plain->end);
+    }
+  }
+
   /// Reads the facets up to 'endsolid' with its line, to the next 'solid', or to the end of the file: some programs
   /// write no 'endsolid'.
   void read_solid() {
@@ -260,6 +294,7 @@ class TextReader {
   static constexpr std::size_t most_words_named = 8;
 
   FileBytes bytes_;
+  FileWorkers workers_;
   TextScanner scanner_;
   FacetCollector collector_;
   std::set<std::string_view> unknown_;  ///< first words of lines that were passed over
@@ -276,7 +311,7 @@ bool begins_with_solid(std::string_view bytes) {
 /// either as many bytes as facets have, not all of them zero, or a normal of length 1. The declared number is wrong
 /// then, and a part of the mesh would be missing.
 bool is_another_facet(std::string_view bytes) {
-  if (bytes.size() < binary_facet_bytes) {
+  if (bytes.size() < stl_layout::facet_bytes) {
     return false;
   }
   std::array<double, 12> numbers{};
@@ -289,25 +324,25 @@ bool is_another_facet(std::string_view bytes) {
   constexpr double tolerance = 1e-3;  // of programs that round normals
   const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
   const bool is_zero = std::ranges::all_of(bytes, [](char byte) { return byte == '\0'; });
-  return std::abs(length - 1) < tolerance || (bytes.size() % binary_facet_bytes == 0 && !is_zero);
+  return std::abs(length - 1) < tolerance || (bytes.size() % stl_layout::facet_bytes == 0 && !is_zero);
 }
 
 /// Binary files may begin with "solid" too, but text has no zero bytes.
 bool has_zero_byte(std::string_view bytes) {
-  return bytes.substr(0, binary_header_bytes).find('\0') != bytes.npos;
+  return bytes.substr(0, stl_layout::header_bytes).find('\0') != bytes.npos;
 }
 
 }  // namespace
 
-MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& /*workers*/) {
-  const bool may_be_binary = bytes.size() >= binary_header_bytes;
-  const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, title_bytes) : 0;
-  const std::uint64_t end = binary_header_bytes + count * binary_facet_bytes;
+MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  const bool may_be_binary = bytes.size() >= stl_layout::header_bytes;
+  const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, stl_layout::title_bytes) : 0;
+  const std::uint64_t end = stl_layout::header_bytes + count * stl_layout::facet_bytes;
   if (may_be_binary && bytes.size() == end) {
-    return read_binary(path, std::move(bytes));
+    return read_binary(path, std::move(bytes), workers);
   }
   if (begins_with_solid(bytes) && !has_zero_byte(bytes)) {
-    return TextReader(path, std::move(bytes)).read();
+    return TextReader(path, std::move(bytes), workers).read();
   }
   if (!may_be_binary) {
     throw ReadError(path, "is not an STL file: it does not begin with 'solid' and is too short to be binary");
@@ -315,13 +350,13 @@ MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const 
   if (bytes.size() > end && count > 0 && !is_another_facet(std::string_view(bytes).substr(end))) {
     const std::string note =
         "bytes follow the last facet, at byte " + std::to_string(end) + ": they are not read; STL output keeps them";
-    MeshDocument document = read_binary(path, std::move(bytes));
+    MeshDocument document = read_binary(path, std::move(bytes), workers);
     document.notes.push_back(note);
     return document;
   }
   throw ReadError(path, "byte 80: declares " + std::to_string(count) + " facets, but the file has room for " +
-                            std::to_string((bytes.size() - binary_header_bytes) / binary_facet_bytes) + " and is " +
-                            std::to_string(bytes.size()) + " bytes long where " + std::to_string(end) +
+                            std::to_string((bytes.size() - stl_layout::header_bytes) / stl_layout::facet_bytes) +
+                            " and is " + std::to_string(bytes.size()) + " bytes long where " + std::to_string(end) +
                             " are expected");
 }
 
