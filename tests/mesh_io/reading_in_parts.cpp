@@ -1,4 +1,10 @@
 // Text and binary files read in parts of any size, by any number of threads: the same document, notes and messages.
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "catch.h"
 #include "support/accepted_files.h"
 #include "support/dice.h"
 #include "support/readings.h"
@@ -48,6 +54,142 @@ std::string off_text(const std::string& keyword, const std::string& after_vertex
     text += face + line_end;
   }
   return text;
+}
+
+/// Faces of different degrees, with and without colours, and what breaks the rules in the midst of them.
+void add_off_samples(std::vector<Sample>& all) {
+  const auto add = [&all](const std::string& name, const std::string& keyword, const std::string& fields,
+                          const std::vector<std::string>& faces) {
+    std::string text = keyword + "\n9 " + std::to_string(3 * faces.size()) + " 0\n";
+    for (int i = 0; i < 9; ++i) {
+      text += std::to_string(i) + ".5 " + std::to_string(i * i) + " 0" + fields + "\n";
+    }
+    for (int round = 0; round < 3; ++round) {
+      for (const std::string& face : faces) {
+        text += face + "\n";
+      }
+    }
+    all.push_back({"OFF: " + name, trismooth::off_codec, text});
+  };
+  const std::vector<std::string> mixed{"3 0 1 2", "5 0 1 2 3 4", "3 2 1 0", "4 5 6 7 8"};
+  add("mixed degrees", "OFF", "", mixed);
+  add("fields", "STCNOFF", " 0 0 1 1 0.5 0.25 0.5 0.75", mixed);
+  add("fields in MeshLab's order", "NCOFF", " 255 0 7 255 0 0 1", mixed);
+  add("undeclared colours", "OFF", " 1 2 3 4", mixed);
+  add("colours of mixed faces", "OFF", "", {"3 0 1 2 9 8 7", "4 5 6 7 8 0 0.5 1", "3 1 2 3 1 2 3"});
+  add("colours of some faces", "OFF", "", {"3 0 1 2 9 8 7", "4 5 6 7 8", "3 1 2 3 1 2 3"});
+  add("colours of different lengths", "OFF", "", {"3 0 1 2 9 8 7", "4 5 6 7 8 1", "3 1 2 3 1 2 3 4"});
+  add("three and four that make two times three and a colour", "OFF", "", {"3 0 1 2 4", "4 0 1 2 3 3", "3 1 2 3 4"});
+  add("mixed faces over lines", "OFF", "", {"3 0 1 2", "4 0\n1\n2 3", "5 0 1 2 3 4"});
+  add("a face too short", "OFF", "", {"3 0 1 2", "4 0 1 2", "3 4 3 5", "5 0 1 2 3 4"});
+  add("a face too long", "OFF", "", {"3 0 1 2", "4 0 1 2 3 5", "3 4 3 5", "5 0 1 2 3 4"});
+  add("a degree of two", "OFF", "", {"3 0 1 2", "2 0 1", "3 4 3 5", "5 0 1 2 3 4"});
+  add("a degree beyond the file", "OFF", "", {"3 0 1 2", "99999 0 1", "3 4 3 5", "5 0 1 2 3 4"});
+  add("an infinite colour", "OFF", " 1 2 inf", mixed);
+  add("two colour numbers", "OFF", " 1 2", mixed);
+}
+
+void add_ply_samples(std::vector<Sample>& all) {
+  const std::string head = "element vertex 9\nproperty double x\nproperty float y\nproperty double z\n";
+  const std::string list = "element face 8\nproperty list uchar int vertex_indices\n";
+  const auto add = [&](const std::string& name, const std::string& vertex_more, const std::string& more,
+                       const std::string& fields, const std::vector<std::string>& faces) {
+    std::string text = "ply\nformat ascii 1.0\n" + head + vertex_more + list + more + "end_header\n";
+    for (int i = 0; i < 9; ++i) {
+      text += std::to_string(i) + ".5 " + std::to_string(i * i) + " 0" + fields + "\n";
+    }
+    for (std::size_t i = 0; i < 8; ++i) {
+      text += faces[i % faces.size()] + "\n";
+    }
+    all.push_back({"PLY: " + name, trismooth::ply_codec, text});
+    all.push_back({"PLY: " + name + ", CR LF", trismooth::ply_codec, with_line_ends(text, "\r\n")});
+  };
+  const std::vector<std::string> mixed{"3 0 1 2", "5 0 1 2 3 4", "3 2 1 0", "4 5 6 7 8"};
+  const std::string bytes = "property uchar red\nproperty int8 a\nproperty float b\n";
+  add("triangles", "", "", "", {"3 0 1 2"});
+  add("mixed", "", "", "", mixed);
+  add("scalars", bytes, bytes, " 255 -128 nan", {"3 0 1 2 1 -2 inf", "3 0 2 1 255 127 1e-3"});
+  add("mixed with scalars", bytes, bytes, " 0 -0 -inf", {"3 0 1 2 1 -2 1.5", "4 0 2 1 8 255 127 1e-3"});
+  add("a scalar out of range", "", bytes, "", {"3 0 1 2 1 -2 1.5", "3 0 2 1 256 127 1e-3"});
+  add("an index out of range", "", "", "", {"3 0 1 2", "3 0 1 9"});
+  add("a negative index", "", "", "", {"3 0 1 2", "4 0 1 2 -1"});
+  add("rows over lines", bytes, "", "\n255 0\n1", {"3\n0 1 2", "4 0 1 2\n3"});
+  add("too much on a line", "", "", "", {"3 0 1 2", "3 0 1 2 3"});
+  add("too little on a line", "", "", "", {"4 0 1 2 3", "4 0 1 2"});
+  add("large whole numbers", "property uint64 a\nproperty int64 b\n", "", " 18446744073709551615 -9223372036854775808",
+      mixed);
+  add("another list", "property list uchar int more\n", "", " 2 7 7", mixed);
+  for (const bool swapped : {false, true}) {
+    for (const bool of_one_degree : {false, true}) {
+      for (const std::int32_t last : {8, 9, -1}) {
+        std::string data = std::string("ply\nformat ") + (swapped ? "binary_big_endian" : "binary_little_endian") +
+                           " 1.0\n" + head + bytes + list + bytes + "end_header\n";
+        const auto put = [&](auto number) {
+          const std::string stored(reinterpret_cast<const char*>(&number), sizeof(number));
+          data += swapped ? std::string(stored.rbegin(), stored.rend()) : stored;
+        };
+        const auto put_scalars = [&](int i) {
+          put(static_cast<std::uint8_t>(200 + i));
+          put(static_cast<std::int8_t>(-i));
+          put(0.25F * static_cast<float>(i));
+        };
+        for (int i = 0; i < 9; ++i) {
+          put(0.5 + i);
+          put(0.25F * static_cast<float>(i * i));
+          put(0.0);
+          put_scalars(i);
+        }
+        for (int i = 0; i < 8; ++i) {
+          const int degree = of_one_degree ? 3 : 3 + i % 3;
+          put(static_cast<std::uint8_t>(degree));
+          for (int corner = 0; corner < degree; ++corner) {
+            put(i == 6 && corner == 1 ? last : std::int32_t{corner});
+          }
+          put_scalars(i);
+        }
+        all.push_back({"PLY: binary", trismooth::ply_codec, data});
+      }
+    }
+  }
+}
+
+void add_stl_samples(std::vector<Sample>& all) {
+  const auto facets = [](int count, const std::string& odd) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+      const std::string x = std::to_string(i % 3);
+      text += " facet normal 0 0 1\n  outer loop\n   vertex " + x + " 0 -0\n   vertex 1 " + x + " 0\n" +
+              (i == count / 2 ? odd : "") + "   vertex 1e-3 -" + x + ".5 0.0\n  endloop\n endfacet\n";
+    }
+    return text;
+  };
+  const auto add = [&all](const std::string& name, const std::string& text) {
+    all.push_back({"STL: " + name, trismooth::stl_codec, text});
+    all.push_back({"STL: " + name + ", CR LF", trismooth::stl_codec, with_line_ends(text, "\r\n")});
+  };
+  add("one solid", "solid a\n" + facets(9, "") + "endsolid a\n");
+  add("no end", "solid facet a\n" + facets(9, ""));
+  add("two solids", "solid a\n" + facets(3, "") + "endsolid a\nsolid b\n" + facets(3, "") + "endsolid b\n");
+  add("words behind the end", "solid a\n" + facets(3, "") + "endsolid a\nsolid\n");
+  add("a color", "solid a\n" + facets(3, "color 1 2 3\n") + "endsolid\n");
+  add("a facet in a name", "solid a\n" + facets(3, "facet 1 2 3\n") + "endsolid\n");
+  add("no number", "solid a\n" + facets(3, "vertex 1 2 x\n") + "endsolid\n");
+  add("four vertices", "solid a\n" + facets(3, "vertex 1 2 3\n") + "endsolid\n");
+  add("all in capitals", "SOLID a\n" + facets(3, "VERTEX 1 2 3\n") + "ENDSOLID\n");
+  for (const float odd : {0.0F, -0.0F, std::numeric_limits<float>::infinity()}) {
+    for (const std::size_t more : {0, 1, 50}) {
+      std::string data(80, ' ');
+      const auto put = [&data](auto number) { data.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
+      put(std::uint32_t{12});
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+          put(i == 7 && j == 8 ? odd : static_cast<float>(j < 3 ? 0 : (i + j) % 4));
+        }
+        put(static_cast<std::uint16_t>(odd == 0 ? i / 8 : 0));
+      }
+      all.push_back({"STL: binary", trismooth::stl_codec, data + std::string(more, '\0')});
+    }
+  }
 }
 
 std::vector<Sample> samples() {
@@ -122,6 +264,9 @@ std::vector<Sample> samples() {
   add_obj("no vertices", faces);
   add_obj("comments alone", "# nothing\n\n");
   add_obj("nothing", "");
+  add_off_samples(all);
+  add_ply_samples(all);
+  add_stl_samples(all);
   for (const bool with_offsets : {false, true}) {
     legacy_test::Builder file = legacy_test::grid_file(false, with_offsets);
     all.push_back({with_offsets ? "legacy VTK with offsets" : "legacy VTK", trismooth::vtk_legacy_codec, file.bytes()});
@@ -149,7 +294,7 @@ TEST_CASE("files give the same document in parts of any size, and the same error
       return reading_and_sites_of(sample.codec, bytes, workers);
     };
     const std::string expected = reading(sample.bytes, FileWorkers(alone, FileWorkers::serial));
-    for (std::size_t part_bytes = 1; part_bytes <= sample.bytes.size() + 1; part_bytes += 1 + part_bytes / 64) {
+    for (std::size_t part_bytes = 1; part_bytes <= sample.bytes.size() + 1; part_bytes += 1 + part_bytes / 16) {
       INFO(part_bytes);
       REQUIRE(reading(sample.bytes, FileWorkers(alone, part_bytes)) == expected);
     }
