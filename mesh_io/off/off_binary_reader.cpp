@@ -4,13 +4,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/binary_list_rows.h"
+#include "trismooth/mesh_io/bytes/binary_numbers.h"
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -53,11 +55,25 @@ struct Colours {
   }
 };
 
+struct VertexFields {
+  std::vector<float> normals;
+  std::vector<float> texture_coordinates;
+  Colours colours;
+};
+
 class BinaryOffReader {
  public:
   BinaryOffReader(const std::filesystem::path& path, std::string_view bytes, std::size_t begin,
-                  const OffKeyword& keyword, const Dialect& dialect)
-      : path_(path), bytes_(bytes), offset_(begin), word_offset_(begin), keyword_(keyword), dialect_(dialect) {
+                  const OffKeyword& keyword, const Dialect& dialect, const FileWorkers& workers)
+      : path_(path),
+        bytes_(bytes),
+        workers_(workers),
+        offset_(begin),
+        word_offset_(begin),
+        keyword_(keyword),
+        dialect_(dialect),
+        swapped_((dialect.byte_order == CoordinateEncoding::big_endian) ==
+                 (std::endian::native == std::endian::little)) {
     document_.point_type = sites_.type = ScalarType::float32;
     sites_.encoding = dialect.byte_order;
   }
@@ -90,13 +106,10 @@ class BinaryOffReader {
     if (bytes_.size() - offset_ < word_bytes) {
       fail("expected " + std::string(what) + ", got the end of the file");
     }
-    std::array<char, word_bytes> stored{};
-    std::memcpy(stored.data(), bytes_.data() + offset_, word_bytes);
-    if ((dialect_.byte_order == CoordinateEncoding::big_endian) == (std::endian::native == std::endian::little)) {
-      std::ranges::reverse(stored);
-    }
+    std::uint32_t stored = 0;
+    BinaryNumbers(bytes_, offset_, swapped_).next(stored);
     offset_ += word_bytes;
-    return std::bit_cast<std::uint32_t>(stored);
+    return stored;
   }
 
   float real(std::string_view what) { return std::bit_cast<float>(word(what)); }
@@ -121,11 +134,72 @@ class BinaryOffReader {
   }
 
   void read_vertices() {
-    document_.points.resize(3 * vertex_count_);
-    sites_.offsets.resize(3 * vertex_count_);
-    std::vector<float> normals;
-    std::vector<float> texture_coordinates;
-    Colours colours;
+    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_.workers);
+    VertexFields fields;
+    if (!read_plain_vertices(fields)) {
+      fields = {};
+      read_vertices_one_by_one(fields);
+    }
+    if (keyword_.normals) {
+      document_.point_arrays.push_back(make_data_array("normals", 3, std::move(fields.normals)));
+    }
+    fields.colours.move_to(document_.point_arrays);
+    if (keyword_.texture_coordinates) {
+      document_.point_arrays.push_back(
+          make_data_array("texture_coordinates", 2, std::move(fields.texture_coordinates)));
+    }
+  }
+
+  /// In parts, by all workers; false where anything is wrong.
+  bool read_plain_vertices(VertexFields& fields) {
+    if (workers_.part_bytes == FileWorkers::serial || vertex_count_ == 0) {
+      return false;
+    }
+    const std::size_t normal = keyword_.normals ? 3 : 0;
+    const std::size_t texture = keyword_.texture_coordinates ? 2 : 0;
+    const std::size_t colour = dialect_.vertex_colour;
+    fields.normals.resize(normal * vertex_count_);
+    fields.texture_coordinates.resize(texture * vertex_count_);
+    fields.colours.words.resize(colour * vertex_count_);
+    fields.colours.components = colour;
+    const std::size_t vertex_bytes = word_bytes * (3 + normal + texture + colour);
+    const bool plain = all_file_blocks(workers_, vertex_count_, vertex_bytes, [&](std::size_t first, std::size_t last) {
+      BinaryNumbers numbers(bytes_, offset_ + first * vertex_bytes, swapped_);
+      bool finite = true;
+      for (std::size_t vertex = first; vertex < last && finite; ++vertex) {
+        for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
+          float coordinate = 0;
+          finite = numbers.next(coordinate) && std::isfinite(coordinate) && finite;
+          document_.points[i] = static_cast<double>(coordinate);
+          sites_.offsets[i] = numbers.token_offset();
+        }
+        if (!keyword_.colours_first) {
+          read_row(numbers, fields.normals, normal, vertex);
+        }
+        read_row(numbers, fields.colours.words, colour, vertex);
+        if (keyword_.colours_first) {
+          read_row(numbers, fields.normals, normal, vertex);
+        }
+        read_row(numbers, fields.texture_coordinates, texture, vertex);
+      }
+      return finite;
+    });
+    if (plain) {
+      offset_ += vertex_count_ * vertex_bytes;
+      word_offset_ = offset_ - word_bytes;
+    }
+    return plain;
+  }
+
+  template <class T>
+  static void read_row(BinaryNumbers& numbers, std::vector<T>& rows, std::size_t components, std::size_t row) {
+    for (T& value : std::span(rows).subspan(components * row, components)) {
+      numbers.next(value);
+    }
+  }
+
+  void read_vertices_one_by_one(VertexFields& fields) {
+    auto& [normals, texture_coordinates, colours] = fields;
     const auto read_normal = [&] {
       for (int i = 0; keyword_.normals && i < 3; ++i) {
         normals.push_back(real("a normal"));
@@ -150,18 +224,87 @@ class BinaryOffReader {
         texture_coordinates.push_back(real("texture coordinates"));
       }
     }
-    if (keyword_.normals) {
-      document_.point_arrays.push_back(make_data_array("normals", 3, std::move(normals)));
-    }
-    colours.move_to(document_.point_arrays);
-    if (keyword_.texture_coordinates) {
-      document_.point_arrays.push_back(make_data_array("texture_coordinates", 2, std::move(texture_coordinates)));
-    }
   }
 
   void read_faces() {
-    CellList& cells = document_.cells;
     Colours colours;
+    if (!read_plain_faces(colours)) {
+      document_.cells = {};
+      colours = {};
+      read_faces_one_by_one(colours);
+    }
+    colours.move_to(document_.cell_arrays);
+    if (!colours.uniform) {
+      document_.notes.emplace_back(
+          "The face colours have different numbers of components; they are kept in OFF output only.");
+    }
+  }
+
+  /// Faces whose colours all have as many components as that of the first one, in parts, by all workers; false where
+  /// anything is wrong or otherwise.
+  bool read_plain_faces(Colours& colours) {
+    const std::size_t left = bytes_.size() - offset_;
+    if (workers_.part_bytes == FileWorkers::serial || face_count_ == 0) {
+      return false;
+    }
+    std::uint32_t components = static_cast<std::uint32_t>(dialect_.face_colour.value_or(0));
+    if (!dialect_.face_colour) {
+      std::uint32_t degree = 0;
+      BinaryNumbers(bytes_, offset_, swapped_).next(degree);
+      if (degree > left / word_bytes ||
+          !BinaryNumbers(bytes_, std::min(offset_ + (1 + std::size_t{degree}) * word_bytes, bytes_.size()), swapped_)
+               .next(components) ||
+          components > 4) {
+        return false;
+      }
+    }
+    const std::size_t counted = dialect_.face_colour ? 0 : 1;
+    const BinaryListRows rows(bytes_, offset_,
+                              {.rows = face_count_,
+                               .item_bytes = word_bytes,
+                               .bytes_behind = word_bytes * (counted + components),
+                               .swapped = swapped_},
+                              workers_);
+    if (!rows.items()) {
+      return false;
+    }
+    CellList& cells = document_.cells;
+    shared_resize(cells.connectivity, *rows.items(), cells.offsets, face_count_ + 1, workers_.workers);
+    shared_resize(cells.types, face_count_, colours.words, components * face_count_, workers_.workers);
+    colours.components = components;
+    const auto end = rows.read([&](BinaryNumbers& numbers, const PlainListRows::Part& part) {
+      std::size_t item = part.first_item;
+      for (std::size_t face = part.first; face < part.last; ++face) {
+        std::uint32_t degree = 0;
+        if (!numbers.next(degree) || degree < 3) {
+          return false;
+        }
+        for (const std::size_t face_end = item + degree; item < face_end; ++item) {
+          std::uint32_t index = 0;
+          if (!numbers.next(index) || index >= vertex_count_) {
+            return false;
+          }
+          cells.connectivity[item] = static_cast<std::int32_t>(index);
+        }
+        std::uint32_t declared = components;
+        if (counted == 1 && (!numbers.next(declared) || declared != components)) {
+          return false;
+        }
+        read_row(numbers, colours.words, components, face);
+        cells.offsets[face + 1] = static_cast<std::int64_t>(item);
+        cells.types[face] = cell_type::of_face(degree);
+      }
+      return true;
+    });
+    if (end) {
+      word_offset_ = end->last_number;
+      offset_ = end->offset;
+    }
+    return end.has_value();
+  }
+
+  void read_faces_one_by_one(Colours& colours) {
+    CellList& cells = document_.cells;
     for (std::size_t face = 0; face < face_count_; ++face) {
       const std::uint32_t degree = word("the number of vertices of a face");
       if (degree < 3 || degree > (bytes_.size() - offset_) / word_bytes) {
@@ -184,11 +327,6 @@ class BinaryOffReader {
       }
       read_colour(colours, face, components);
     }
-    colours.move_to(document_.cell_arrays);
-    if (!colours.uniform) {
-      document_.notes.emplace_back(
-          "The face colours have different numbers of components; they are kept in OFF output only.");
-    }
   }
 
   void read_colour(Colours& colours, std::size_t row, std::size_t components) {
@@ -207,10 +345,12 @@ class BinaryOffReader {
 
   const std::filesystem::path& path_;
   std::string_view bytes_;
+  FileWorkers workers_;
   std::size_t offset_;
   std::size_t word_offset_;  ///< of the word that was read last
   const OffKeyword& keyword_;
   Dialect dialect_;
+  bool swapped_;  ///< words are not in this machine's byte order
   MeshDocument document_;
   CoordinateSites sites_;
   std::size_t vertex_count_ = 0;
@@ -243,16 +383,17 @@ std::vector<Dialect> dialects_of(const OffKeyword& keyword) {
 }  // namespace
 
 std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
-                                                         std::size_t begin, const OffKeyword& keyword) {
+                                                         std::size_t begin, const OffKeyword& keyword,
+                                                         const FileWorkers& workers) {
   std::vector<Dialect> dialects = dialects_of(keyword);
   // The error that is told is that of a dialect whose counts fit, if there is one: the first of them.
   std::stable_partition(dialects.begin(), dialects.end(), [&](const Dialect& dialect) {
-    return BinaryOffReader(path, bytes, begin, keyword, dialect).has_likely_counts();
+    return BinaryOffReader(path, bytes, begin, keyword, dialect, workers).has_likely_counts();
   });
   std::optional<ReadError> first;
   for (const Dialect& dialect : dialects) {
     try {
-      return BinaryOffReader(path, bytes, begin, keyword, dialect).read();
+      return BinaryOffReader(path, bytes, begin, keyword, dialect, workers).read();
     } catch (const ReadError& error) {
       if (!first) {
         first = error;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/document/coordinate_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
@@ -21,6 +22,7 @@ namespace trismooth {
 /// as in text (colours int32 where all are whole numbers from 0 to 255 stored as integers).
 /// Throws ReadError, with the byte. Linear in the file's size.
 std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
-                                                         std::size_t begin, const OffKeyword& keyword);
+                                                         std::size_t begin, const OffKeyword& keyword,
+                                                         const FileWorkers& workers);
 
 }  // namespace trismooth

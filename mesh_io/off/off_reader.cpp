@@ -64,13 +64,13 @@ class OffReader {
   OffReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
       : scanner_(bytes, path, TextScanner::Comments::hash,
                  bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
-        workers_(workers.workers),
+        workers_(workers),
         plain_rows_(bytes, workers) {}
 
   std::pair<MeshDocument, CoordinateSites> read() {
     read_keyword();
     if (is_binary_) {
-      return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_);
+      return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_, workers_);
     }
     read_counts();
     read_vertices();
@@ -133,7 +133,7 @@ class OffReader {
   }
 
   void read_vertices() {
-    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_);
+    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 3 * vertex_count_, workers_.workers);
     if (!read_plain_vertices()) {
       read_vertices_one_by_one();
     }
@@ -300,7 +300,7 @@ class OffReader {
   static constexpr std::size_t least_face_numbers = 4;  // the degree, and three vertices
 
   TextScanner scanner_;
-  Workers& workers_;
+  FileWorkers workers_;
   OffPlainRows plain_rows_;
   OffKeyword keyword_;
   bool is_binary_ = false;

@@ -10,9 +10,9 @@
 
 #include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
-#include "trismooth/mesh_io/ply/plain_count.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 #include "trismooth/mesh_io/ply/scalar_column.h"
+#include "trismooth/mesh_io/text/plain_count.h"
 #include "trismooth/mesh_io/text/plain_list_rows.h"
 
 namespace trismooth {

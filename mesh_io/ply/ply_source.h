@@ -10,10 +10,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/binary_list_rows.h"
+#include "trismooth/mesh_io/bytes/binary_numbers.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/ply/ply_binary_list_rows.h"
-#include "trismooth/mesh_io/ply/ply_binary_numbers.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_list_rows.h"
@@ -176,7 +176,7 @@ class PlyBinarySource {
   bool at_row_end() const { return true; }
 
   bool reads_parts() const { return workers_.part_bytes != FileWorkers::serial; }
-  PlyBinaryNumbers plain_numbers() const { return {bytes_, offset_, swapped_}; }
+  BinaryNumbers plain_numbers() const { return {bytes_, offset_, swapped_}; }
 
   /// Reads `rows` rows of numbers of the `types`, for which there is room, as PlyTextSource does.
   template <class Body>
@@ -187,7 +187,7 @@ class PlyBinarySource {
     }
     std::size_t last_number = 0;  // set by the one block that holds the last row
     const bool plain = all_file_blocks(workers_, rows, row_bytes, [&](std::size_t first, std::size_t last) {
-      PlyBinaryNumbers numbers(bytes_, offset_ + first * row_bytes, swapped_);
+      BinaryNumbers numbers(bytes_, offset_ + first * row_bytes, swapped_);
       const bool read = body(numbers, first, last);
       if (last == rows) {
         last_number = numbers.token_offset();
@@ -200,8 +200,17 @@ class PlyBinarySource {
     return plain;
   }
 
-  PlyBinaryListRows find_plain_lists(const PlyElement& element, std::size_t list) const {
-    return {bytes_, offset_, swapped_, element, list, workers_};
+  BinaryListRows find_plain_lists(const PlyElement& element, std::size_t list) const {
+    BinaryListLayout layout{.rows = element.count,
+                            .length_type = *element.properties[list].count_type,
+                            .item_bytes = size_of(element.properties[list].type),
+                            .swapped = swapped_};
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      if (p != list) {
+        (p < list ? layout.bytes_before : layout.bytes_behind) += size_of(element.properties[p].type);
+      }
+    }
+    return {bytes_, offset_, layout, workers_};
   }
   void resume(const PlainRows::End& end) {
     number_offset_ = end.last_number;

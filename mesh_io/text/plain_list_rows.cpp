@@ -9,7 +9,6 @@ namespace {
 struct Counted {
   std::size_t rows = 0;
   std::size_t tokens = 0;
-  std::size_t end = 0;  ///< of the last row's line
 };
 
 /// Of text[begin, end), up to its row number `most`.
@@ -22,7 +21,6 @@ Counted count_rows(std::string_view text, std::size_t begin, std::size_t end, st
     if (const auto tokens = static_cast<std::size_t>(count_tokens(text, line, at)); tokens > 0) {
       ++counted.rows;
       counted.tokens += tokens;
-      counted.end = at;
     }
   }
   return counted;
@@ -50,7 +48,6 @@ PlainListRows::PlainListRows(std::string_view text, std::size_t offset, std::siz
       return;
     }
     parts_[part] = {row, row + counted.rows, item, item + counted.tokens - others};
-    end_ = counted.rows > 0 ? counted.end : end_;
     row = parts_[part].last;
     item = parts_[part].last_item;
   }

@@ -31,8 +31,8 @@ class PlainListRows {
   std::optional<std::size_t> items() const { return items_; }
 
   /// Calls body(numbers, part) for parts of the rows, in any order, on any worker: it reads these rows from `numbers`,
-  /// each up to the end of its line, and answers false where it cannot, or where there are more items than it should
-  /// find. Nothing where any part could not be read. Only where items() is known.
+  /// each up to the end of its line, and answers false where it cannot, and where there are more or fewer items than it
+  /// should find. Nothing where any part could not be read. Only where items() is known.
   template <class Body>
   std::optional<PlainRows::End> read(const Body& body) const {
     PlainRows::End end{};  // set by the one part that holds the last row
@@ -41,11 +41,11 @@ class PlainListRows {
       if (part.first == part.last) {
         return true;
       }
-      const bool is_last = part.last == rows_;
-      // Rows that are as many as the lines, each up to the end of a line, are a line each.
-      PlainNumbers numbers(text_.substr(0, is_last ? end_ : lines_.end(number)), lines_.begin(number));
+      // Rows that are as many as the lines, each up to the end of a line, with all items that the lines have room for,
+      // are a line each.
+      PlainNumbers numbers(text_, lines_.begin(number));
       const bool read = body(numbers, part);
-      if (is_last) {
+      if (part.last == rows_) {
         end = {numbers.token_offset(), numbers.offset()};
       }
       return read;
@@ -59,7 +59,6 @@ class PlainListRows {
   std::size_t rows_;
   std::vector<Part> parts_;
   std::optional<std::size_t> items_;
-  std::size_t end_ = 0;  ///< of the last row's line
 };
 
 }  // namespace trismooth

@@ -89,6 +89,48 @@ void add_off_samples(std::vector<Sample>& all) {
   add("two colour numbers", "OFF", " 1 2", mixed);
 }
 
+/// In the dialects of Geomview, whose faces count their colours, and of OpenMesh.
+void add_binary_off_samples(std::vector<Sample>& all) {
+  for (const bool big_endian : {true, false}) {
+    for (const std::string keyword : {"OFF", "STNOFF", "CNOFF", "NCOFF"}) {
+      for (const std::string change : {"none", "an index", "a colour", "a coordinate", "a degree", "the end"}) {
+        std::string data = keyword + " BINARY\n";
+        const auto put = [&](auto number) {
+          const std::string stored(reinterpret_cast<const char*>(&number), sizeof(number));
+          data += big_endian ? std::string(stored.rbegin(), stored.rend()) : stored;
+        };
+        const bool coloured = keyword.find('C') != std::string::npos;
+        put(std::uint32_t{9});
+        put(std::uint32_t{8});
+        put(std::uint32_t{0});
+        const int fields = keyword == "OFF" ? 0 : keyword == "STNOFF" ? 5 : 6;
+        for (int i = 0; i < 9; ++i) {
+          for (int j = 0; j < 3 + fields; ++j) {
+            put(i == 5 && j == 1 && change == "a coordinate" ? std::numeric_limits<float>::infinity()
+                                                             : static_cast<float>(10 * i + j));
+          }
+        }
+        for (std::uint32_t i = 0; i < 8; ++i) {
+          const std::uint32_t degree = i == 6 && change == "a degree" ? 2 : 3 + i % 3;
+          put(degree);
+          for (std::uint32_t corner = 0; corner < degree; ++corner) {
+            put(corner + (i == 6 && change == "an index" ? 7 : 0));
+          }
+          const std::uint32_t components = i == 6 && change == "a colour" ? 4 : coloured ? 3 : 0;
+          if (big_endian) {
+            put(components);
+          }
+          for (std::uint32_t j = 0; j < components; ++j) {
+            put(20 * i + j);
+          }
+        }
+        data.resize(data.size() - (change == "the end" ? 3 : 0));
+        all.push_back({"OFF: binary, " + keyword + ", changed: " + change, trismooth::off_codec, data});
+      }
+    }
+  }
+}
+
 void add_ply_samples(std::vector<Sample>& all) {
   const std::string head = "element vertex 9\nproperty double x\nproperty float y\nproperty double z\n";
   const std::string list = "element face 8\nproperty list uchar int vertex_indices\n";
@@ -148,6 +190,12 @@ void add_ply_samples(std::vector<Sample>& all) {
           put_scalars(i);
         }
         all.push_back({"PLY: binary", trismooth::ply_codec, data});
+        for (const std::string fewer : {"vertex 8", "face 7"}) {
+          const std::string declared = fewer == "face 7" ? "face 8" : "vertex 9";
+          std::string changed = data;
+          changed.replace(changed.find(declared), declared.size(), fewer);
+          all.push_back({"PLY: binary, " + fewer, trismooth::ply_codec, changed});
+        }
       }
     }
   }
@@ -265,6 +313,7 @@ std::vector<Sample> samples() {
   add_obj("comments alone", "# nothing\n\n");
   add_obj("nothing", "");
   add_off_samples(all);
+  add_binary_off_samples(all);
   add_ply_samples(all);
   add_stl_samples(all);
   for (const bool with_offsets : {false, true}) {

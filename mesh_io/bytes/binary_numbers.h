@@ -11,10 +11,10 @@ namespace trismooth {
 
 /// Reads numbers of either byte order, one behind the other, with the interface of PlainNumbers. Inline, since meshes
 /// hold millions of numbers. The bytes must outlive the reader.
-class PlyBinaryNumbers {
+class BinaryNumbers {
  public:
   /// Reads from `offset` on.
-  PlyBinaryNumbers(std::string_view bytes, std::size_t offset, bool swapped)
+  BinaryNumbers(std::string_view bytes, std::size_t offset, bool swapped)
       : bytes_(bytes), offset_(offset), number_offset_(offset), swapped_(swapped) {}
 
   /// The next number; false where the bytes end before.
