@@ -184,10 +184,7 @@ class BinaryOffReader {
       }
       return finite;
     });
-    if (plain) {
-      offset_ += vertex_count_ * vertex_bytes;
-      word_offset_ = offset_ - word_bytes;
-    }
+    offset_ += plain ? vertex_count_ * vertex_bytes : 0;
     return plain;
   }
 
@@ -296,10 +293,7 @@ class BinaryOffReader {
       }
       return true;
     });
-    if (end) {
-      word_offset_ = end->last_number;
-      offset_ = end->offset;
-    }
+    offset_ = end ? end->offset : offset_;
     return end.has_value();
   }
 

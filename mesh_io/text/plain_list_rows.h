@@ -31,7 +31,7 @@ class PlainListRows {
   std::optional<std::size_t> items() const { return items_; }
 
   /// Calls body(numbers, part) for parts of the rows, in any order, on any worker: it reads these rows from `numbers`,
-  /// each up to the end of its line, and answers false where it cannot, and where there are more or fewer items than it
+  /// each up to the end of its line, and answers false where it cannot, and where there would be more items than it
   /// should find. Nothing where any part could not be read. Only where items() is known.
   template <class Body>
   std::optional<PlainRows::End> read(const Body& body) const {
@@ -41,8 +41,8 @@ class PlainListRows {
       if (part.first == part.last) {
         return true;
       }
-      // Rows that are as many as the lines, each up to the end of a line, with all items that the lines have room for,
-      // are a line each.
+      // Rows that are as many as the lines, each up to the end of a line, with no more numbers than the lines, are a
+      // line each.
       PlainNumbers numbers(text_, lines_.begin(number));
       const bool read = body(numbers, part);
       if (part.last == rows_) {

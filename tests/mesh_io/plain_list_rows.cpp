@@ -81,7 +81,7 @@ std::optional<Lists> read(const std::string& text, std::size_t offset, std::size
         return false;
       }
     }
-    return item == part.last_item;
+    return true;
   });
   if (!found) {
     return std::nullopt;

@@ -349,7 +349,7 @@ TEST_CASE("files give the same document in parts of any size, and the same error
     }
     REQUIRE(reading(sample.bytes, FileWorkers(two, 16)) == expected);
     REQUIRE(reading(sample.bytes, FileWorkers(alone, FileWorkers::whole)) == expected);
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < 60; ++round) {
       std::string damaged = sample.bytes + (sample.bytes.empty() ? "x" : "");
       constexpr std::string_view characters = "#x-+.e\n \t\\/190nN\r\0\x7F";
       damaged[dice.below(damaged.size())] = characters[dice.below(characters.size())];
