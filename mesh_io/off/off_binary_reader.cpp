@@ -379,11 +379,14 @@ std::vector<Dialect> dialects_of(const OffKeyword& keyword) {
 std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
                                                          std::size_t begin, const OffKeyword& keyword,
                                                          const FileWorkers& workers) {
-  std::vector<Dialect> dialects = dialects_of(keyword);
   // The error that is told is that of a dialect whose counts fit, if there is one: the first of them.
-  std::stable_partition(dialects.begin(), dialects.end(), [&](const Dialect& dialect) {
-    return BinaryOffReader(path, bytes, begin, keyword, dialect, workers).has_likely_counts();
-  });
+  std::vector<Dialect> dialects;
+  std::vector<Dialect> others;
+  for (const Dialect& dialect : dialects_of(keyword)) {
+    const bool is_likely = BinaryOffReader(path, bytes, begin, keyword, dialect, workers).has_likely_counts();
+    (is_likely ? dialects : others).push_back(dialect);
+  }
+  dialects.insert(dialects.end(), others.begin(), others.end());
   std::optional<ReadError> first;
   for (const Dialect& dialect : dialects) {
     try {

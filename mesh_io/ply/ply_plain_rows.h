@@ -46,10 +46,14 @@ template <class Numbers>
 bool read_plain_indices(Numbers& numbers, ScalarType type, std::uint64_t vertices, std::span<std::int32_t> indices) {
   return visit_scalar_type(type, [&](auto value) {
     for (std::int32_t& index : indices) {
-      if (!numbers.next(value) || value < 0 || static_cast<std::uint64_t>(value) >= vertices) {
+      if (!numbers.next(value) || value < 0) {
         return false;
       }
-      index = static_cast<std::int32_t>(value);
+      const auto vertex = static_cast<std::uint64_t>(value);
+      if (vertex >= vertices) {
+        return false;
+      }
+      index = static_cast<std::int32_t>(vertex);
     }
     return true;
   });
@@ -171,7 +175,7 @@ class PlainFaceReader {
       return false;
     }
     make_room(element_.count, *rows.items());
-    const auto end = rows.read([this](auto& numbers, const PlainListRows::Part& part) {
+    const auto end = rows.read([&](auto& numbers, const PlainListRows::Part& part) {
       return read_part(numbers, part, {3, std::numeric_limits<std::int32_t>::max()});
     });
     if (end) {

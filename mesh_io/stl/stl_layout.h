@@ -8,10 +8,8 @@
 #include <cstring>
 #include <string_view>
 
-namespace trismooth {
-
 // Binary STL: a title, the number of facets, and of each facet a normal, three corners and an attribute.
-namespace stl_layout {
+namespace trismooth::stl_layout {
 
 inline constexpr std::size_t title_bytes = 80;
 inline constexpr std::size_t header_bytes = title_bytes + sizeof(std::uint32_t);
@@ -29,6 +27,4 @@ T number_at(std::string_view bytes, std::size_t offset) {
   return std::bit_cast<T>(stored);
 }
 
-}  // namespace stl_layout
-
-}  // namespace trismooth
+}  // namespace trismooth::stl_layout
