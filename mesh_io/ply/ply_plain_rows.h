@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "trismooth/base/cell_list.h"
@@ -45,17 +46,18 @@ bool read_plain_coordinate(Numbers& numbers, double& coordinate, std::uint64_t& 
 template <class Numbers>
 bool read_plain_indices(Numbers& numbers, ScalarType type, std::uint64_t vertices, std::span<std::int32_t> indices) {
   return visit_scalar_type(type, [&](auto value) {
-    for (std::int32_t& index : indices) {
-      if (!numbers.next(value) || value < 0) {
-        return false;
+    if constexpr (std::is_integral_v<decltype(value)>) {
+      for (std::int32_t& index : indices) {
+        const bool plain = numbers.next(value) && value >= 0;
+        const auto vertex = static_cast<std::make_unsigned_t<decltype(value)>>(value);
+        if (!plain || vertex >= vertices) {
+          return false;
+        }
+        index = static_cast<std::int32_t>(vertex);
       }
-      const auto vertex = static_cast<std::uint64_t>(value);
-      if (vertex >= vertices) {
-        return false;
-      }
-      index = static_cast<std::int32_t>(vertex);
+      return true;
     }
-    return true;
+    return false;
   });
 }
 

@@ -141,7 +141,7 @@ TEST_CASE("lists of any lengths are the same in parts of any size") {
         const std::size_t last = rows.find_last_of("0123456789");
         REQUIRE(end.last_number == in_front.size() + rows.find_last_of(" \t", last) + 1);
         REQUIRE(end.offset >= in_front.size() + last + 1);
-        REQUIRE(text.find_first_not_of(" ", end.offset) == rows.find_first_of("\r\n", last) + in_front.size());
+        REQUIRE(text.find_first_not_of(' ', end.offset) == rows.find_first_of("\r\n", last) + in_front.size());
       }
     }
   }
@@ -171,7 +171,7 @@ TEST_CASE("rows of lists that are not a line each, or not as long as they say, a
         text[at] = 'x';
         break;
       default:  // a row less
-        text.erase(text.find_last_of("\n", text.find_last_of("0123456789")) + 1);
+        text.erase(text.find_last_of('\n', text.find_last_of("0123456789")) + 1);
         break;
     }
     const std::optional<Lists> expected = read_lines(text, rows);
