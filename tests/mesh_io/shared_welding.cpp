@@ -60,5 +60,6 @@ TEST_CASE("corners are welded in shares as one welder does it, by any number of 
       check_as_one_welder(random_corners<float>(dice, count, values));
       check_as_one_welder(random_corners<double>(dice, count, values));
     }
+    check_as_one_welder(random_corners<float>(dice, 100'000, values));
   }
 }
