@@ -102,11 +102,12 @@ class Run {
     milliseconds += watch.milliseconds();
   }
 
-  /// A device starts while the file is read.
+  /// A device starts while the file is read, if that takes long enough to be worth a thread.
   void start_backend() {
     std::error_code no_size;
     const std::uintmax_t bytes = std::filesystem::file_size(options_.input, no_size);
-    if (const Backend* const backend = options_.smoothing.backend; backend != nullptr && options_.output && !no_size) {
+    const Backend* const backend = options_.smoothing.backend;
+    if (backend != nullptr && options_.output && !no_size && bytes >= bytes_worth_a_thread) {
       const auto vertices = static_cast<std::int64_t>(bytes / bytes_of_vertex);
       // Where the system refuses a thread this is put off for ever, which does no harm.
       starting_ =
@@ -399,6 +400,7 @@ class Run {
     return added;
   }
 
+  static constexpr std::uintmax_t bytes_worth_a_thread = std::uintmax_t{1} << 20;
   /// What a vertex and its two triangles take in a file, about.
   static constexpr std::uintmax_t bytes_of_vertex = 64;
 

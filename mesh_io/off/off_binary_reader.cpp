@@ -196,10 +196,9 @@ class BinaryOffReader {
   }
 
   void read_vertices_one_by_one(VertexFields& fields) {
-    auto& [normals, texture_coordinates, colours] = fields;
     const auto read_normal = [&] {
       for (int i = 0; keyword_.normals && i < 3; ++i) {
-        normals.push_back(real("a normal"));
+        fields.normals.push_back(real("a normal"));
       }
     };
     for (std::size_t vertex = 0; vertex < vertex_count_; ++vertex) {
@@ -213,12 +212,12 @@ class BinaryOffReader {
       if (!keyword_.colours_first) {
         read_normal();
       }
-      read_colour(colours, vertex, dialect_.vertex_colour);
+      read_colour(fields.colours, vertex, dialect_.vertex_colour);
       if (keyword_.colours_first) {
         read_normal();
       }
       for (int i = 0; keyword_.texture_coordinates && i < 2; ++i) {
-        texture_coordinates.push_back(real("texture coordinates"));
+        fields.texture_coordinates.push_back(real("texture coordinates"));
       }
     }
   }

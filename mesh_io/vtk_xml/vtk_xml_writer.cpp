@@ -307,9 +307,13 @@ void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const V
 
 void write_vtk_xml(const std::filesystem::path& path, vtkPointSet& data, const VtkXmlEncoding& encoding,
                    const XmlAttributes& attributes, const FileWorkers& workers) {
-  const std::size_t for_buffers = (std::size_t{2} << 20) * (1 + static_cast<std::size_t>(workers.workers.count()));
   constexpr std::size_t kibibyte = 1024;  // what VTK counts in
-  require_host_memory(data.GetActualMemorySize() * kibibyte + for_buffers);
+  constexpr std::size_t mebibyte = 1024 * kibibyte;
+  const std::size_t data_bytes = data.GetActualMemorySize() * kibibyte;
+  // Blocks of every worker, but no more of them than the data have.
+  const std::size_t for_buffers =
+      std::min(2 * mebibyte * (1 + static_cast<std::size_t>(workers.workers.count())), 4 * mebibyte + 3 * data_bytes);
+  require_host_memory(data_bytes + for_buffers);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
