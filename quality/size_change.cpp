@@ -40,71 +40,87 @@ void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<
   });
 }
 
-/// The ratios that are numbers, by their leading bits: they are not negative, so these stand in their order.
-class RatioCounts {
+/// Finds ratios by their rank among those that are numbers. These are not negative, so their bits stand in their order:
+/// they are counted by their first digits of 16 bits, those with the right ones by the next digit, and so on until few
+/// are left.
+class RatioRanks {
  public:
-  explicit RatioCounts(std::span<const double> ratios, Workers& workers) : ratios_(ratios), workers_(workers) {
-    for_parts([&](std::span<const double> part) {
-      std::vector<std::int64_t> counts(counts_.size());
-      for (const double ratio : part) {
-        if (!std::isnan(ratio)) {
-          ++counts[bits_of(ratio)];
-        }
-      }
-      const std::lock_guard lock(joining_);
-      std::ranges::transform(counts_, counts, counts_.begin(), std::plus<>());
-    });
-    total_ = std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
+  explicit RatioRanks(std::span<const double> ratios, Workers& workers)
+      : ratios_(ratios), workers_(workers), by_first_digit_(count_by_next_digit({0, 0})) {
+    total_ = std::accumulate(by_first_digit_.begin(), by_first_digit_.end(), std::int64_t{0});
   }
 
   std::int64_t total() const { return total_; }
 
-  /// The smallest ratios that `percents` per cent do not exceed. There is one.
-  std::array<double, 2> percentiles(const std::array<std::int64_t, 2>& percents) {
-    struct Wanted {
-      std::int64_t rank;  ///< among the candidates
-      std::size_t bits;   ///< of these
-      std::vector<double> candidates;
-    };
-    std::array<Wanted, 2> wanted;
-    std::ranges::transform(percents, wanted.begin(), [this](std::int64_t percent) {
-      std::int64_t rank = (total_ * percent + 99) / 100;
-      std::size_t bits = 0;
-      while (counts_[bits] < rank) {
-        rank -= counts_[bits++];
-      }
-      return Wanted{rank, bits, {}};
-    });
-    for_parts([&](std::span<const double> part) {
-      std::array<std::vector<double>, 2> found;
-      for (const double ratio : part) {
-        const std::size_t bits = bits_of(ratio);
-        if (bits == wanted[0].bits || bits == wanted[1].bits) {
-          found[bits == wanted[0].bits ? 0 : 1].push_back(ratio);
-        }
-      }
-      const std::lock_guard lock(joining_);
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        wanted[i].candidates.insert(wanted[i].candidates.end(), found[i].begin(), found[i].end());
-      }
-    });
-    if (wanted[0].bits == wanted[1].bits) {
-      wanted[1].candidates = wanted[0].candidates;
+  /// The smallest ratio that `percent` per cent do not exceed. There is one.
+  double percentile(std::int64_t percent) {
+    std::int64_t rank = (total_ * percent + 99) / 100;
+    Prefix prefix{0, 0};
+    std::int64_t count = descend(by_first_digit_, rank, prefix);
+    while (count > most_candidates && prefix.bits < 64) {
+      count = descend(count_by_next_digit(prefix), rank, prefix);
     }
-    std::array<double, 2> found;
-    std::ranges::transform(wanted, found.begin(), [](Wanted& of) {
-      const auto place = of.candidates.begin() + static_cast<std::ptrdiff_t>(of.rank - 1);
-      std::nth_element(of.candidates.begin(), place, of.candidates.end());
-      return *place;
-    });
-    return found;
+    if (prefix.bits == 64) {
+      return std::bit_cast<double>(prefix.value);
+    }
+    std::vector<double> candidates = those_with(prefix);
+    const auto place = candidates.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+    std::nth_element(candidates.begin(), place, candidates.end());
+    return *place;
   }
 
  private:
   static constexpr std::int64_t grain = 65536;
-  static constexpr int leading_bits = 16;  // sign, exponent and four more: 16 steps an octave
+  static constexpr int digit_bits = 16;  // of the first one: sign, exponent and 16 steps an octave
+  static constexpr std::int64_t most_candidates = std::int64_t{1} << 17;
 
-  static std::size_t bits_of(double ratio) { return std::bit_cast<std::uint64_t>(ratio) >> (64U - leading_bits); }
+  /// The leading bits of a number.
+  struct Prefix {
+    std::uint64_t value;
+    int bits;
+
+    bool is_of(double ratio) const { return bits == 0 || std::bit_cast<std::uint64_t>(ratio) >> (64 - bits) == value; }
+  };
+
+  /// How many ratios with that prefix have each next digit.
+  std::vector<std::int64_t> count_by_next_digit(Prefix prefix) {
+    const int shift = 64 - prefix.bits - digit_bits;
+    std::vector<std::int64_t> counts(std::size_t{1} << digit_bits);
+    for_parts([&](std::span<const double> part) {
+      std::vector<std::int64_t> own(counts.size());
+      for (const double ratio : part) {
+        if (!std::isnan(ratio) && prefix.is_of(ratio)) {
+          ++own[std::bit_cast<std::uint64_t>(ratio) >> shift & (counts.size() - 1)];
+        }
+      }
+      const std::lock_guard lock(joining_);
+      std::ranges::transform(counts, own, counts.begin(), std::plus<>());
+    });
+    return counts;
+  }
+
+  /// Appends to the prefix the digit of the ratio with that rank, which becomes the rank among those with this prefix.
+  /// Returns how many these are.
+  static std::int64_t descend(const std::vector<std::int64_t>& counts, std::int64_t& rank, Prefix& prefix) {
+    std::size_t digit = 0;
+    while (counts[digit] < rank) {
+      rank -= counts[digit++];
+    }
+    prefix = {prefix.value << digit_bits | digit, prefix.bits + digit_bits};
+    return counts[digit];
+  }
+
+  std::vector<double> those_with(Prefix prefix) {
+    std::vector<double> all;
+    for_parts([&](std::span<const double> part) {
+      std::vector<double> own;
+      std::ranges::copy_if(part, std::back_inserter(own),
+                           [&](double ratio) { return !std::isnan(ratio) && prefix.is_of(ratio); });
+      const std::lock_guard lock(joining_);
+      all.insert(all.end(), own.begin(), own.end());
+    });
+    return all;
+  }
 
   template <class Body>
   void for_parts(const Body& body) {
@@ -116,7 +132,7 @@ class RatioCounts {
   std::span<const double> ratios_;
   Workers& workers_;
   std::mutex joining_;
-  std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(std::size_t{1} << leading_bits);
+  std::vector<std::int64_t> by_first_digit_;
   std::int64_t total_ = 0;
 };
 
@@ -147,9 +163,9 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
       }
     }
   });
-  RatioCounts counts(ratios, workers);
+  RatioRanks ranks(ratios, workers);
   SizeChange change;
-  change.triangles = counts.total();
+  change.triangles = ranks.total();
   change.left_out = static_cast<std::int64_t>(count) - change.triangles;
   if (change.triangles == 0) {
     change.rms_log_ratio = change.ratio_p1 = change.ratio_p99 = no_number;
@@ -157,9 +173,8 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
   }
   change.rms_log_ratio =
       std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(change.triangles));
-  const auto [p1, p99] = counts.percentiles({1, 99});
-  change.ratio_p1 = p1;
-  change.ratio_p99 = p99;
+  change.ratio_p1 = ranks.percentile(1);
+  change.ratio_p99 = ranks.percentile(99);
   return change;
 }
 

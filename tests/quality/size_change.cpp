@@ -63,6 +63,22 @@ TEST_CASE("percentiles of sizes are the values that 1 and 99 of a hundred do not
   CHECK(change.ratio_p99 == 99 * hundreds);
 }
 
+TEST_CASE("percentiles of sizes are exact where nearly all sizes are as they were") {
+  // Steps of one unit in the last place of the ratio; of 0: all are equal.
+  const double step = GENERATE(0, 0x1p-52, 0x1p-40, 0x1p-30);
+  const int threads = GENERATE(1, 3);
+  CAPTURE(step, threads);
+  constexpr int hundreds = 4000;
+  std::vector<double> after(std::size_t{100} * hundreds);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    after[i] = 1 + step * static_cast<double>(i * 7919 % after.size());  // every i once
+  }
+  const SizeChange change = size_change(view_of(triangles_of_areas(std::vector<double>(after.size(), 1))),
+                                        view_of(triangles_of_areas(after)), threads);
+  CHECK(change.ratio_p1 == 1 + step * (hundreds - 1));
+  CHECK(change.ratio_p99 == 1 + step * (99 * hundreds - 1));
+}
+
 TEST_CASE("triangles that are inverted or degenerate on one side are left out of the change of sizes") {
   const SizeChange change = size_change(view_of(triangles_of_areas({1, -1, 0, 1, 1, -1, 0})),
                                         view_of(triangles_of_areas({3, 1, 1, -1, 0, -1, 0})));
