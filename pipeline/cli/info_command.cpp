@@ -2,11 +2,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "trismooth/base/instruction_set.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_support.h"
@@ -75,7 +75,7 @@ std::string missing_formats() {
 
 ExitCode run_info(const CommandEnvironment& environment) {
   const CudaSupport cuda = environment.cuda();
-  const unsigned threads = std::thread::hardware_concurrency();
+  const int threads = Workers(0).count();
   environment.out << "trismooth " << version() << '\n'
                   << labelled_line("formats:", format_list() + " (all are read and written" + missing_formats() + ")")
                   << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
