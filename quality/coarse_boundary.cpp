@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/digits.h"
@@ -31,6 +32,11 @@ struct BoundaryEdge {
 struct Spoke {
   std::int32_t apex;
   std::int32_t end;
+  double length;
+
+  bool operator<(const Spoke& other) const {
+    return std::tie(apex, length, end) < std::tie(other.apex, other.length, other.end);
+  }
 };
 
 class BoundarySearch {
@@ -112,29 +118,41 @@ class BoundarySearch {
       const Triangle corners = canonical_corners(view_, t);
       for (std::size_t i = 0; i < 3; ++i) {
         if (is_apex[static_cast<std::size_t>(corners[i])] != 0) {
-          found.push_back({corners[i], corners[(i + 1) % 3]});
+          found.push_back(spoke(corners[i], corners[(i + 1) % 3]));
         }
       }
     });
-    std::ranges::sort(spokes_, {}, &Spoke::apex);
+    std::sort(spokes_.begin(), spokes_.end());
   }
 
-  /// How many times longer the edge is than what lies behind it; 0 where that is nothing.
+  Spoke spoke(std::int32_t apex, std::int32_t end) const { return {apex, end, length(apex, end)}; }
+
+  /// How many times longer the edge is than the median of what lies behind it; 0 where that is nothing. Takes the time
+  /// of a search, however many edges an apex has.
   double ratio(const BoundaryEdge& edge) const {
-    const auto begin = std::ranges::lower_bound(spokes_, edge.apex, {}, &Spoke::apex);
-    const auto end = std::ranges::upper_bound(spokes_, edge.apex, {}, &Spoke::apex);
-    std::vector<double> behind;
-    for (auto spoke = begin; spoke != end; ++spoke) {
-      if (spoke->end != edge.low && spoke->end != edge.high) {
-        behind.push_back(length(spoke->apex, spoke->end));
+    const auto of_apex = std::ranges::equal_range(spokes_, edge.apex, {}, &Spoke::apex);
+    // Those to the edge's ends do not lie behind it.
+    std::array<std::ptrdiff_t, 2> left_out{};
+    std::ptrdiff_t count = 0;
+    for (const std::int32_t end : {edge.low, edge.high}) {
+      const auto place = std::lower_bound(of_apex.begin(), of_apex.end(), spoke(edge.apex, end));
+      if (place != of_apex.end() && place->end == end) {
+        left_out[static_cast<std::size_t>(count++)] = place - of_apex.begin();
       }
     }
-    if (behind.empty()) {
+    const std::ptrdiff_t behind = std::ssize(of_apex) - count;
+    if (behind <= 0) {
       return 0;
     }
-    const auto median = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
-    std::nth_element(behind.begin(), median, behind.end());
-    return *median > 0 ? length(edge.low, edge.high) / *median : 0;
+    if (count == 2 && left_out[1] < left_out[0]) {
+      std::swap(left_out[0], left_out[1]);
+    }
+    std::ptrdiff_t median = behind / 2;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      median += left_out[static_cast<std::size_t>(i)] <= median ? 1 : 0;
+    }
+    const double median_length = of_apex[static_cast<std::size_t>(median)].length;
+    return median_length > 0 ? length(edge.low, edge.high) / median_length : 0;
   }
 
   /// Gives each boundary vertex the curve that it is on.
@@ -193,7 +211,7 @@ class BoundarySearch {
   std::span<const std::uint8_t> held_;
   Workers workers_;
   std::vector<BoundaryEdge> edges_;     ///< of the boundary
-  std::vector<Spoke> spokes_;           ///< by apex
+  std::vector<Spoke> spokes_;           ///< by apex, and by length
   std::vector<std::int32_t> vertices_;  ///< of the boundary, ascending
   std::vector<std::size_t> curve_;      ///< of each of them: a forest of indices; a root stands for its curve
 };

@@ -38,7 +38,12 @@ std::optional<PlainRows::End> PlainRows::read_parts(std::size_t offset, std::siz
   }
   const std::size_t part_bytes = workers_.part_bytes;
   const std::size_t first_part = offset / part_bytes;
-  const std::uint64_t before = tokens_before_[first_part] + count_tokens(text_, first_part * part_bytes, offset);
+  // Sections may be many and small: nothing is counted for each of them again.
+  const std::size_t part_begin = first_part * part_bytes;
+  const bool goes_on = counted_.offset >= part_begin && counted_.offset <= offset;
+  counted_ = {offset, goes_on ? counted_.tokens + count_tokens(text_, counted_.offset, offset)
+                              : tokens_before_[first_part] + count_tokens(text_, part_begin, offset)};
+  const std::uint64_t before = counted_.tokens;
   if ((tokens_before_.back() - before) / columns < rows) {
     return std::nullopt;
   }

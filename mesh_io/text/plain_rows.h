@@ -57,6 +57,13 @@ class PlainRows {
 
   std::string_view text_;
   FileWorkers workers_;
+  /// How many tokens begin before an offset.
+  struct Counted {
+    std::size_t offset;
+    std::uint64_t tokens;
+  };
+
+  Counted counted_{0, 0};                     ///< where the last section began
   std::vector<std::uint64_t> tokens_before_;  ///< each part of the text, and all of it; empty before the first use
 };
 

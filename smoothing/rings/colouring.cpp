@@ -100,7 +100,8 @@ Attempt colour_of(std::int32_t vertex, const RingView& rings, std::span<std::int
 }
 
 /// Colours vertices of the range [first, last], which nobody else does, and before each of them those of the range for
-/// which it has to wait. A vertex that waits for another one, or for a long chain, is left.
+/// which it has to wait. A vertex that waits for another one, or for a long chain, is left; and one of very many
+/// neighbours, since whoever waits looks at all of them again.
 class RangeColouring {
  public:
   RangeColouring(const RingView& rings, const Ranks& ranks, std::span<std::int32_t> colours, std::int32_t first,
@@ -119,7 +120,8 @@ class RangeColouring {
       });
       if (colour != uncoloured) {
         std::atomic_ref(colours_[chain_[--length]]).store(colour, std::memory_order_relaxed);
-      } else if (awaited >= first_ && awaited <= last_ && length < chain_.size()) {
+      } else if (awaited >= first_ && awaited <= last_ && length < chain_.size() &&
+                 rings_[chain_[length - 1]].size() <= most_neighbours) {
         chain_[length++] = awaited;
       } else {
         return false;
@@ -129,6 +131,8 @@ class RangeColouring {
   }
 
  private:
+  static constexpr std::size_t most_neighbours = 32;
+
   const RingView& rings_;
   const Ranks& ranks_;
   std::span<std::int32_t> colours_;

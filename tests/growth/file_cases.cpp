@@ -77,6 +77,11 @@ std::string chain_off(int length) {
   return off_of(hostile_meshes::chain(length));
 }
 
+/// One free vertex opposite of every edge of the boundary.
+std::string star_off(int size) {
+  return off_of(test_meshes::star(size));
+}
+
 /// The chain in another format, as this program writes it.
 GrowthCase chain_in(const std::string& format) {
   return {"a chain of vertices: " + format + " to " + format, 100, [=](int count, const ScratchFolder& folder) {
@@ -308,6 +313,7 @@ std::vector<GrowthCase> file_cases() {
   }
   cases.push_back(file("point arrays", 100, "vtu", "vtu", &vtu_distinct_point_arrays));
   cases.insert(cases.end(), {
+                                file("a fan of one vertex", 300, "off", "off", &star_off),
                                 file("field arrays", 300, "vtu", "vtu", &vtu_fields),
                                 told_of("arrays of strings", 100, "vtk", &vtk_strings),
                                 file("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),

@@ -89,7 +89,7 @@ GrowthCase rounds_of_the_guard() {
 std::vector<GrowthCase> flat_array_cases() {
   return {
       flat("a chain against the order of the colours", 1100, &hostile_meshes::chain),
-      flat("a hub of free neighbours", 500, &hostile_meshes::wheel),
+      flat("a hub of free neighbours", 2500, &hostile_meshes::wheel),
       flat("a vertex of many fans", 500, &hostile_meshes::windmill),
       flat("an edge of many triangles", 500, &hostile_meshes::book),
       flat("a strip listed from both ends", 500, &strip_from_both_ends),
