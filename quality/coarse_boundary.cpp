@@ -7,6 +7,7 @@
 #include <iterator>
 #include <mutex>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -130,13 +131,15 @@ class BoundarySearch {
   /// How many times longer the edge is than the median of what lies behind it; 0 where that is nothing. Takes the time
   /// of a search, however many edges an apex has.
   double ratio(const BoundaryEdge& edge) const {
-    const auto of_apex = std::ranges::equal_range(spokes_, edge.apex, {}, &Spoke::apex);
+    const auto begin = std::ranges::lower_bound(spokes_, edge.apex, {}, &Spoke::apex);
+    const auto end = std::ranges::upper_bound(spokes_, edge.apex, {}, &Spoke::apex);
+    const std::span<const Spoke> of_apex(begin, end);
     // Those to the edge's ends do not lie behind it.
     std::array<std::ptrdiff_t, 2> left_out{};
     std::ptrdiff_t count = 0;
-    for (const std::int32_t end : {edge.low, edge.high}) {
-      const auto place = std::lower_bound(of_apex.begin(), of_apex.end(), spoke(edge.apex, end));
-      if (place != of_apex.end() && place->end == end) {
+    for (const std::int32_t corner : {edge.low, edge.high}) {
+      const auto place = std::lower_bound(of_apex.begin(), of_apex.end(), spoke(edge.apex, corner));
+      if (place != of_apex.end() && place->end == corner) {
         left_out[static_cast<std::size_t>(count++)] = place - of_apex.begin();
       }
     }
