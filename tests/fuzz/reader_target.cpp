@@ -33,7 +33,6 @@ using trismooth::FileFormat;
 using trismooth::MeshDocument;
 using trismooth::ReadError;
 using trismooth::WriteError;
-namespace fs = std::filesystem;
 
 namespace {
 

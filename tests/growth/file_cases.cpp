@@ -41,7 +41,8 @@ void run_tool(Words words) {
 }
 
 /// Smooths a file with the bytes make(size), named `input`, to one named `output`.
-GrowthCase file(std::string name, int size, std::string input, std::string output, std::string (*make)(int)) {
+GrowthCase file(const std::string& name, int size, const std::string& input, const std::string& output,
+                std::string (*make)(int)) {
   return {name + ": " + input + " to " + output, size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
             const std::string to = folder / ("out." + output);
@@ -50,7 +51,7 @@ GrowthCase file(std::string name, int size, std::string input, std::string outpu
 }
 
 /// The same, with a file that has much to be said of, and everything that says it.
-GrowthCase told_of(std::string name, int size, std::string input, std::string (*make)(int)) {
+GrowthCase told_of(const std::string& name, int size, const std::string& input, std::string (*make)(int)) {
   return {name + ": " + input + " to reports", size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
             const std::string to = folder / "out.off";

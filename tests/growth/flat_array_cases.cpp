@@ -71,7 +71,7 @@ GrowthCase rounds_of_the_guard() {
             auto after = mesh->points;
             after[static_cast<std::size_t>(columns) + 1].y = 1;
             for (int i = 2; i + 1 < columns; ++i) {
-              after[static_cast<std::size_t>(columns + i)].x += 1.5;
+              after[static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)].x += 1.5;
             }
             return [mesh, after] {
               trismooth::Workers workers(1);
