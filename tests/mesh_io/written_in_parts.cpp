@@ -135,7 +135,7 @@ TEST_CASE("a mesh is written in the same bytes by every number of threads, in pa
     const MeshDocument document = documents.make(points, 2 * points);
     const std::string whole = bytes_written(*each.codec, document, FileWorkers(alone, FileWorkers::whole));
     CHECK((bytes_written(*each.codec, document, FileWorkers(workers)) == whole));
-    for (const std::size_t part_bytes : {std::size_t{0}, std::size_t{1}, std::size_t{64}, std::size_t{1 + points * 8},
+    for (const std::size_t part_bytes : {std::size_t{0}, std::size_t{1}, std::size_t{64}, 1 + points * 8,
                                          std::size_t{300}, FileWorkers::default_part_bytes}) {
       CAPTURE(points, part_bytes);
       CHECK((bytes_written(*each.codec, document, FileWorkers(workers, part_bytes)) == whole));
