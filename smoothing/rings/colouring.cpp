@@ -100,8 +100,8 @@ Attempt colour_of(std::int32_t vertex, const RingView& rings, std::span<std::int
 }
 
 /// Colours vertices of the range [first, last], which nobody else does, and before each of them those of the range for
-/// which it has to wait. A vertex that waits for another one, or for a long chain, is left; and one of very many
-/// neighbours, since whoever waits looks at all of them again.
+/// which it has to wait. A vertex that waits for another one, or for a long chain, is left. Vertices of very many
+/// neighbours neither wait here nor are waited for: every time all of their neighbours would be looked at again.
 class RangeColouring {
  public:
   RangeColouring(const RingView& rings, const Ranks& ranks, std::span<std::int32_t> colours, std::int32_t first,
@@ -121,7 +121,7 @@ class RangeColouring {
       if (colour != uncoloured) {
         std::atomic_ref(colours_[chain_[--length]]).store(colour, std::memory_order_relaxed);
       } else if (awaited >= first_ && awaited <= last_ && length < chain_.size() &&
-                 rings_[chain_[length - 1]].size() <= most_neighbours) {
+                 has_few_neighbours(chain_[length - 1]) && has_few_neighbours(awaited)) {
         chain_[length++] = awaited;
       } else {
         return false;
@@ -131,7 +131,10 @@ class RangeColouring {
   }
 
  private:
-  static constexpr std::size_t most_neighbours = 32;
+  bool has_few_neighbours(std::int32_t vertex) const {
+    constexpr std::size_t few = 32;
+    return rings_[vertex].size() <= few;
+  }
 
   const RingView& rings_;
   const Ranks& ranks_;
