@@ -123,10 +123,11 @@ class Terminal(bench_tool.BenchTest):
         return text
 
     def test_a_bar_shows_on_a_terminal_and_is_gone_in_the_end(self):
-        process, end = self.start_on_terminal("--sizes", "20K", "--versions", "serial,cpu", "--runs", "3")
+        # A run takes longer than the tenth of a second from one look of the bar to the next.
+        process, end = self.start_on_terminal("--sizes", "100K", "--versions", "serial,cpu", "--runs", "3")
         text = self.shown(end)
         self.assertEqual(process.wait(), DONE)
-        self.assertRegex(text, rb"\[#+-*\] \d+ %  20K: \w.*Form [AB], run \d of 3")
+        self.assertRegex(text, rb"\[#+-*\] \d+ %  100K: \w.*Form [AB], run \d of 3")
         self.assertTrue(text.endswith(b"\r\x1b[K"), text[-200:])
         drawn = [line for line in text.split(b"\r\x1b[K") if line]
         self.assertLess(max(map(len, drawn)), 80)  # a longer one would wrap and leave remains
