@@ -7,7 +7,7 @@
 
 namespace trismooth {
 
-/// The next number of PlainNumbers or PlyBinaryNumbers, of an integer type; negative where it is of another type,
+/// The next number of PlainNumbers or BinaryNumbers, of an integer type; negative where it is of another type,
 /// cannot be read, or is not from 0 to 2^63 - 1.
 template <class Numbers>
 std::int64_t next_plain_count(Numbers& numbers, ScalarType type) {
