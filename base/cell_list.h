@@ -17,10 +17,67 @@ inline constexpr std::uint8_t triangle = 5;
 inline constexpr std::uint8_t triangle_strip = 6;
 inline constexpr std::uint8_t polygon = 7;
 inline constexpr std::uint8_t quad = 9;
+inline constexpr std::uint8_t tetrahedron = 10;
+inline constexpr std::uint8_t hexahedron = 12;
+inline constexpr std::uint8_t wedge = 13;
+inline constexpr std::uint8_t pyramid = 14;
+inline constexpr std::uint8_t quadratic_edge = 21;
+inline constexpr std::uint8_t quadratic_triangle = 22;  ///< three corners, then the middles of 01, 12 and 20
+inline constexpr std::uint8_t quadratic_quad = 23;
+inline constexpr std::uint8_t quadratic_tetrahedron = 24;
+inline constexpr std::uint8_t quadratic_hexahedron = 25;
+inline constexpr std::uint8_t quadratic_wedge = 26;
+inline constexpr std::uint8_t quadratic_pyramid = 27;
+inline constexpr std::uint8_t biquadratic_quad = 28;
+inline constexpr std::uint8_t triquadratic_hexahedron = 29;
+inline constexpr std::uint8_t biquadratic_quadratic_wedge = 32;
+inline constexpr std::uint8_t cubic_line = 35;
+inline constexpr std::uint8_t convex_point_set = 41;
+inline constexpr std::uint8_t lagrange_curve = 68;
+inline constexpr std::uint8_t lagrange_triangle = 69;
+inline constexpr std::uint8_t lagrange_quad = 70;
+inline constexpr std::uint8_t lagrange_tetrahedron = 71;
+inline constexpr std::uint8_t lagrange_hexahedron = 72;
+inline constexpr std::uint8_t lagrange_wedge = 73;
+inline constexpr std::uint8_t lagrange_pyramid = 74;
 
 /// The type of a face of that many vertices, three or more.
 constexpr std::uint8_t of_face(std::size_t vertices) {
   return vertices == 3 ? triangle : vertices == 4 ? quad : polygon;
+}
+
+/// 0 for points, 1 for lines and curves, 2 for faces, 3 for solids and for types that are not known.
+constexpr int dimension(std::uint8_t type) {
+  switch (type) {
+    case vertex:
+    case poly_vertex:
+      return 0;
+    case line:
+    case poly_line:
+    case quadratic_edge:
+    case cubic_line:
+    case lagrange_curve:
+    case 75:  // Bezier curve
+      return 1;
+    case triangle:
+    case triangle_strip:
+    case polygon:
+    case 8:  // pixel
+    case quad:
+    case quadratic_triangle:
+    case quadratic_quad:
+    case biquadratic_quad:
+    case 30:  // quadratic linear quad
+    case 34:  // biquadratic triangle
+    case 36:  // quadratic polygon
+    case lagrange_triangle:
+    case lagrange_quad:
+    case 76:  // Bezier triangle
+    case 77:  // Bezier quad
+      return 2;
+    default:
+      return 3;
+  }
 }
 }  // namespace cell_type
 

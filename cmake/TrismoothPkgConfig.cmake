@@ -32,10 +32,10 @@ trismooth_pkg_config(base "Points, arrays as views and errors of trismooth" FLAG
 trismooth_pkg_config(quality "Quality of planar triangle meshes" REQUIRES trismooth-base)
 trismooth_pkg_config(smoothing "Smart Laplacian smoothing of planar triangle meshes" REQUIRES trismooth-quality)
 if(TRISMOOTH_MESH_IO)
-  set(requires)
+  set(requires zlib)
   set(libraries)
   if(TRISMOOTH_VTK)
-    set(requires expat)
+    list(APPEND requires expat)
     get_target_property(linked trismooth_mesh_io LINK_LIBRARIES)
     foreach(library IN LISTS linked)
       # VTK::IOXML is the file libvtkIOXML-9.1.so.

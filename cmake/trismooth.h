@@ -25,6 +25,7 @@
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #endif
 #if __has_include("trismooth/mesh_io/halfedge/smooth_mesh.h") && \
     __has_include(<OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>) && __has_include(<Eigen/Core>)

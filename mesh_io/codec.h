@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct Codec {
   void (*write_shared)(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
   /// What the format cannot hold of the document, one sentence each.
   std::vector<std::string> (*what_is_lost)(const MeshDocument& document);
+  /// Whether a file with these bytes is one of the format and of no other, from its first lines or bytes: linear in
+  /// them. Null for formats whose files do not show what they are.
+  bool (*recognises)(std::string_view bytes) = nullptr;
+
+  /// Of formats whose meshes are two files: the other file of the one at `path`, for which readers look beside it.
+  /// Writers, and the original, write the one that the extension of their path names. Throws WriteError for a path that
+  /// names neither. Null for other formats.
+  std::filesystem::path (*partner_of)(const std::filesystem::path& path) = nullptr;
 
   /// read_shared() on this thread alone.
   MeshDocument read(const std::filesystem::path& path, FileBytes bytes) const {
@@ -34,6 +43,9 @@ struct Codec {
   }
 };
 
+/// The codec of an available format.
+const Codec& codec_of(FileFormat format);
+
 /// One codec a format, each in a source file of its name.
 extern const Codec off_codec;
 extern const Codec obj_codec;
@@ -42,5 +54,14 @@ extern const Codec stl_codec;
 extern const Codec vtk_legacy_codec;
 extern const Codec vtu_codec;
 extern const Codec vtp_codec;
+extern const Codec medit_codec;
+extern const Codec su2_codec;
+extern const Codec inp_codec;
+extern const Codec adcirc_codec;
+extern const Codec freefem_codec;
+extern const Codec sms_codec;
+extern const Codec mfem_codec;
+extern const Codec triangle_codec;
+extern const Codec msh_codec;
 
 }  // namespace trismooth

@@ -57,14 +57,24 @@ struct ArrayInformation {
   bool operator==(const ArrayInformation&) const = default;
 };
 
+/// What a file calls a value of an array: physical groups of Gmsh, markers of SU2, element sets.
+struct ValueName {
+  std::int64_t value = 0;
+  int dimension = 2;  ///< of the cells that have the value under this name: 0 points, 1 lines, 2 faces, 3 solids
+  std::string name;
+
+  bool operator==(const ValueName&) const = default;
+};
+
 /// What a file says of an array beside its name and numbers.
 struct ArrayDescription {
   std::vector<std::string> component_names;   ///< one a component, empty for those without; none where no one has one
   std::vector<ArrayInformation> information;  ///< in the file's order
-  std::vector<std::string> roles;             ///< in which it is the active one of its kind: "Scalars", "Vectors", ...
+  std::vector<ValueName> value_names;  ///< of an array of whole numbers, one for each dimension and value at most
+  std::vector<std::string> roles;      ///< in which it is the active one of its kind: "Scalars", "Vectors", ...
 
   /// Whether there is nothing to say.
-  bool empty() const { return component_names.empty() && information.empty() && roles.empty(); }
+  bool empty() const { return component_names.empty() && information.empty() && value_names.empty() && roles.empty(); }
   bool operator==(const ArrayDescription&) const = default;
 };
 

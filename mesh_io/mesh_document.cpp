@@ -4,6 +4,10 @@
 
 namespace trismooth {
 
+bool OriginalFile::keeps_values_of(std::string_view /*point_array*/) const {
+  return false;
+}
+
 void OriginalFile::write(const std::filesystem::path& path, const MeshDocument& document,
                          std::span<const DataArray> added_point_arrays,
                          std::span<const DataArray> added_cell_arrays) const {

@@ -5,12 +5,14 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/label_array.h"
+#include "trismooth/mesh_io/number_form.h"
 
 namespace trismooth {
 
@@ -34,9 +36,21 @@ class OriginalFile {
                      std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
                      Workers& workers) const = 0;
 
-  /// The same on this thread alone.
+  /// Whether write() takes the values of that point array from the document, where they differ from those that were
+  /// read; else it writes those that were read. Only arrays of floating point.
+  virtual bool keeps_values_of(std::string_view point_array) const;
+
+  /// The same as write() on this thread alone.
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays) const;
+};
+
+/// Points or cells that a file names together.
+struct NamedSet {
+  std::string name;
+  std::vector<std::int32_t> members;  ///< from 0; a file may name one more than once
+
+  bool operator==(const NamedSet&) const = default;
 };
 
 /// A mesh as its file states it: every point, cell and array in the file's order, nothing interpreted. Readers
@@ -52,9 +66,17 @@ struct MeshDocument {
   std::vector<DataArray> cell_arrays;   ///< a row for every cell
   std::vector<LabelArray> cell_labels;  ///< arrays of a text for every cell; the original alone keeps them
   std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
-  std::vector<std::string> notes;       ///< what the reader has to say about the file, one sentence each: among them
-                                        ///< what only a file of the same format keeps
-  std::vector<std::string> losses;      ///< what no file that is written from it gets, one sentence each
+  std::vector<NamedSet> point_sets;     ///< in the file's order: corners of Medit, NSETs of Abaqus, open boundaries
+  std::vector<NamedSet> cell_sets;      ///< in the file's order; they may overlap
+  /// Point arrays that say something of a place, not of a vertex (depths): where vertices move, values follow the mesh.
+  std::vector<std::string> arrays_of_places;
+  /// Characters that the file gives a coordinate at most; 0: any number. What is stored of one that moves is the
+  /// nearest number that fits.
+  std::size_t most_coordinate_characters = 0;
+  NumberForm coordinate_form = NumberForm::usual;  ///< of those characters
+  std::vector<std::string> notes;   ///< what the reader has to say about the file, one sentence each: among them
+                                    ///< what only a file of the same format keeps
+  std::vector<std::string> losses;  ///< what no file that is written from it gets, one sentence each
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
   /// Points.

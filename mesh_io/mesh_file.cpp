@@ -1,24 +1,25 @@
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/mesh_io/bytes/compressed_file.h"
-#include "trismooth/mesh_io/bytes/file_bytes.h"
-#include "trismooth/mesh_io/bytes/output_file.h"
+#include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/format_choice.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_support.h"
 
 namespace trismooth {
-
-namespace {
 
 const Codec& codec_of(FileFormat format) {
   switch (format) {
@@ -32,6 +33,24 @@ const Codec& codec_of(FileFormat format) {
       return stl_codec;
     case FileFormat::vtk:
       return vtk_legacy_codec;
+    case FileFormat::medit:
+      return medit_codec;
+    case FileFormat::su2:
+      return su2_codec;
+    case FileFormat::inp:
+      return inp_codec;
+    case FileFormat::adcirc:
+      return adcirc_codec;
+    case FileFormat::freefem:
+      return freefem_codec;
+    case FileFormat::sms:
+      return sms_codec;
+    case FileFormat::mfem:
+      return mfem_codec;
+    case FileFormat::triangle:
+      return triangle_codec;
+    case FileFormat::msh:
+      return msh_codec;
     case FileFormat::vtu:
     case FileFormat::vtp:
       break;
@@ -39,14 +58,7 @@ const Codec& codec_of(FileFormat format) {
   return vtk_xml_codec(format);
 }
 
-std::string unknown_extension(const std::filesystem::path& path) {
-  return "the extension '" + path.extension().string() + "' names no format; known are " + format_list();
-}
-
-std::string describe_unavailable(FileFormat format) {
-  return "this program was built without VTK, which ." + std::string(to_string(format)) + " needs; available are " +
-         format_list();
-}
+namespace {
 
 /// Formats state the rows of arrays by the counts of points and cells.
 void require_rows(const std::filesystem::path& path, std::span<const DataArray> arrays, std::size_t rows,
@@ -82,6 +94,18 @@ std::string describe_strips(const MeshDocument& document, const MeshDocument& ex
          " written as " + std::to_string(triangles) + (triangles == 1 ? " triangle" : " triangles");
 }
 
+std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target) {
+  std::vector<std::string> lost = codec_of(target).what_is_lost(document);
+  if (!has_names(target)) {
+    // Names of arrays that are lost as a whole are not worth a word.
+    if (has_arrays(target)) {
+      std::ranges::move(describe_lost_names(title_of(target), document), std::back_inserter(lost));
+    }
+    std::ranges::move(describe_lost_sets(title_of(target), document), std::back_inserter(lost));
+  }
+  return lost;
+}
+
 void write_plain(const std::filesystem::path& path, FileFormat format, const MeshDocument& document,
                  const AddedArrays& added, Workers& workers) {
   if (is_written_back(document, format)) {
@@ -104,65 +128,52 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
 
 }  // namespace
 
-FileFormat input_format(const std::filesystem::path& path) {
-  if (const auto format = format_of(path)) {
-    if (!is_available(*format)) {
-      throw ReadError(path, describe_unavailable(*format));
-    }
-    return *format;
-  }
-  if (const auto compression = compression_named(path)) {
-    throw ReadError(path, describe(*compression));
-  }
-  throw ReadError(path, unknown_extension(path));
-}
-
-MeshDocument read_mesh(const std::filesystem::path& path, int threads) {
-  const FileFormat format = input_format(path);
-  Workers workers(threads);
+MeshDocument read_mesh(const std::filesystem::path& path, const FileOptions& options) {
+  Workers workers(options.threads);
   const FileWorkers file_workers(workers);
-  FileBytes bytes = read_file_bytes(path, file_workers);
-  if (const auto compression = compression_of(bytes)) {
-    throw ReadError(path, describe(*compression));
+  FileContent content = read_content(path, file_workers);
+  FormatChoice choice = choose_format(content.name, content.bytes, options.format);
+  const Codec& codec = codec_of(choice.format);
+  if (codec.partner_of != nullptr && !content.is_plain_file) {
+    throw ReadError(content.name, std::string(title_of(choice.format)) +
+                                      " has a mesh in several files: they are read as plain files, uncompressed");
   }
-  MeshDocument document = codec_of(format).read_shared(path, std::move(bytes), file_workers);
-  document.format = format;
+  MeshDocument document = codec.read_shared(content.name, std::move(content.bytes), file_workers);
+  document.format = choice.format;
+  for (std::string& note : {std::ref(content.note), std::ref(choice.note)}) {
+    if (!note.empty()) {
+      document.notes.push_back(std::move(note));
+    }
+  }
   return document;
 }
 
-FileFormat output_format(const std::filesystem::path& path) {
-  const auto format = format_of(path);
-  if (!format && compression_named(path)) {
-    throw WriteError(path, "nothing is written compressed; leave out '" + path.extension().string() +
-                               "' and compress the file then");
+MeshDocument read_mesh(const std::filesystem::path& path, int threads) {
+  return read_mesh(path, FileOptions{threads, std::nullopt});
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
+                const FileOptions& options) {
+  const FileFormat format = output_format(path, document.format, options.format);
+  const std::filesystem::path name = shown_output(path);
+  Workers workers(options.threads);
+  for (const auto& arrays : {std::span(document.point_arrays), std::span(added.point_arrays)}) {
+    require_rows(name, arrays, document.point_count(), "points");
   }
-  if (!format) {
-    throw WriteError(path, unknown_extension(path));
+  for (const auto& arrays : {std::span(document.cell_arrays), std::span(added.cell_arrays)}) {
+    require_rows(name, arrays, document.cells.size(), "cells");
   }
-  if (!is_available(*format)) {
-    throw WriteError(path, describe_unavailable(*format));
+  const auto write = [&](const std::filesystem::path& plain) { write_plain(plain, format, document, added, workers); };
+  if (const auto partner_of = codec_of(format).partner_of; partner_of != nullptr) {
+    write_two_files(path, partner_of, write);
+  } else {
+    write_content(path, FileWorkers(workers), write);
   }
-  return *format;
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
                 int threads) {
-  const FileFormat format = output_format(path);
-  Workers workers(threads);
-  for (const auto& arrays : {std::span(document.point_arrays), std::span(added.point_arrays)}) {
-    require_rows(path, arrays, document.point_count(), "points");
-  }
-  for (const auto& arrays : {std::span(document.cell_arrays), std::span(added.cell_arrays)}) {
-    require_rows(path, arrays, document.cells.size(), "cells");
-  }
-  OutputFile output(path);
-  try {
-    write_plain(output.path(), format, document, added, workers);
-  } catch (const WriteError& error) {
-    // Codecs know the temporary file only.
-    throw WriteError(path, error.reason);
-  }
-  output.commit();
+  write_mesh(path, document, added, FileOptions{threads, std::nullopt});
 }
 
 std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat target) {
@@ -170,12 +181,16 @@ std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat t
     return {};
   }
   if (holds_strips(target) || !has_strips(document)) {
-    return codec_of(target).what_is_lost(document);
+    return lost_in(document, target);
   }
   const MeshDocument expanded = with_strips_as_triangles(document);
   std::vector<std::string> lost{describe_strips(document, expanded, target)};
-  std::ranges::move(codec_of(target).what_is_lost(expanded), std::back_inserter(lost));
+  std::ranges::move(lost_in(expanded, target), std::back_inserter(lost));
   return lost;
+}
+
+bool writes_values_of(const MeshDocument& document, FileFormat target, std::string_view point_array) {
+  return !is_written_back(document, target) || document.original->keeps_values_of(point_array);
 }
 
 bool takes_added_arrays(const MeshDocument& document, FileFormat target) {

@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/pipeline/file_groups.h"
 #include "trismooth/pipeline/held_vertices.h"
+#include "trismooth/pipeline/moving_fields.h"
+#include "trismooth/pipeline/projection.h"
 #include "trismooth/pipeline/region_array.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/quadratic_quality.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/size_change.h"
@@ -37,15 +41,28 @@ struct EnumText<Stage> {
 
 /// What to run.
 struct PipelineOptions {
-  std::filesystem::path input;
-  std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed
+  std::filesystem::path input;                  ///< `-`: standard input
+  std::optional<std::filesystem::path> output;  ///< absent: check only, nothing is smoothed; `-`: standard output
+  std::optional<FileFormat> format;             ///< of `-`, and of files whose extension names none
   SmoothingOptions smoothing;
   std::vector<std::string> region_arrays;          ///< cell arrays; empty: those that give regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
+  std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
   /// smoothing.mean_ratio.target_lengths.
   std::optional<std::string> size_array;
+  /// What becomes of point arrays where vertices move. Absent: those that say something of places (depths) are
+  /// interpolated, and those that `field_arrays` names.
+  std::optional<Fields> fields;
+  /// Patterns of the names of point arrays to interpolate: `*` stands for any characters, `?` for one. Empty: all,
+  /// where `fields` says so.
+  std::vector<std::string> field_arrays;
+  /// Where a mesh is smoothed that lies in no plane. The third coordinate of vertices that move is interpolated then,
+  /// unless `fields` are kept. Absent: such a mesh is refused.
+  std::optional<Projection> project;
+  /// x is longitude and y is latitude, in degrees: smoothed on a map on which shapes are those on the sphere.
+  bool geographic = false;
   bool annotate = false;  ///< add arrays to the output, named `trismooth:...`
   /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
   std::optional<std::filesystem::path> annotated;
@@ -64,12 +81,14 @@ struct Cancelled : std::runtime_error {
 
 /// What was read.
 struct InputSummary {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< for people: "standard input" for `-`
   FileFormat format = FileFormat::off;
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
   std::int64_t other_cells = 0;
-  std::int32_t regions = 0;     ///< 0: no region array
+  std::int64_t quadratic_triangles = 0;  ///< those of the triangles that have six nodes
+  std::int64_t middle_nodes = 0;         ///< vertices that are neither fixed nor free, but follow the side they are on
+  std::int32_t regions = 0;              ///< 0: no region array
   std::string region_array;     ///< the array that gave them, or empty; the names of several, separated by ", "
   std::int32_t components = 0;  ///< connected through edges with exactly two triangles
   std::int64_t fixed_vertices = 0;
@@ -78,6 +97,9 @@ struct InputSummary {
   std::vector<RegionArray> region_arrays;  ///< the cell arrays that were obeyed, in the file's order
   std::string fixed_array;                 ///< the point array that was obeyed, or empty
   std::int64_t fixed_array_vertices = 0;   ///< where it is not zero
+  std::vector<FilePointSet> point_sets;    ///< that the file has, in its order
+  std::vector<FileCellSet> cell_sets;      ///< likewise
+  std::vector<FileLineGroup> line_groups;  ///< likewise
   std::string size_array;                  ///< the array that sizes were taken from, or empty
   bool sizes_are_areas = false;            ///< of cells, not edge lengths at points
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
@@ -88,7 +110,7 @@ struct InputSummary {
 /// Milliseconds of each stage.
 struct PipelineTimings {
   double read = 0, topology = 0, check_before = 0, transfer_in = 0, untangle = 0, smooth = 0, transfer_out = 0,
-         guard = 0, check_after = 0, write = 0, total = 0;
+         guard = 0, check_after = 0, write = 0, total = 0, fields = 0;
 };
 
 /// What a run did and found. Cells and centroids of worst elements are those of the file.
@@ -96,24 +118,27 @@ struct PipelineResult {
   InputSummary input;
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
-  std::optional<SmoothingResult> smoothing;   ///< likewise
-  std::optional<SizeChange> size_change;      ///< likewise
-  std::optional<SizeFit> size_fit_before;     ///< to the sizes asked for; absent where none were
-  std::optional<SizeFit> size_fit_after;      ///< likewise
-  std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
-  std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
-  std::vector<RegionQuality> regions_after;   ///< likewise, and where nothing was smoothed
-  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates x, y, z as float64
-  std::uint64_t unguarded_hash = 0;           ///< the same before the guard took vertices back
-  std::vector<std::string> notes;             ///< what the user should know, one sentence each
-  std::vector<std::string> losses;            ///< what the output does not hold of the input, likewise: always shown
-  std::vector<std::string> warnings;          ///< what the user should have known before the smoothing, likewise
+  std::optional<SmoothingResult> smoothing;          ///< likewise
+  std::optional<QuadraticQuality> quadratic_before;  ///< absent where the mesh has no quadratic triangles
+  std::optional<QuadraticQuality> quadratic_after;   ///< likewise, and where nothing was smoothed
+  std::optional<SizeChange> size_change;             ///< likewise
+  std::optional<SizeFit> size_fit_before;            ///< to the sizes asked for; absent where none were
+  std::optional<SizeFit> size_fit_after;             ///< likewise
+  std::vector<InterpolatedField> fields;             ///< point arrays whose values followed the mesh
+  std::vector<std::string> region_names;             ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionQuality> regions_before;         ///< of each region; empty where there are no two
+  std::vector<RegionQuality> regions_after;          ///< likewise, and where nothing was smoothed
+  std::uint64_t coordinates_hash = 0;                ///< XXH64 of the output coordinates x, y, z as float64
+  std::uint64_t unguarded_hash = 0;                  ///< the same before the guard took vertices back
+  std::vector<std::string> notes;                    ///< what the user should know, one sentence each
+  std::vector<std::string> losses;    ///< what the output does not hold of the input, likewise: always shown
+  std::vector<std::string> warnings;  ///< what the user should have known before the smoothing, likewise
   PipelineTimings timings_ms;
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far
 };
 
-/// Throws for extensions that name no format, before any work: ReadError for that of the input (and of the output, if
-/// that is unknown too), else WriteError for that of the output.
+/// Throws where extensions name no format, before any work: WriteError for that of the output, ReadError where the
+/// input has none either. The content of the input may show its format.
 void require_known_formats(const PipelineOptions& options);
 
 /// Runs the stages on one file, in the order of Stage. Throws ReadError or MeshError for an input that

@@ -12,6 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 SECONDS=0
 "$project/scripts/install-deps.sh" --tests
+"$project/scripts/peers.sh"
 # -U: as CMake finds it, whatever scripts/demo.sh has said.
 configure -UTRISMOOTH_CUDA -DTRISMOOTH_BENCHMARKS=OFF "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)"
 configured=$SECONDS

@@ -27,6 +27,13 @@ class InputFile {
       throw ReadError(path_, std::string("cannot be opened: ") + std::strerror(errno));
     }
   }
+  /// Of the file that is open under that number.
+  InputFile(const std::filesystem::path& path, int descriptor)
+      : path_(path), descriptor_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 0)) {
+    if (descriptor_ < 0) {
+      throw ReadError(path_, std::string("cannot be read: ") + std::strerror(errno));
+    }
+  }
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile() { ::close(descriptor_); }
@@ -98,6 +105,21 @@ void read_known_size(const InputFile& file, const FileWorkers& workers, MemoryBl
   file.seek(end);
 }
 
+/// Appends what the file has from where it stands to its end.
+void read_rest(const InputFile& file, MemoryBlock& block) {
+  std::size_t step = 1;
+  for (;;) {
+    const std::size_t before = block.size();
+    const std::size_t got = file.read_on(block.extend(step), step);
+    block.truncate(before + got);
+    if (got < step) {
+      return;
+    }
+    constexpr std::size_t least_step = std::size_t{1} << 16;
+    step = std::max(least_step, block.size());
+  }
+}
+
 }  // namespace
 
 FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& workers) {
@@ -109,20 +131,22 @@ FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& 
   try {
     MemoryBlock block;
     read_known_size(file, workers, block);
-    // A file that has grown meanwhile, or one without a size.
-    std::size_t step = 1;
-    for (;;) {
-      const std::size_t before = block.size();
-      const std::size_t got = file.read_on(block.extend(step), step);
-      block.truncate(before + got);
-      if (got < step) {
-        return FileBytes(std::move(block));
-      }
-      constexpr std::size_t least_step = std::size_t{1} << 16;
-      step = std::max(least_step, block.size());
-    }
+    read_rest(file, block);  // of a file that has grown meanwhile, or one without a size
+    return FileBytes(std::move(block));
   } catch (const std::bad_alloc&) {
     throw ReadError(path, "is too large for the memory of this machine");
+  }
+}
+
+FileBytes read_standard_input() {
+  const std::filesystem::path name = "standard input";
+  const InputFile file(name, STDIN_FILENO);
+  try {
+    MemoryBlock block;
+    read_rest(file, block);
+    return FileBytes(std::move(block));
+  } catch (const std::bad_alloc&) {
+    throw ReadError(name, "is too large for the memory of this machine");
   }
 }
 

@@ -36,7 +36,10 @@ class FileBytes {
 /// is read gives fewer bytes, no signal. Throws ReadError, also for a folder and where memory does not suffice.
 FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& workers);
 
-/// The same on this thread alone.
+/// What comes on standard input, to its end. Throws ReadError, also where memory does not suffice.
+FileBytes read_standard_input();
+
+/// The same as read_file_bytes() on this thread alone.
 FileBytes read_file_bytes(const std::filesystem::path& path);
 
 }  // namespace trismooth

@@ -200,8 +200,8 @@ bool OutputFile::set_attributes(int descriptor, const Attributes& attributes) {
   return is_so;
 }
 
-void OutputFile::commit() {
-  if (direct_) {
+void OutputFile::prepare() {
+  if (direct_ || prepared_) {
     return;
   }
   const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
@@ -219,6 +219,14 @@ void OutputFile::commit() {
     errno = error;
     fail(given_, adopted ? "cannot be flushed to the disk" : "cannot be given the permissions of the old file");
   }
+  prepared_ = true;
+}
+
+void OutputFile::commit() {
+  if (direct_) {
+    return;
+  }
+  prepare();
   const Folder folder(target_);
   begin_commit();
   if (::rename(path_.c_str(), target_.c_str()) != 0) {

@@ -25,9 +25,16 @@ class OutputFile {
   /// Where to write.
   const std::filesystem::path& path() const { return path_; }
 
-  /// Flushes the file to the disk and puts it in the target's place, with the target's permissions, and its owner where
-  /// that is allowed, where there was one. After a power cut there is the old file or all of the new one. Throws
-  /// WriteError.
+  /// Whether the target is no regular file, and is written directly.
+  bool is_direct() const { return direct_; }
+
+  /// Flushes the file to the disk and gives it the target's permissions, and its owner where that is allowed, where
+  /// there was one: all of commit() but the last step. Where several files belong together, none is put in place before
+  /// all are ready. Throws WriteError.
+  void prepare();
+
+  /// Puts the file in the target's place, ready as prepare() makes it. After a power cut there is the old file or all
+  /// of the new one. Throws WriteError.
   void commit();
 
   /// How many files this process has begun to put in place.
@@ -58,6 +65,7 @@ class OutputFile {
   std::filesystem::path path_;
   std::optional<Attributes> old_;  ///< of the target
   bool direct_ = false;
+  bool prepared_ = false;
   bool done_ = false;
   std::optional<BrokenPipeIsError> broken_pipe_is_error_;  ///< where it is written directly
 };

@@ -38,6 +38,22 @@ std::string type_name(std::size_t type) {
       return "polygon";
     case cell_type::quad:
       return "quad";
+    case cell_type::tetrahedron:
+      return "tetrahedron";
+    case cell_type::hexahedron:
+      return "hexahedron";
+    case cell_type::wedge:
+      return "wedge";
+    case cell_type::pyramid:
+      return "pyramid";
+    case cell_type::quadratic_edge:
+      return "quadratic_edge";
+    case cell_type::quadratic_triangle:
+      return "quadratic_triangle";
+    case cell_type::quadratic_quad:
+      return "quadratic_quad";
+    case cell_type::biquadratic_quad:
+      return "biquadratic_quad";
     default:
       return std::to_string(type) + " (by VTK's numbers)";
   }
@@ -50,6 +66,37 @@ std::vector<std::string> describe_lost_arrays(std::string_view format, const Mes
   describe(sentences, format, "point", document.point_arrays);
   describe(sentences, format, "cell", document.cell_arrays);
   describe(sentences, format, "field", document.field_arrays);
+  return sentences;
+}
+
+std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document) {
+  std::string arrays;
+  for (const DataArray& array : document.cell_arrays) {
+    if (array.description != nullptr && !array.description->value_names.empty()) {
+      arrays.append(arrays.empty() ? "" : ", ").append(array.name);
+    }
+  }
+  if (arrays.empty()) {
+    return {};
+  }
+  return {std::string(format) + " holds no names of values: those of " + arrays + " are not written"};
+}
+
+std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document) {
+  std::vector<std::string> sentences;
+  const auto describe = [&](std::string_view kind, const std::vector<NamedSet>& sets) {
+    if (sets.empty()) {
+      return;
+    }
+    std::string sentence(format);
+    sentence.append(" holds no sets of ").append(kind).append(": ");
+    for (const NamedSet& set : sets) {
+      sentence.append(&set == sets.data() ? "" : ", ").append(set.name.empty() ? "(no name)" : set.name);
+    }
+    sentences.push_back(sentence + (sets.size() == 1 ? " is not written" : " are not written"));
+  };
+  describe("points", document.point_sets);
+  describe("cells", document.cell_sets);
   return sentences;
 }
 

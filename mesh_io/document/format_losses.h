@@ -14,6 +14,14 @@ namespace trismooth {
 /// is not written". For formats that hold no arrays; `format` is the format's name in the sentences.
 std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document);
 
+/// The sentence for the names that values of the document's cell arrays have, at most one: "OFF holds no names of
+/// values: those of region are not written".
+std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document);
+
+/// One sentence for the document's sets of points and one for those of cells: "OFF holds no sets of points: inlet,
+/// outlet are not written".
+std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document);
+
 /// The sentence for the cells whose type is not in `written_types`, at most one: "OFF holds faces only: 12 cells of
 /// type line are not written". `holds` says what the format does hold ("faces").
 std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,

@@ -14,7 +14,7 @@ struct CellName {
   std::string_view several;
 };
 
-constexpr std::array<CellName, 8> cell_names{{
+constexpr std::array<CellName, 16> cell_names{{
     {cell_type::vertex, "vertex cell", "vertex cells"},
     {cell_type::poly_vertex, "poly-vertex", "poly-vertices"},
     {cell_type::line, "line", "lines"},
@@ -23,6 +23,14 @@ constexpr std::array<CellName, 8> cell_names{{
     {cell_type::triangle_strip, "triangle strip", "triangle strips"},
     {cell_type::polygon, "polygon", "polygons"},
     {cell_type::quad, "quad", "quads"},
+    {cell_type::tetrahedron, "tetrahedron", "tetrahedra"},
+    {cell_type::hexahedron, "hexahedron", "hexahedra"},
+    {cell_type::wedge, "wedge", "wedges"},
+    {cell_type::pyramid, "pyramid", "pyramids"},
+    {cell_type::quadratic_edge, "quadratic edge", "quadratic edges"},
+    {cell_type::quadratic_triangle, "quadratic triangle", "quadratic triangles"},
+    {cell_type::quadratic_quad, "quadratic quad", "quadratic quads"},
+    {cell_type::biquadratic_quad, "biquadratic quad", "biquadratic quads"},
 }};
 
 std::string describe(std::size_t count, std::size_t type) {

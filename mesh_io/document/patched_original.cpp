@@ -11,8 +11,8 @@ namespace {
 
 class PatchedOriginal : public OriginalFile {
  public:
-  PatchedOriginal(FileBytes bytes, CoordinateSites sites)
-      : bytes_(std::move(bytes)), sites_(std::move(sites)), vertex_count_(count_vertices(sites_)) {}
+  PatchedOriginal(FileBytes bytes, std::vector<NumberSites> sites)
+      : bytes_(std::move(bytes)), sites_(std::move(sites)), vertex_count_(count_vertices(sites_.front())) {}
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
@@ -24,24 +24,66 @@ class PatchedOriginal : public OriginalFile {
       throw WriteError(path, "the file that was read has " + std::to_string(vertex_count_) +
                                  " vertices, the mesh to write has " + std::to_string(document.point_count()));
     }
-    write_patched(path, bytes_, sites_, document.points, {}, FileWorkers(workers));
+    std::vector<std::vector<double>> copies;
+    std::vector<PatchedSites> lists;
+    lists.reserve(sites_.size());
+    for (const NumberSites& sites : sites_) {
+      lists.push_back({sites, column_values(sites, document, copies)});
+    }
+    write_patched(path, bytes_, lists, {}, FileWorkers(workers));
+  }
+
+  bool keeps_values_of(std::string_view point_array) const override {
+    return std::ranges::any_of(sites_, [point_array](const NumberSites& sites) {
+      return std::ranges::find(sites.columns, point_array, &SiteColumn::array) != sites.columns.end();
+    });
   }
 
  private:
-  static std::size_t count_vertices(const CoordinateSites& sites) {
-    return sites.vertices.empty() ? sites.offsets.size() / 3
+  static std::size_t count_vertices(const NumberSites& sites) {
+    return sites.vertices.empty() ? sites.size()
                                   : static_cast<std::size_t>(*std::ranges::max_element(sites.vertices)) + 1;
   }
 
   FileBytes bytes_;
-  CoordinateSites sites_;
+  std::vector<NumberSites> sites_;
   std::size_t vertex_count_;
 };
 
 }  // namespace
 
-std::shared_ptr<const OriginalFile> make_patched_original(FileBytes bytes, CoordinateSites sites) {
+std::vector<ColumnValues> column_values(const NumberSites& sites, const MeshDocument& document,
+                                        std::vector<std::vector<double>>& copies) {
+  std::vector<ColumnValues> values;
+  for (const SiteColumn& column : sites.columns) {
+    if (column.array.empty()) {
+      values.push_back({document.points.data() + (document.points.empty() ? 0 : column.component), 3});
+      continue;
+    }
+    const DataArray* const array = find_array(document.point_arrays, column.array);
+    const bool is_real = array != nullptr && column.component < array->components &&
+                         (array->type == ScalarType::float32 || array->type == ScalarType::float64);
+    if (!is_real) {
+      values.emplace_back();
+      continue;
+    }
+    std::vector<double>& copy = copies.emplace_back(array->rows());
+    for (std::size_t row = 0; row < copy.size(); ++row) {
+      copy[row] = array->value(row, column.component);
+    }
+    values.push_back({copy.data(), 1});
+  }
+  return values;
+}
+
+std::shared_ptr<const OriginalFile> make_patched_original(FileBytes bytes, std::vector<NumberSites> sites) {
   return std::make_shared<PatchedOriginal>(std::move(bytes), std::move(sites));
+}
+
+std::shared_ptr<const OriginalFile> make_patched_original(FileBytes bytes, NumberSites sites) {
+  std::vector<NumberSites> one;
+  one.push_back(std::move(sites));
+  return make_patched_original(std::move(bytes), std::move(one));
 }
 
 }  // namespace trismooth

@@ -30,7 +30,7 @@ bool is_finite(Point2<double> point) {
 }
 
 /// Stores the vertices that moved from `points` to `moved` and judges them by what was stored.
-void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, const SpaceImage& image,
                     std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                     const BulkVector<Point2<double>>& moved, Storage storage, const SmoothingOptions& options,
                     SmoothingResult& result) {
@@ -46,9 +46,9 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
         continue;
       }
       const Eigen::Vector3d old = Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v);
-      stored[v] = rounded_to(storage, plane.moved(old, points[v], moved[v]));
+      stored[v] = rounded_to(storage, image.moved(old, points[v], moved[v]));
       // Near the largest double, the step to a place within range may be beyond it: the vertex stays.
-      const Point2<double> place = plane.project(stored[v]);
+      const Point2<double> place = image.place(v, stored[v]);
       if (is_finite(stored[v]) && is_finite(place)) {
         after[v] = local.frame.enter(place);
       }
@@ -76,7 +76,7 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
       if (!(after[v] == before[v])) {
         Eigen::Map<Eigen::Vector3d>(xyz.data() + 3 * v) = stored[v];
-        points[v] = plane.project(stored[v]);
+        points[v] = image.place(v, stored[v]);
         ++elsewhere_here;
       }
     }
@@ -91,22 +91,32 @@ void guard_in_space(const MeshRings& mesh, std::span<const Triangle> triangles, 
 
 }  // namespace
 
+SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> triangles, const SpaceImage& image,
+                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
+                                Storage storage, const SmoothingOptions& options) {
+  SmoothingOptions in_image = options;
+  // What has been untangled needs the guard that knows what the sweeps began with, too.
+  in_image.guard = options.guard && options.untangles();
+  // The guard in space asks for the rings once more.
+  const auto smoother = backend_of(options).prepare(mesh, triangles, local.points, in_image);
+  BulkVector<Point2<double>> moved = points;
+  SmoothingResult result = smoother->smooth(moved, Storage::float64, local.frame);
+  guard_in_space(mesh, triangles, image, xyz, points, local, moved, storage, options, result);
+  mesh.rings = {};
+  return result;
+}
+
 SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
                                 std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                                 Storage storage, const SmoothingOptions& options) {
-  SmoothingOptions in_plane = options;
-  // What has been untangled needs the guard that knows what the sweeps began with, too.
-  in_plane.guard = options.guard && (plane.aligned || options.untangles());
-  // The guard in space asks for the rings once more.
-  const auto smoother =
-      backend_of(options).prepare(plane.aligned ? with_rings_of(mesh) : mesh, triangles, local.points, in_plane);
   if (!plane.aligned) {
-    BulkVector<Point2<double>> moved = points;
-    SmoothingResult result = smoother->smooth(moved, Storage::float64, local.frame);
-    guard_in_space(mesh, triangles, plane, xyz, points, local, moved, storage, options, result);
-    mesh.rings = {};
-    return result;
+    const SpaceImage image{[&plane](std::size_t, const Eigen::Vector3d& stored) { return plane.project(stored); },
+                           [&plane](const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to) {
+                             return plane.moved(stored, from, to);
+                           }};
+    return smooth_in_image(mesh, triangles, image, xyz, points, local, storage, options);
   }
+  const auto smoother = backend_of(options).prepare(with_rings_of(mesh), triangles, local.points, options);
   SmoothingResult result = smoother->smooth(points, storage, local.frame);
   Workers(options.threads).for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {

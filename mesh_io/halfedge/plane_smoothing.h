@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,19 @@ namespace trismooth {
 /// else as Backend::prepare() and PreparedSmoother::smooth(). In a tilted plane the guard judges the projections of
 /// what is stored, since storing rounds in space.
 SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
+                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
+                                Storage storage, const SmoothingOptions& options);
+
+/// Points of space and where they lie in the image in which they are smoothed.
+struct SpaceImage {
+  /// The place of a vertex that is stored there.
+  std::function<Point2<double>(std::size_t vertex, const Eigen::Vector3d& stored)> place;
+  /// What is stored of a vertex that moves in the image, before it is rounded.
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to)> moved;
+};
+
+/// The same in any image: `points` are there, and the guard judges the images of what is stored.
+SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> triangles, const SpaceImage& image,
                                 std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                                 Storage storage, const SmoothingOptions& options);
 

@@ -11,8 +11,9 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::array element_types{cell_type::vertex,   cell_type::poly_vertex, cell_type::line,   cell_type::poly_line,
-                                   cell_type::triangle, cell_type::quad,        cell_type::polygon};
+constexpr std::array statement_types{cell_type::vertex,    cell_type::poly_vertex, cell_type::line,
+                                     cell_type::poly_line, cell_type::triangle,    cell_type::quad,
+                                     cell_type::polygon};
 
 /// The statement that holds a cell of the type; empty where none does.
 std::string_view statement_of(std::uint8_t type) {
@@ -57,7 +58,7 @@ void write_obj(const std::filesystem::path& path, const MeshDocument& document, 
 
 std::vector<std::string> lost_in_obj(const MeshDocument& document) {
   std::vector<std::string> sentences =
-      describe_lost_cells("OBJ", "faces, lines and points", element_types, document.cells);
+      describe_lost_cells("OBJ", "faces, lines and points", statement_types, document.cells);
   std::ranges::move(describe_lost_arrays("OBJ", document), std::back_inserter(sentences));
   return sentences;
 }

@@ -156,7 +156,7 @@ class PlainObjReader {
     return lines_.all_of([this](std::size_t part) { return fill(part); });
   }
 
-  std::pair<MeshDocument, CoordinateSites> take() {
+  std::pair<MeshDocument, NumberSites> take() {
     ObjStatements statements;
     for (const Part& part : parts_) {
       for (const Start& start : part.starts) {
@@ -272,13 +272,12 @@ class PlainObjReader {
   std::vector<Part> parts_;
   Counts all_;
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
 };
 
 }  // namespace
 
-std::optional<std::pair<MeshDocument, CoordinateSites>> read_plain_obj(std::string_view text,
-                                                                       const FileWorkers& workers) {
+std::optional<std::pair<MeshDocument, NumberSites>> read_plain_obj(std::string_view text, const FileWorkers& workers) {
   if (workers.part_bytes == FileWorkers::serial) {
     return std::nullopt;
   }

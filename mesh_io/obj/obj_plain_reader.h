@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -14,7 +14,6 @@ namespace trismooth {
 /// it: no continued lines, no comments but on lines of their own, numbers as PlainNumbers reads them. Nothing where the
 /// text has anything else in it, or is broken: others read it then, and say what is wrong. Two passes over the text:
 /// one counts, one reads. Memory beside the result: a view for every usemtl and g.
-std::optional<std::pair<MeshDocument, CoordinateSites>> read_plain_obj(std::string_view text,
-                                                                       const FileWorkers& workers);
+std::optional<std::pair<MeshDocument, NumberSites>> read_plain_obj(std::string_view text, const FileWorkers& workers);
 
 }  // namespace trismooth

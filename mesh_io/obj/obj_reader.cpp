@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/obj/obj_plain_reader.h"
 #include "trismooth/mesh_io/obj/obj_statements.h"
@@ -26,7 +26,7 @@ class ObjReader {
                  bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0,
                  TextScanner::Continuation::backslash) {}
 
-  std::pair<MeshDocument, CoordinateSites> read() {
+  std::pair<MeshDocument, NumberSites> read() {
     bool has_statements = false;
     while (!scanner_.at_end()) {
       read_statement(scanner_.next_token("a statement"));
@@ -146,7 +146,7 @@ class ObjReader {
 
   TextScanner scanner_;
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
   ObjStatements statements_;
   std::int64_t highest_reference_ = 0;
   std::size_t highest_reference_offset_ = 0;

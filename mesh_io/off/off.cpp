@@ -4,8 +4,11 @@
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/off/off_keyword.h"
 #include "trismooth/mesh_io/off/off_reader.h"
+#include "trismooth/mesh_io/text/text_head.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
@@ -45,8 +48,21 @@ std::vector<std::string> lost_in_off(const MeshDocument& document) {
   return sentences;
 }
 
+/// A keyword with a count behind it, or the word BINARY. Files without the keyword show nothing.
+bool is_off(std::string_view bytes) {
+  TextScanner scanner(text_head(bytes), {}, TextScanner::Comments::hash);
+  const std::string_view token = scanner.peek_token();
+  const auto keyword = parse_off_keyword(token);
+  if (!keyword) {
+    return false;
+  }
+  scanner.seek(static_cast<std::size_t>(token.data() - scanner.text().data()) + keyword->text.size());
+  const std::string_view next = scanner.peek_token();
+  return next == "BINARY" || (!next.empty() && next.find_first_not_of("0123456789") == next.npos);
+}
+
 }  // namespace
 
-const Codec off_codec{&read_off, &write_off, &lost_in_off};
+const Codec off_codec{&read_off, &write_off, &lost_in_off, &is_off};
 
 }  // namespace trismooth

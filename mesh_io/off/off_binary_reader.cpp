@@ -24,7 +24,7 @@ constexpr std::size_t word_bytes = 4;
 
 /// How a program writes binary OFF, beyond what the keyword says.
 struct Dialect {
-  CoordinateEncoding byte_order = CoordinateEncoding::big_endian;
+  NumberEncoding byte_order = NumberEncoding::big_endian;
   std::size_t vertex_colour = 0;           ///< components
   std::optional<std::size_t> face_colour;  ///< components of every face; nothing where each face counts its own
 };
@@ -72,13 +72,12 @@ class BinaryOffReader {
         word_offset_(begin),
         keyword_(keyword),
         dialect_(dialect),
-        swapped_((dialect.byte_order == CoordinateEncoding::big_endian) ==
-                 (std::endian::native == std::endian::little)) {
+        swapped_((dialect.byte_order == NumberEncoding::big_endian) == (std::endian::native == std::endian::little)) {
     document_.point_type = sites_.type = ScalarType::float32;
     sites_.encoding = dialect.byte_order;
   }
 
-  std::pair<MeshDocument, CoordinateSites> read() {
+  std::pair<MeshDocument, NumberSites> read() {
     read_counts();
     read_vertices();
     read_faces();
@@ -345,19 +344,19 @@ class BinaryOffReader {
   Dialect dialect_;
   bool swapped_;  ///< words are not in this machine's byte order
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
   std::size_t vertex_count_ = 0;
   std::size_t face_count_ = 0;
 };
 
 /// The dialects that the keyword leaves open, the more frequent ones first.
 std::vector<Dialect> dialects_of(const OffKeyword& keyword) {
-  using enum CoordinateEncoding;
+  using enum NumberEncoding;
   constexpr std::array<std::size_t, 3> with_colours{4, 3, 0};
   const auto colours = std::span(with_colours).last(keyword.colours ? 3 : 1);
   std::vector<Dialect> dialects;
   for (const bool as_geomview : {true, false}) {
-    for (const CoordinateEncoding byte_order :
+    for (const NumberEncoding byte_order :
          {as_geomview ? big_endian : little_endian, as_geomview ? little_endian : big_endian}) {
       for (const std::size_t of_vertex : colours) {
         if (as_geomview) {
@@ -375,9 +374,9 @@ std::vector<Dialect> dialects_of(const OffKeyword& keyword) {
 
 }  // namespace
 
-std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
-                                                         std::size_t begin, const OffKeyword& keyword,
-                                                         const FileWorkers& workers) {
+std::pair<MeshDocument, NumberSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
+                                                     std::size_t begin, const OffKeyword& keyword,
+                                                     const FileWorkers& workers) {
   // The error that is told is that of a dialect whose counts fit, if there is one: the first of them.
   std::vector<Dialect> dialects;
   std::vector<Dialect> others;

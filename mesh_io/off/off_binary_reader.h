@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 
@@ -21,8 +21,8 @@ namespace trismooth {
 /// Fills everything but the original. Coordinates are float32; normals, colours and texture coordinates become arrays
 /// as in text (colours int32 where all are whole numbers from 0 to 255 stored as integers).
 /// Throws ReadError, with the byte. Linear in the file's size.
-std::pair<MeshDocument, CoordinateSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
-                                                         std::size_t begin, const OffKeyword& keyword,
-                                                         const FileWorkers& workers);
+std::pair<MeshDocument, NumberSites> read_binary_off(const std::filesystem::path& path, std::string_view bytes,
+                                                     std::size_t begin, const OffKeyword& keyword,
+                                                     const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -58,7 +58,7 @@ bool OffPlainRows::has_room(std::size_t offset, std::size_t rows, std::size_t co
 
 std::optional<PlainRows::End> OffPlainRows::read_vertices(std::size_t offset, std::size_t count,
                                                           const OffKeyword& keyword, MeshDocument& document,
-                                                          CoordinateSites& sites) {
+                                                          NumberSites& sites) {
   Fields fields{};
   PlainNumbers first_row(text_, offset);
   std::array<double, 3> point{};

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
@@ -24,7 +24,7 @@ class OffPlainRows {
   /// `count` vertices, 1 or more, from `offset` on: coordinates to the points of the document, which have their size
   /// as the sites do; fields to point arrays.
   std::optional<PlainRows::End> read_vertices(std::size_t offset, std::size_t count, const OffKeyword& keyword,
-                                              MeshDocument& document, CoordinateSites& sites);
+                                              MeshDocument& document, NumberSites& sites);
 
   /// `count` faces, 1 or more, from `offset` on, where a line ends: to the cells of the document, which has none so
   /// far, and a cell array of colours, if they have any.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/off/off_binary_reader.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
@@ -67,7 +67,7 @@ class OffReader {
         workers_(workers),
         plain_rows_(bytes, workers) {}
 
-  std::pair<MeshDocument, CoordinateSites> read() {
+  std::pair<MeshDocument, NumberSites> read() {
     read_keyword();
     if (is_binary_) {
       return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_, workers_);
@@ -306,7 +306,7 @@ class OffReader {
   bool is_binary_ = false;
   bool has_vertex_colours_ = false;
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
   std::size_t vertex_count_ = 0;
   std::size_t face_count_ = 0;
   Row row_{};

@@ -91,11 +91,11 @@ class HeaderParser {
   void parse_format() {
     const std::string_view name = word("a format");
     if (name == "ascii") {
-      header_.encoding = CoordinateEncoding::text;
+      header_.encoding = NumberEncoding::text;
     } else if (name == "binary_little_endian") {
-      header_.encoding = CoordinateEncoding::little_endian;
+      header_.encoding = NumberEncoding::little_endian;
     } else if (name == "binary_big_endian") {
-      header_.encoding = CoordinateEncoding::big_endian;
+      header_.encoding = NumberEncoding::big_endian;
     } else {
       scanner_.fail("expected 'ascii', 'binary_little_endian' or 'binary_big_endian', got " + trismooth::quoted(name));
     }

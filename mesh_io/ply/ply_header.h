@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/document/coordinate_sites.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 
 namespace trismooth {
 
@@ -34,7 +34,7 @@ struct PlyElement {
 
 /// What the header of a PLY file declares.
 struct PlyHeader {
-  CoordinateEncoding encoding = CoordinateEncoding::text;
+  NumberEncoding encoding = NumberEncoding::text;
   std::vector<PlyElement> elements;  ///< in the order of their data; names are unique
   std::size_t size = 0;              ///< bytes of the header: the offset of the first row
 

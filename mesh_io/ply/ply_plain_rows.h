@@ -72,11 +72,13 @@ bool has_room(const Source& source, std::uint64_t rows, std::span<const ScalarTy
   return bytes > 0 && rows <= source.room() / bytes;
 }
 
-/// Reads the element "vertex": the properties for which axis_of_property is 0, 1 or 2 to `points` and their sites, all
-/// others to their columns; all have their size. Lists are not plain.
+/// Reads the element "vertex": the properties whose site is 0, 1 or 2 to `points`, all others to their columns, and
+/// where those stand that have a site (0 or more) to `sites`, of which a row has `site_count`; all have their size.
+/// Lists are not plain.
 template <class Source>
-bool read_plain_vertices(Source& source, const PlyElement& element, std::span<const int> axis_of_property,
-                         std::span<double> points, std::span<std::uint64_t> sites, ScalarColumns& columns) {
+bool read_plain_vertices(Source& source, const PlyElement& element, std::span<const int> site_of_property,
+                         std::size_t site_count, std::span<double> points, std::span<std::uint64_t> sites,
+                         ScalarColumns& columns) {
   std::vector<ScalarType> types;
   for (const PlyProperty& property : element.properties) {
     if (property.is_list()) {
@@ -91,13 +93,20 @@ bool read_plain_vertices(Source& source, const PlyElement& element, std::span<co
     bool plain = true;
     for (std::size_t row = first; row < last && plain; ++row) {
       for (std::size_t p = 0; p < types.size() && plain; ++p) {
-        if (axis_of_property[p] < 0) {
+        if (site_of_property[p] < 0) {
           plain = read_plain_number(numbers, *columns[p], row);
           continue;
         }
-        const std::size_t i = 3 * row + static_cast<std::size_t>(axis_of_property[p]);
-        plain = types[p] == ScalarType::float32 ? read_plain_coordinate<float>(numbers, points[i], sites[i])
-                                                : read_plain_coordinate<double>(numbers, points[i], sites[i]);
+        const auto column = static_cast<std::size_t>(site_of_property[p]);
+        std::uint64_t& site = sites[site_count * row + column];
+        if (column >= 3) {
+          plain = read_plain_number(numbers, *columns[p], row);
+          site = numbers.token_offset();
+          continue;
+        }
+        double& coordinate = points[3 * row + column];
+        plain = types[p] == ScalarType::float32 ? read_plain_coordinate<float>(numbers, coordinate, site)
+                                                : read_plain_coordinate<double>(numbers, coordinate, site);
       }
       plain = plain && numbers.at_end_of_line();
     }

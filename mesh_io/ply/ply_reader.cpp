@@ -75,7 +75,7 @@ class BodyReader {
         zero_rows_left_(4 * source_.room()) {}
 
   /// Fills everything but the original.
-  std::pair<MeshDocument, CoordinateSites> read() {
+  std::pair<MeshDocument, NumberSites> read() {
     require_room_for_rows();
     for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex") {
@@ -160,16 +160,12 @@ class BodyReader {
   }
 
   void read_vertices(const PlyElement& element) {
-    std::vector<int> axis_of_property(element.properties.size(), -1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      axis_of_property[*element.find(axis_names[axis])] = static_cast<int>(axis);
-    }
-    set_point_types(element);
-    sites_.encoding = header_.encoding;
-    shared_resize(document_.points, 3 * element.count, sites_.offsets, 3 * element.count, workers_);
+    const std::vector<int> site_of_property = set_sites(element);
+    shared_resize(document_.points, 3 * element.count, sites_.offsets, sites_.columns.size() * element.count, workers_);
     ScalarColumns columns = make_columns(element, {axis_names.begin(), axis_names.end()});
-    if (!read_plain_vertices(source_, element, axis_of_property, document_.points, sites_.offsets, columns)) {
-      read_vertices_one_by_one(element, axis_of_property, columns);
+    if (!read_plain_vertices(source_, element, site_of_property, sites_.columns.size(), document_.points,
+                             sites_.offsets, columns)) {
+      read_vertices_one_by_one(element, site_of_property, columns);
     }
     note_unread_lists(element, std::nullopt);
     for (auto& column : columns) {
@@ -179,12 +175,16 @@ class BodyReader {
     }
   }
 
-  void read_vertices_one_by_one(const PlyElement& element, const std::vector<int>& axis_of_property,
+  void read_vertices_one_by_one(const PlyElement& element, const std::vector<int>& site_of_property,
                                 ScalarColumns& columns) {
     read_rows(
         element, std::nullopt,
         [&](std::uint64_t row, std::size_t p, const PlyNumber& number) {
-          if (axis_of_property[p] < 0) {
+          const auto column = static_cast<std::size_t>(std::max(site_of_property[p], 0));
+          if (site_of_property[p] >= 0) {
+            sites_.offsets[sites_.columns.size() * row + column] = source_.number_offset();
+          }
+          if (columns[p]) {
             store(*columns[p], row, number);
             return;
           }
@@ -192,24 +192,34 @@ class BodyReader {
             source_.fail(row_label(element, row) + ": " + element.properties[p].name + " is not a finite " +
                          std::string(to_string(element.properties[p].type)) + " number");
           }
-          const std::size_t coordinate = 3 * row + static_cast<std::size_t>(axis_of_property[p]);
-          document_.points[coordinate] = number.value;
-          sites_.offsets[coordinate] = source_.number_offset();
+          document_.points[3 * row + column] = number.value;
         },
         [](std::uint64_t, const PlyNumber&) {}, [](std::uint64_t) {});
   }
 
-  /// x, y and z may be of different types, as where offsets along one axis are large.
-  void set_point_types(const PlyElement& element) {
-    for (const std::string_view axis : axis_names) {
-      sites_.axis_types.push_back(element.properties[*element.find(axis)].type);
+  /// Gives sites to the coordinates and then to the other properties of floating point: the column of each property, or
+  /// -1. x, y and z may be of different types, as where offsets along one axis are large.
+  std::vector<int> set_sites(const PlyElement& element) {
+    std::vector<int> site_of_property(element.properties.size(), -1);
+    sites_.encoding = header_.encoding;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t property = *element.find(axis_names[axis]);
+      site_of_property[property] = static_cast<int>(axis);
+      sites_.column_types.push_back(element.properties[property].type);
     }
-    if (std::ranges::count(sites_.axis_types, sites_.axis_types.front()) == 3) {
-      document_.point_type = sites_.type = sites_.axis_types.front();
-      sites_.axis_types.clear();
+    if (std::ranges::count(sites_.column_types, sites_.column_types.front()) == 3) {
+      document_.point_type = sites_.column_types.front();
     } else {
       document_.has_float32_axis = true;
     }
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      if (site_of_property[p] < 0 && !element.properties[p].is_list() && is_floating(element, p)) {
+        site_of_property[p] = static_cast<int>(sites_.columns.size());
+        sites_.columns.push_back({element.properties[p].name, 0});
+        sites_.column_types.push_back(element.properties[p].type);
+      }
+    }
+    return site_of_property;
   }
 
   bool is_vertex(const PlyNumber& number) const {
@@ -443,7 +453,7 @@ class BodyReader {
   /// A file of many properties of faces and many edges could ask for zeros out of all proportion to its size.
   std::uint64_t zero_rows_left_;
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
   std::vector<CellBlock> blocks_;
 };
 
@@ -476,7 +486,7 @@ MeshDocument read_ply(const std::filesystem::path& path, FileBytes bytes, const 
   const PlyHeader header = parse_ply_header(path, bytes);
   check_vertex_element(path, header);
   auto [document, sites] =
-      header.encoding == CoordinateEncoding::text
+      header.encoding == NumberEncoding::text
           ? BodyReader(path, header, PlyTextSource(path, bytes, header.size, workers), workers.workers).read()
           : BodyReader(path, header, PlyBinarySource(path, bytes, header.size, header.encoding, workers),
                        workers.workers)

@@ -132,14 +132,14 @@ class PlyTextSource {
 /// The rows of a binary file of either byte order.
 class PlyBinarySource {
  public:
-  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, CoordinateEncoding encoding,
+  PlyBinarySource(std::filesystem::path path, std::string_view bytes, std::size_t begin, NumberEncoding encoding,
                   const FileWorkers& workers)
       : path_(std::move(path)),
         bytes_(bytes),
         workers_(workers),
         offset_(begin),
         number_offset_(begin),
-        swapped_((encoding == CoordinateEncoding::big_endian) == (std::endian::native == std::endian::little)) {}
+        swapped_((encoding == NumberEncoding::big_endian) == (std::endian::native == std::endian::little)) {}
 
   static std::uint64_t least_bytes(ScalarType type) { return size_of(type); }
   std::uint64_t room() const { return bytes_.size() - offset_; }

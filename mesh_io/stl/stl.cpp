@@ -4,6 +4,6 @@
 
 namespace trismooth {
 
-const Codec stl_codec{&read_stl, &write_stl, &what_stl_loses};
+const Codec stl_codec{&read_stl, &write_stl, &what_stl_loses, &is_stl};
 
 }  // namespace trismooth

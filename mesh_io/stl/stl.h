@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
@@ -27,6 +28,10 @@ MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const 
 /// shortest texts that read back to the same float64, each with its unit normal, which is 0 0 0 for a degenerate
 /// triangle. Throws WriteError.
 void write_stl(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
+
+/// Whether the bytes are those of an STL file: as many as the number of facets in them asks for, or a text with a solid
+/// and its facets.
+bool is_stl(std::string_view bytes);
 
 /// What write_stl leaves out or changes, one sentence each.
 std::vector<std::string> what_stl_loses(const MeshDocument& document);

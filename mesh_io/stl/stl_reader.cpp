@@ -14,6 +14,7 @@
 #include "trismooth/mesh_io/stl/stl_layout.h"
 #include "trismooth/mesh_io/stl/stl_plain_facets.h"
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/text_head.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -30,7 +31,7 @@ bool is_word(std::string_view token, std::string_view word) {
 /// Makes triangles of corners, three after three, and remembers where each corner stands in the file.
 class FacetCollector {
  public:
-  FacetCollector(const std::filesystem::path& path, CoordinateEncoding encoding, ScalarType type) : path_(path) {
+  FacetCollector(const std::filesystem::path& path, NumberEncoding encoding, ScalarType type) : path_(path) {
     sites_.encoding = encoding;
     document_.point_type = sites_.type = type;
   }
@@ -78,7 +79,7 @@ class FacetCollector {
  private:
   const std::filesystem::path& path_;
   MeshDocument document_;
-  CoordinateSites sites_;
+  NumberSites sites_;
   PointWelder welder_;
   std::optional<std::vector<double>> points_;  ///< of facets that others have read
 };
@@ -108,7 +109,7 @@ std::vector<std::uint16_t> read_one_by_one(const std::filesystem::path& path, st
 }
 
 MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
-  FacetCollector collector(path, CoordinateEncoding::little_endian, ScalarType::float32);
+  FacetCollector collector(path, NumberEncoding::little_endian, ScalarType::float32);
   const auto count = number_at<std::uint32_t>(bytes, stl_layout::title_bytes);
   std::vector<std::uint16_t> attributes;
   if (auto plain = read_plain_binary_facets(bytes, count, workers)) {
@@ -135,7 +136,7 @@ class TextReader {
       : bytes_(std::move(bytes)),
         workers_(workers),
         scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)),
-        collector_(path, CoordinateEncoding::text, ScalarType::float64) {}
+        collector_(path, NumberEncoding::text, ScalarType::float64) {}
 
   /// Reads the whole text, once.
   MeshDocument read() {
@@ -332,12 +333,31 @@ bool has_zero_byte(std::string_view bytes) {
   return bytes.substr(0, stl_layout::header_bytes).find('\0') != bytes.npos;
 }
 
+/// The bytes that a file with the declared number of facets has, where it is binary.
+std::uint64_t binary_size(std::string_view bytes) {
+  return stl_layout::header_bytes +
+         std::uint64_t{number_at<std::uint32_t>(bytes, stl_layout::title_bytes)} * stl_layout::facet_bytes;
+}
+
 }  // namespace
+
+bool is_stl(std::string_view bytes) {
+  if (bytes.size() > stl_layout::header_bytes && bytes.size() == binary_size(bytes)) {
+    return true;
+  }
+  if (!begins_with_solid(bytes) || has_zero_byte(bytes)) {
+    return false;
+  }
+  TextScanner scanner(text_head(bytes), {});
+  scanner.next_line();
+  const std::string_view word = scanner.peek_token();
+  return is_word(word, "facet") || is_word(word, "endsolid");
+}
 
 MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
   const bool may_be_binary = bytes.size() >= stl_layout::header_bytes;
   const std::uint64_t count = may_be_binary ? number_at<std::uint32_t>(bytes, stl_layout::title_bytes) : 0;
-  const std::uint64_t end = stl_layout::header_bytes + count * stl_layout::facet_bytes;
+  const std::uint64_t end = may_be_binary ? binary_size(bytes) : stl_layout::header_bytes;
   if (may_be_binary && bytes.size() == end) {
     return read_binary(path, std::move(bytes), workers);
   }

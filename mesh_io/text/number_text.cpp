@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <limits>
 #include <system_error>
 
@@ -40,6 +41,30 @@ void append_shortest(std::string& text, T value) {
 const char* begin_of_number(std::string_view token) {
   const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+';
   return token.data() + (plus ? 1 : 0);
+}
+
+/// A number in the form of Nastran from the text of its `scientific` form (-d.ddde-05), whichever of 0.00ddd and d.dd-3
+/// is shorter.
+std::string nastran_text(std::string_view scientific) {
+  std::string text(scientific.starts_with('-') ? "-" : "");
+  scientific.remove_prefix(text.size());
+  const std::size_t e = scientific.find('e');
+  const int exponent = *parse_integer_as<int>(scientific.substr(e + 1));
+  std::string digits(scientific.substr(0, 1));
+  digits.append(scientific.substr(std::min<std::size_t>(2, e), e - std::min<std::size_t>(2, e)));
+  digits.erase(std::max<std::size_t>(digits.find_last_not_of('0') + 1, 1));
+  const std::string power = (exponent < 0 ? "" : "+") + std::to_string(exponent);
+  const auto magnitude = static_cast<std::size_t>(std::abs(exponent));
+  const std::size_t plain_length =
+      exponent < 0 ? magnitude + digits.size() : std::max(digits.size(), magnitude + 1) + 1;
+  if (digits.size() + 1 + power.size() < plain_length) {
+    return text + digits.substr(0, 1) + "." + digits.substr(1) + power;
+  }
+  if (exponent < 0) {
+    return text + "." + std::string(magnitude - 1, '0') + digits;
+  }
+  digits.append(magnitude + 1 > digits.size() ? magnitude + 1 - digits.size() : 0, '0');
+  return text + digits.insert(magnitude + 1, ".");
 }
 
 }  // namespace
@@ -80,6 +105,64 @@ template std::optional<std::int32_t> parse_integer_as(std::string_view);
 template std::optional<std::uint32_t> parse_integer_as(std::string_view);
 template std::optional<std::int64_t> parse_integer_as(std::string_view);
 template std::optional<std::uint64_t> parse_integer_as(std::string_view);
+
+template <class T>
+std::optional<T> parse_fortran_number(std::string_view token) {
+  const std::optional<T> plain = parse_number<T>(token);
+  const std::size_t exponent = token.find_first_not_of("0123456789.", token.starts_with('-') || token.starts_with('+'));
+  if (plain || exponent == std::string_view::npos || exponent == 0) {
+    return plain;
+  }
+  constexpr std::string_view letters = "dDqQ";
+  const bool is_letter = letters.find(token[exponent]) != std::string_view::npos;
+  if (!is_letter && token[exponent] != '-' && token[exponent] != '+') {
+    return std::nullopt;
+  }
+  std::string usual(token.substr(0, exponent));
+  usual.append("e").append(token.substr(exponent + (is_letter ? 1 : 0)));
+  return parse_number<T>(usual);
+}
+
+template std::optional<float> parse_fortran_number(std::string_view);
+template std::optional<double> parse_fortran_number(std::string_view);
+
+template <class T>
+std::size_t write_within(T value, std::size_t most, char* target) {
+  constexpr std::size_t room = 32;
+  auto length = static_cast<std::size_t>(std::to_chars(target, target + room, value).ptr - target);
+  for (int digits = std::numeric_limits<T>::max_digits10; length > most && digits > 0; --digits) {
+    length = static_cast<std::size_t>(
+        std::to_chars(target, target + room, value, std::chars_format::general, digits).ptr - target);
+  }
+  return length;
+}
+
+template std::size_t write_within(float, std::size_t, char*);
+template std::size_t write_within(double, std::size_t, char*);
+
+std::size_t write_within(double value, std::size_t most, NumberForm form, char* target) {
+  if (form == NumberForm::usual) {
+    return write_within(value, most, target);
+  }
+  std::array<char, 32> scientific{};
+  char* const begin = scientific.data();
+  char* const limit = begin + scientific.size();
+  std::string text = nastran_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific).ptr});
+  for (int digits = std::numeric_limits<double>::max_digits10; text.size() > most && digits > 0; --digits) {
+    text = nastran_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific, digits - 1).ptr});
+  }
+  std::ranges::copy(text, target);
+  return text.size();
+}
+
+double rounded_to_characters(double value, std::size_t most, NumberForm form) {
+  if (most == 0) {
+    return value;
+  }
+  std::array<char, 32> text{};
+  const std::size_t length = write_within(value, most, form, text.data());
+  return *parse_fortran_number<double>({text.data(), length});
+}
 
 std::optional<std::int64_t> parse_integer(std::string_view token) {
   return parse_integer_as<std::int64_t>(token);

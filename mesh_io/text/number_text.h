@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/mesh_io/number_form.h"
+
 namespace trismooth {
 
 /// The number that `token` states as a whole (digits, optional sign, fraction, exponent), or nothing. Infinities and
@@ -33,6 +35,29 @@ extern template std::optional<std::int32_t> parse_integer_as(std::string_view);
 extern template std::optional<std::uint32_t> parse_integer_as(std::string_view);
 extern template std::optional<std::int64_t> parse_integer_as(std::string_view);
 extern template std::optional<std::uint64_t> parse_integer_as(std::string_view);
+
+/// The number that `token` states as a whole, also with an exponent as Fortran writes it ("1.5D-3") or as Nastran does
+/// ("1.5-3"); otherwise as parse_number().
+template <class T>
+std::optional<T> parse_fortran_number(std::string_view token);
+
+extern template std::optional<float> parse_fortran_number(std::string_view);
+extern template std::optional<double> parse_fortran_number(std::string_view);
+
+/// Writes the text of the number that is nearest to the finite `value` among those that `most` characters hold to
+/// `target`, which has room for 32. Returns how many characters it took: `most` at most where that is 8 or more (large
+/// numbers and their neighbours in fewer characters do not exist).
+template <class T>
+std::size_t write_within(T value, std::size_t most, char* target);
+
+extern template std::size_t write_within(float, std::size_t, char*);
+extern template std::size_t write_within(double, std::size_t, char*);
+
+/// The same as write_within(), in that form.
+std::size_t write_within(double value, std::size_t most, NumberForm form, char* target);
+
+/// The value that the text of write_within() reads back to; the value itself where `most` is 0.
+double rounded_to_characters(double value, std::size_t most, NumberForm form = NumberForm::usual);
 
 /// Appends the shortest text that reads back to the same value.
 void append_number(std::string& text, float value);

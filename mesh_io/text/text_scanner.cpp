@@ -17,6 +17,7 @@ constexpr unsigned blank = 1;
 constexpr unsigned line_end = 2;
 constexpr unsigned hash = 4;
 constexpr unsigned backslash = 8;
+constexpr unsigned percent = 16;
 
 constexpr std::array<unsigned char, 256> make_classes() {
   std::array<unsigned char, 256> classes{};
@@ -26,6 +27,7 @@ constexpr std::array<unsigned char, 256> make_classes() {
   classes['\n'] = line_end;
   classes['\r'] = line_end;
   classes['#'] = hash;
+  classes['%'] = percent;
   classes['\\'] = backslash;
   return classes;
 }
@@ -62,7 +64,7 @@ TextScanner::TextScanner(std::string_view text, std::filesystem::path path, Comm
       token_offset_(begin),
       comments_(comments),
       continuation_(continuation),
-      token_ends_(blank | line_end | (comments == Comments::hash ? hash : 0) |
+      token_ends_(blank | line_end | class_of(static_cast<char>(comments)) |
                   (continuation == Continuation::backslash ? backslash : 0)) {}
 
 /// Bytes of the line end at `offset`: CR LF counts as one end.
@@ -85,7 +87,7 @@ void TextScanner::skip_blanks() {
       break;
     }
   }
-  if (comments_ == Comments::hash && offset_ < text_.size() && text_[offset_] == '#') {
+  if (comments_ != Comments::none && offset_ < text_.size() && text_[offset_] == static_cast<char>(comments_)) {
     while (offset_ < text_.size() && !is_line_end(text_[offset_])) {
       ++offset_;
     }

@@ -14,7 +14,8 @@ inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 /// LF, CR LF and CR alone end a line. Locale-independent. The text must outlive the scanner.
 class TextScanner {
  public:
-  enum class Comments : bool { none, hash };           ///< hash: '#' starts a comment that runs to the end of the line
+  /// The character that starts a comment, which runs to the end of the line.
+  enum class Comments : char { none = '\0', hash = '#', percent = '%' };
   enum class Continuation : bool { none, backslash };  ///< backslash: one that ends a line makes that end a blank
 
   /// Scans text[begin, end of text); line numbers count from the start of `text`.

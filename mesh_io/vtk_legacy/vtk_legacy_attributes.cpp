@@ -38,9 +38,10 @@ constexpr auto roles = std::to_array<std::pair<std::string_view, std::string_vie
 struct ArrayTarget {
   std::vector<DataArray>& arrays;
   std::vector<std::string>& names;
-  std::string_view kind;                      ///< "point", "cell" or "field"
-  std::uint64_t rows;                         ///< of every array; of no meaning for fields of the whole mesh
-  std::vector<LabelArray>* labels = nullptr;  ///< where arrays of strings go; null: nowhere
+  std::string_view kind;                           ///< "point", "cell" or "field"
+  std::uint64_t rows;                              ///< of every array; of no meaning for fields of the whole mesh
+  std::vector<LabelArray>* labels = nullptr;       ///< where arrays of strings go; null: nowhere
+  std::vector<VtkLegacyValues>* values = nullptr;  ///< is told where numbers of floating point stand; null: nobody is
 };
 
 class ArrayReader {
@@ -205,9 +206,7 @@ class ArrayReader {
     const std::size_t first_array = target_.arrays.size();
     switch (type.kind) {
       case VtkLegacyType::Kind::numbers:
-        add(visit_scalar_type(type.scalar, [&](auto zero) {
-          return make_data_array(std::move(name), components, input_.read_values<decltype(zero)>(count, what));
-        }));
+        read_numbers(std::move(name), type.scalar, components, count, what);
         break;
       case VtkLegacyType::Kind::bits:
         add(make_data_array(std::move(name), components, input_.read_bits(count, what)));
@@ -229,6 +228,19 @@ class ArrayReader {
       target_.arrays.back().description = std::move(description);
     }
     sites_.arrays.back().end = input_.offset();
+  }
+
+  void read_numbers(std::string name, ScalarType type, std::uint64_t components, std::uint64_t count,
+                    const std::string& what) {
+    const std::size_t begin = input_.offset();
+    add(visit_scalar_type(type, [&](auto zero) {
+      return make_data_array(std::move(name), components, input_.read_values<decltype(zero)>(count, what));
+    }));
+    if (target_.values != nullptr && (type == ScalarType::float32 || type == ScalarType::float64)) {
+      const DataArray& array = target_.arrays.back();
+      target_.values->push_back(
+          {target_.arrays.size() - 1, array, input_.is_binary() ? input_.offset() - array.bytes.size() : begin});
+    }
   }
 
   /// Those of a cell each are kept, since they may name regions.
@@ -285,8 +297,9 @@ void read_vtk_legacy_field(VtkLegacyInput& input, MeshDocument& document) {
 
 void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, VtkLegacyLayout& layout) {
   using Section = VtkLegacyLayout::Section;
-  ArrayReader points(input, document.notes,
-                     {document.point_arrays, layout.point_names, "point", document.point_count()});
+  ArrayReader points(
+      input, document.notes,
+      {document.point_arrays, layout.point_names, "point", document.point_count(), nullptr, &layout.point_values});
   ArrayReader cells(input, document.notes,
                     {document.cell_arrays, layout.cell_names, "cell", document.cells.size(), &document.cell_labels});
   VtkLegacyAnnotations annotations(input.bytes());

@@ -37,7 +37,7 @@ bool holds_coordinates(const VtkLegacyLayout& layout, std::span<const double> po
 VtkLegacyPromotion promote_coordinates(std::string_view bytes, const VtkLegacyLayout& layout) {
   constexpr std::string_view type = "double";
   VtkLegacyPromotion promotion{std::string(bytes.substr(0, layout.type_offset)), layout.coordinates};
-  CoordinateSites& sites = promotion.coordinates;
+  NumberSites& sites = promotion.coordinates;
   sites.type = ScalarType::float64;
   promotion.bytes += type;
   const std::size_t behind_type = layout.type_offset + layout.type_length;

@@ -15,7 +15,7 @@ bool holds_coordinates(const VtkLegacyLayout& layout, std::span<const double> po
 /// A legacy VTK file whose coordinates are double.
 struct VtkLegacyPromotion {
   std::string bytes;
-  CoordinateSites coordinates;
+  NumberSites coordinates;
 };
 
 /// The file `bytes`, whose coordinates are of a type of whole numbers, with the word for that type replaced by "double"

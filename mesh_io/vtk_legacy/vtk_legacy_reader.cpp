@@ -125,9 +125,9 @@ class GeometryReader {
     }
     layout_.type_offset = input_.value_offset();
     layout_.type_length = input_.offset() - input_.value_offset();
-    CoordinateSites& sites = layout_.coordinates;
+    NumberSites& sites = layout_.coordinates;
     sites.type = type.scalar;
-    sites.encoding = input_.is_binary() ? CoordinateEncoding::big_endian : CoordinateEncoding::text;
+    sites.encoding = input_.is_binary() ? NumberEncoding::big_endian : NumberEncoding::text;
     visit_scalar_type(type.scalar, [&](auto zero) { read_coordinates<decltype(zero)>(3 * point_count); });
     if (type.scalar == ScalarType::float32 || type.scalar == ScalarType::float64) {
       document_.point_type = type.scalar;

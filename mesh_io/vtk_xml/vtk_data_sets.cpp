@@ -25,6 +25,7 @@ vtkSmartPointer<Object> make() {
 template <class Attributes>
 class OwnTimeOnly final : public Attributes {
  public:
+  using Attributes::SetArray;
   vtkMTimeType GetMTime() override { return this->MTime.GetMTime(); }
 };
 
@@ -77,6 +78,10 @@ vtkSmartPointer<vtkUnstructuredGrid> make_unstructured_grid() {
 
 vtkSmartPointer<vtkPolyData> make_poly_data() {
   return make<AnyNumberOfArrays<vtkPolyData>>();
+}
+
+void replace_point_array(vtkPointSet& data, int index, vtkAbstractArray& array) {
+  dynamic_cast<OwnTimeOnly<vtkPointData>&>(*data.GetPointData()).SetArray(index, &array);
 }
 
 vtkSmartPointer<vtkPointSet> shallow_copy(vtkPointSet& data) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkAbstractArray.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -15,6 +16,10 @@ vtkSmartPointer<vtkUnstructuredGrid> make_unstructured_grid();
 
 /// An empty vtkPolyData.
 vtkSmartPointer<vtkPolyData> make_poly_data();
+
+/// Puts the array in the place of the point array of that number, whatever their names. The data set is one of those
+/// made here.
+void replace_point_array(vtkPointSet& data, int index, vtkAbstractArray& array);
 
 /// One of the same kind with the same content; the arrays are shared. `data` is a vtkUnstructuredGrid or a vtkPolyData.
 vtkSmartPointer<vtkPointSet> shallow_copy(vtkPointSet& data);

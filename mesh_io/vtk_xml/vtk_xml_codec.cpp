@@ -31,6 +31,7 @@
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/text/text_head.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_array_description.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_cells.h"
@@ -70,6 +71,36 @@ void add_arrays(std::span<const DataArray> arrays, vtkFieldData& fields) {
   reserve_vtk_arrays(fields, arrays.size());
   for (const DataArray& array : arrays) {
     add_vtk_array(fields, *view_as_vtk_array(array), names.claim(array.name));
+  }
+}
+
+/// Puts the point arrays of a document in the place of those of its file that have other numbers. `read` are the
+/// file's, `data` is a copy of it.
+void replace_changed(vtkFieldData& read, std::span<const DataArray> arrays, vtkPointSet& data) {
+  std::size_t next = 0;
+  for (int i = 0; i < read.GetNumberOfArrays() && next < arrays.size(); ++i) {
+    const std::optional<DataArray> view = view_as_data_array(read.GetAbstractArray(i));
+    if (!view) {
+      continue;
+    }
+    auto* const old = vtkDataArray::SafeDownCast(read.GetAbstractArray(i));
+    const DataArray& array = arrays[next++];
+    const bool is_other = array.name == view->name && array.type == view->type &&
+                          array.components == view->components && array.bytes.size() == view->bytes.size() &&
+                          array.bytes.data() != view->bytes.data();
+    if (!is_other) {
+      continue;
+    }
+    const vtkSmartPointer<vtkDataArray> changed =
+        view_as_vtk_array({array.name, array.type, array.components, array.bytes, array.owner});
+    changed->SetName(old->GetName());
+    for (int component = 0; component < old->GetNumberOfComponents(); ++component) {
+      if (const char* const name = old->GetComponentName(component)) {
+        changed->SetComponentName(component, name);
+      }
+    }
+    changed->CopyInformation(old->GetInformation(), 1);
+    replace_point_array(data, i, *changed);
   }
 }
 
@@ -122,6 +153,7 @@ class VtkXmlOriginal : public OriginalFile {
     }
     points->CopyInformation(old_points->GetInformation(), 1);
     set_points(*copy, *points);
+    replace_changed(*file_.data->GetPointData(), document.point_arrays, *copy);
     if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
       remove_annotations(*copy->GetPointData());
       remove_annotations(*copy->GetCellData());
@@ -129,6 +161,18 @@ class VtkXmlOriginal : public OriginalFile {
     add_arrays(added_point_arrays, *copy->GetPointData());
     add_arrays(added_cell_arrays, *copy->GetCellData());
     write_vtk_xml(path, *copy, file_.encoding, file_.attributes, FileWorkers(workers));
+  }
+
+  bool keeps_values_of(std::string_view point_array) const override {
+    vtkFieldData& arrays = *file_.data->GetPointData();
+    for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {
+      const std::optional<DataArray> view = view_as_data_array(arrays.GetAbstractArray(i));
+      if (view && view->name == point_array &&
+          (view->type == ScalarType::float32 || view->type == ScalarType::float64)) {
+        return true;
+      }
+    }
+    return false;
   }
 
  private:
@@ -298,7 +342,7 @@ std::vector<std::size_t> joined(const std::array<std::vector<std::size_t>, poly_
   return order;
 }
 
-DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
+DataArray with_ordered_rows(const DataArray& array, std::span<const std::size_t> rows) {
   const std::size_t row_size = array.components * size_of(array.type);
   auto bytes = std::make_shared<std::vector<std::byte>>();
   bytes->reserve(rows.size() * row_size);
@@ -320,7 +364,7 @@ void write_poly_data(const std::filesystem::path& path, const MeshDocument& docu
   const std::vector<std::size_t> order = joined(groups);
   if (order.size() != document.cells.size() || !std::ranges::is_sorted(order)) {
     std::ranges::transform(document.cell_arrays, cell_arrays.begin(),
-                           [&order](const DataArray& array) { return with_rows(array, order); });
+                           [&order](const DataArray& array) { return with_ordered_rows(array, order); });
   }
   set_points_and_arrays(*data, document, cell_arrays);
   write_vtk_xml(path, *data, {}, {}, workers);
@@ -348,9 +392,25 @@ std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
   return sentences;
 }
 
+/// By the type that the root of the document states.
+template <VtkXmlKind kind>
+bool is_vtk_xml(std::string_view bytes) {
+  const std::string_view head = text_head(bytes);
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  const std::size_t root = head.find("<VTKFile");
+  if (root == head.npos || head[first] != '<') {
+    return false;
+  }
+  const std::string_view tag = head.substr(root, head.substr(root).find('>'));
+  const std::string name(to_string(kind));
+  return tag.find('"' + name + '"') != tag.npos || tag.find("'" + name + "'") != tag.npos;
+}
+
 }  // namespace
 
-const Codec vtu_codec{&read<VtkXmlKind::unstructured_grid>, &write_unstructured_grid, &lost_in_unstructured_grid};
-const Codec vtp_codec{&read<VtkXmlKind::poly_data>, &write_poly_data, &lost_in_poly_data};
+const Codec vtu_codec{&read<VtkXmlKind::unstructured_grid>, &write_unstructured_grid, &lost_in_unstructured_grid,
+                      &is_vtk_xml<VtkXmlKind::unstructured_grid>};
+const Codec vtp_codec{&read<VtkXmlKind::poly_data>, &write_poly_data, &lost_in_poly_data,
+                      &is_vtk_xml<VtkXmlKind::poly_data>};
 
 }  // namespace trismooth

@@ -13,7 +13,7 @@ namespace trismooth {
 namespace {
 
 /// Name, number among the arrays of that name, values, type, components.
-using Key = std::tuple<std::string, std::size_t, int, int, std::uint64_t>;
+using ArrayKey = std::tuple<std::string, std::size_t, int, int, std::uint64_t>;
 
 /// An array and the pieces that have it.
 struct Found {
@@ -31,7 +31,7 @@ VtkXmlSharedArrays find_shared_arrays(const std::filesystem::path& path, std::sp
   const auto first_piece = static_cast<std::size_t>(first == pieces.end() ? 0 : first - pieces.begin());
   shared.first_section = pieces[first_piece].element->child(section);
 
-  std::map<Key, std::size_t> index_of;
+  std::map<ArrayKey, std::size_t> index_of;
   std::vector<Found> found;
   std::size_t pieces_with_rows = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -45,8 +45,8 @@ VtkXmlSharedArrays find_shared_arrays(const std::filesystem::path& path, std::sp
       if (array->attribute("Name") == nullptr) {
         throw ReadError(path, array->line, "an array of <" + section + "> has no Name");
       }
-      const Key key(type.name, count_of[type.name]++, static_cast<int>(type.values), static_cast<int>(type.type),
-                    type.components);
+      const ArrayKey key(type.name, count_of[type.name]++, static_cast<int>(type.values), static_cast<int>(type.type),
+                         type.components);
       const auto [at, is_new] = index_of.emplace(key, found.size());
       if (is_new) {
         found.emplace_back();

@@ -4,6 +4,8 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <ostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -12,6 +14,8 @@
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/cli/format_option.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/terminal_line.h"
@@ -25,19 +29,26 @@ namespace {
 
 struct GenerateSettings {
   std::filesystem::path output;
+  std::optional<FileFormat> format;
   std::int64_t vertices = 0;
   std::uint64_t seed = 1;
   RandomMeshOptions options;
 };
 
 /// What cannot be a mesh file, or cannot be made, is told before the work, not after it.
-void try_output(const std::filesystem::path& output) {
-  output_format(output);
-  const OutputFile attempt(output);
+void try_output(const GenerateSettings& settings) {
+  if (is_standard_stream(settings.output) && !settings.format) {
+    throw std::invalid_argument("'-' has no extension to say what to write; --format NAME says it");
+  }
+  require_use_of_format(settings.format, {settings.output});
+  output_format(settings.output, std::nullopt, settings.format);
+  if (!is_standard_stream(settings.output)) {
+    const OutputFile attempt(settings.output);
+  }
 }
 
 ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& environment) {
-  try_output(settings.output);
+  try_output(settings);
   std::optional<TerminalLine> line;
   const auto show = [&](std::string_view stage) {
     if (line) {
@@ -50,11 +61,12 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   show("making the mesh");
   const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed, settings.options);
   show("writing");
-  write_mesh(settings.output, document_of(mesh));
+  write_mesh(settings.output, document_of(mesh), {}, FileOptions{1, settings.format});
   line.reset();
-  environment.out << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
-                                                             mesh.triangles.size(), settings.seed))
-                  << labelled_line("written:", settings.output.string());
+  std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
+  results << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
+                                                     mesh.triangles.size(), settings.seed))
+          << labelled_line("written:", shown_output(settings.output).string());
   return ExitCode::done;
 }
 
@@ -62,9 +74,10 @@ ExitCode run_generate(const GenerateSettings& settings, const CommandEnvironment
   try {
     return generate(settings, environment);
   } catch (const std::bad_alloc&) {
-    throw WriteError(settings.output, fmt::format("not enough memory to make a mesh of {} vertices; use a machine with "
-                                                  "more, or fewer vertices",
-                                                  settings.vertices));
+    throw WriteError(shown_output(settings.output),
+                     fmt::format("not enough memory to make a mesh of {} vertices; use a machine with "
+                                 "more, or fewer vertices",
+                                 settings.vertices));
   }
 }
 
@@ -73,7 +86,7 @@ ExitCode run_generate(const GenerateSettings& settings, const CommandEnvironment
 Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environment) {
   const auto settings = std::make_shared<GenerateSettings>();
   CLI::App& command = *app.add_subcommand("generate", "Make a random Delaunay mesh of the unit square");
-  add_parsed_option(command, "OUTPUT", "", "Mesh to write; its extension names the format",
+  add_parsed_option(command, "OUTPUT", "", "Mesh to write, - for standard output; its extension names the format",
                     [settings](const std::string& text) { settings->output = text; })
       ->required();
   add_parsed_option(command, "--vertices", "N",
@@ -87,6 +100,7 @@ Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environ
                     [settings](const std::string& text) {
                       settings->seed = parse_integer(text, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
                     });
+  add_format_option(command, settings->format);
   add_enum_option(
       command, "--boundary", settings->options.boundary,
       "random: the hull of the points, a few long edges, the paper's data; resolved: the square, with edges "

@@ -62,6 +62,21 @@ std::string wrapped_lines(const std::string& lines) {
   return text;
 }
 
+/// "off (.off), obj (.obj), ...": the names that --format takes, with their extensions.
+std::string names_of_formats() {
+  std::string list;
+  for (const FileFormat format : all_formats()) {
+    if (is_available(format)) {
+      std::string extensions;
+      for (const std::string_view extension : extensions_of(format)) {
+        extensions.append(extensions.empty() ? "" : " ").append(extension);
+      }
+      list.append(fmt::format("{}{} ({})", list.empty() ? "" : ", ", to_string(format), extensions));
+    }
+  }
+  return list;
+}
+
 /// "; .vtu, .vtp need a build with VTK", or empty.
 std::string missing_formats() {
   std::string names;
@@ -77,7 +92,9 @@ ExitCode run_info(const CommandEnvironment& environment) {
   const CudaSupport cuda = environment.cuda();
   const int threads = Workers(0).count();
   environment.out << "trismooth " << version() << '\n'
-                  << labelled_line("formats:", format_list() + " (all are read and written" + missing_formats() + ")")
+                  << labelled_line(
+                         "formats:",
+                         names_of_formats() + "; all are read and written, also compressed (.gz)" + missing_formats())
                   << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
                   << labelled_line("threads:", std::to_string(threads))
                   << (cuda.backend != nullptr ? wrapped_lines(cuda.lines())

@@ -16,7 +16,9 @@
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/annotations.h"
+#include "trismooth/pipeline/cli/format_option.h"
 #include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/output_attempts.h"
@@ -79,8 +81,9 @@ void require_own_file(const std::filesystem::path& report, const PipelineOptions
 /// A place where no file can be made is told before the work, not after it.
 void try_outputs(const MeshRunSettings& settings) {
   const PipelineOptions& options = settings.pipeline;
+  require_use_of_format(options.format, {options.input, options.written()});
   require_known_formats(options);
-  if (const auto& target = options.written()) {
+  if (const auto& target = options.written(); target && !is_standard_stream(*target)) {
     const OutputFile attempt(*target);
   }
   for (const std::filesystem::path& report : settings.reports) {
@@ -131,10 +134,10 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const C
   try {
     return environment.run(options);
   } catch (const MeshError& error) {
-    throw ReadError(options.input, error.what());
+    throw ReadError(shown_input(options.input), error.what());
   } catch (const std::bad_alloc&) {
     throw ReadError(
-        options.input,
+        shown_input(options.input),
         "not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a smaller mesh");
   }
 }
@@ -154,12 +157,29 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
                     "Point array; where it is not 0, the vertex is fixed [fixed, if the file has it]",
                     [&options](const std::string& text) { options.fixed_array = text; })
       ->group(option_group::constraints);
+  add_parsed_option(
+      command, "--fixed-set", "NAME",
+      "Set of points in the file (NSET, Corners, boundary) whose vertices are fixed. Repeatable; none: no set fixes "
+      "any "
+      "[all that do not cover an area]",
+      [&options](const std::string& text) { options.fixed_sets.push_back(text); }, repeatable)
+      ->group(option_group::constraints);
+  add_parsed_option(command, "--project", alternatives<Projection>(),
+                    "For a mesh that is not flat, a surface z(x, y): smooth it in x and y; z is a value at points, "
+                    "which --fields keep leaves as it is",
+                    [&options](const std::string& text) { options.project = parse_choice<Projection>(text); })
+      ->group(option_group::coordinates);
+  command
+      .add_flag("--geographic", options.geographic,
+                "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
+      ->group(option_group::coordinates);
   add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
                     [&options](const std::string& text) { options.fixed_ids = text; })
       ->group(option_group::constraints);
 }
 
 void add_result_options(CLI::App& command, MeshRunSettings& settings) {
+  add_format_option(command, settings.pipeline.format)->group(option_group::running);
   add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
                     [&settings](const std::string& text) {
                       settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
@@ -221,6 +241,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
       write_report(report, options, result, record);
     });
   });
+  // A mesh on standard output has it for itself.
+  const bool is_taken = options.written() && is_standard_stream(*options.written());
+  std::ostream& results = is_taken ? environment.err : environment.out;
   std::exception_ptr not_printed;
   if (verbosity != Verbosity::quiet) {
     std::string text =
@@ -232,7 +255,7 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
       text += labelled_line("report:", report.string());
     }
     try {
-      print_results(environment.out, text);
+      print_results(results, text);
     } catch (const WriteError&) {
       not_printed = std::current_exception();
     }

@@ -26,6 +26,7 @@ struct MeshRunSettings {
 /// The groups that help lists these options in.
 namespace option_group {
 inline constexpr const char* constraints = "Regions and fixed vertices";
+inline constexpr const char* coordinates = "Coordinates";
 inline constexpr const char* running = "Running";
 inline constexpr const char* results = "Results";
 }  // namespace option_group

@@ -33,7 +33,8 @@ void require_arrays(const std::filesystem::path& path) {
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment) {
   const auto settings = std::make_shared<MeshRunSettings>();
   CLI::App& command = *app.add_subcommand("quality", "Check a mesh and change nothing");
-  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
+  add_parsed_option(command, "INPUT", "",
+                    "Mesh to read, - for standard input; its extension and content show the format",
                     [settings](const std::string& text) { settings->pipeline.input = text; })
       ->required();
   add_mesh_options(command, *settings);

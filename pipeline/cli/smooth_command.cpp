@@ -122,6 +122,22 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
       ->group(group);
 }
 
+void add_field_options(CLI::App& command, PipelineOptions& options) {
+  const char* const group = "Fields";
+  add_parsed_option(command, "--fields", alternatives<Fields>(),
+                    "Values at points where vertices move: keep them, or take those that the mesh had at the new place "
+                    "[keep, but depths and the like are interpolated]",
+                    [&options](const std::string& text) { options.fields = parse_choice<Fields>(text); })
+      ->group(group);
+  constexpr bool repeatable = true;
+  add_parsed_option(
+      command, "--field-array", "PATTERN",
+      "Point arrays to interpolate, by name: * is any characters, ? is one. Repeatable [with --fields interpolate: "
+      "all]",
+      [&options](const std::string& text) { options.field_arrays.push_back(text); }, repeatable)
+      ->group(group);
+}
+
 ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environment) {
   PipelineOptions& options = settings.run.pipeline;
   options.smoothing.guard = settings.guard == Switch::on;
@@ -138,16 +154,19 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   const auto settings = std::make_shared<SmoothSettings>();
   PipelineOptions& options = settings->run.pipeline;
   CLI::App& command = *app.add_subcommand("smooth", "Check a mesh, smooth it, check it again and write it");
-  add_parsed_option(command, "INPUT", "", "Mesh to read; its extension names the format",
+  add_parsed_option(command, "INPUT", "",
+                    "Mesh to read, - for standard input; its extension and content show the format",
                     [&options](const std::string& text) { options.input = text; })
       ->required();
-  add_parsed_option(command, "OUTPUT", "", "Mesh to write; may be INPUT. An old file survives any failure",
+  add_parsed_option(command, "OUTPUT", "",
+                    "Mesh to write, - for standard output; may be INPUT. An old file survives any failure",
                     [&options](const std::string& text) { options.output = text; })
       ->required();
   add_algorithm_options(command, *settings);
   add_mean_ratio_options(command, options);
   add_stop_options(command, options.smoothing);
   add_mesh_options(command, settings->run);
+  add_field_options(command, options);
   add_device_options(command, *settings);
   add_result_options(command, settings->run);
   command

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "trismooth/pipeline/input/array_names.h"
+#include "trismooth/mesh_io/document/array_names.h"
 
 namespace trismooth {
 

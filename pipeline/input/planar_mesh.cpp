@@ -20,6 +20,10 @@ bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return vertices.size() == 3 && (type == cell_type::triangle || type == cell_type::polygon);
 }
 
+bool is_quadratic(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  return vertices.size() == 6 && type == cell_type::quadratic_triangle;
+}
+
 bool repeats_a_vertex(std::span<const std::int32_t> triangle) {
   return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
 }
@@ -85,8 +89,13 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
     if (document.cells.types[c] == cell_type::triangle_strip && add_strip(vertices, c, mesh)) {
       continue;
     }
-    const bool triangular = is_triangle(document.cells.types[c], vertices);
+    const bool quadratic = is_quadratic(document.cells.types[c], vertices);
+    const bool triangular = quadratic || is_triangle(document.cells.types[c], vertices);
     if (triangular && !repeats_a_vertex(vertices)) {
+      if (quadratic) {
+        mesh.quadratics.push_back(
+            {static_cast<std::int32_t>(mesh.triangles_of_cells.size()), {vertices[3], vertices[4], vertices[5]}});
+      }
       mesh.triangles_of_cells.push_back({vertices[0], vertices[1], vertices[2]});
       mesh.cells.push_back(static_cast<std::int32_t>(c));
       continue;
@@ -113,7 +122,9 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
                     const std::filesystem::path& path, Workers& workers) {
   if (!fit.is_planar()) {
-    throw ReadError(path, fit.fault() + "; only planar meshes can be smoothed");
+    throw ReadError(
+        path,
+        fit.fault() + "; only planar meshes can be smoothed, or where z is a function of x and y with --project xy");
   }
   auto points = project(fit.plane, document.points, mesh.in_cell, workers);
   if (!points) {
@@ -123,6 +134,21 @@ void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& d
   }
   mesh.plane = fit.plane;
   mesh.points = *std::move(points);
+}
+
+/// Without a plane.
+PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
+  check_document_size(document.point_count(), document.cells.size(), path);
+  PlanarMesh mesh;
+  sort_cells(document, mesh, workers);
+  if (mesh.triangles.empty() && document.cells.size() > 0) {
+    throw ReadError(path, "holds " + counted(static_cast<std::int64_t>(document.cells.size()), "cell") +
+                              " but no triangle; only triangle meshes can be smoothed");
+  }
+  if (mesh.triangles.empty()) {
+    mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -142,18 +168,15 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
 }
 
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
-  check_document_size(document.point_count(), document.cells.size(), path);
-  PlanarMesh mesh;
-  sort_cells(document, mesh, workers);
-  if (mesh.triangles.empty() && document.cells.size() > 0) {
-    throw ReadError(path, "holds " + counted(static_cast<std::int64_t>(document.cells.size()), "cell") +
-                              " but no triangle; only triangle meshes can be smoothed");
-  }
-  if (mesh.triangles.empty()) {
-    mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
-  }
+  PlanarMesh mesh = sorted_mesh(document, path, workers);
   lay_into_plane(mesh, fit_plane(document.points, mesh.in_cell, document.cells, storage_of(document), workers),
                  document, path, workers);
+  return mesh;
+}
+
+PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
+  PlanarMesh mesh = sorted_mesh(document, path, workers);
+  lay_into_plane(mesh, {}, document, path, workers);
   return mesh;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +13,9 @@
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/geographic/geographic_map.h"
+#include "trismooth/pipeline/input/middle_nodes.h"
+#include "trismooth/quality/quadratic_quality.h"
 
 namespace trismooth {
 
@@ -26,17 +31,29 @@ struct PlanarMesh {
   ~PlanarMesh() = default;
 
   Plane plane;
+  std::optional<GeographicMap> map;   ///< where the points are longitudes and latitudes: what they are laid on
   BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
   /// In the document's order, each in the document's vertex order. They are the document's own connectivity where it
   /// has nothing but triangles, else they are in triangles_of_cells.
   std::span<const Triangle> triangles;
   std::vector<Triangle> triangles_of_cells;
-  BulkVector<std::int32_t> cells;           ///< the document's cell of each triangle, ascending; a strip has several
-  std::vector<std::uint8_t> in_other_cell;  ///< per vertex: 1 where a cell that is not a triangle uses it
-  std::vector<std::uint8_t> in_cell;        ///< per vertex: 1 where any cell uses it; the others have no say at all
-  std::int64_t other_cells = 0;             ///< cells that are not triangles
-  std::int64_t repeating_triangles = 0;     ///< those of them that are triangles but for a vertex that they repeat
-  std::vector<std::string> notes;           ///< what the user should know, one sentence each
+  BulkVector<std::int32_t> cells;             ///< the document's cell of each triangle, ascending; a strip has several
+  std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
+  std::vector<MiddleNode> middles;            ///< the middles that follow their sides: see settle_middles()
+  std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it
+  std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
+  std::int64_t other_cells = 0;               ///< cells that are not triangles
+  std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
+  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+
+  /// Where a vertex lies in the plane, or on the map, that is stored there.
+  Point2<double> place(std::size_t vertex, const Eigen::Vector3d& stored) const {
+    return map ? map->place(vertex, stored) : plane.project(stored);
+  }
+  /// What is stored of a vertex that moves from one place to another, before it is rounded.
+  Eigen::Vector3d moved(const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to) const {
+    return map ? map->moved(stored, from, to) : plane.moved(stored, from, to);
+  }
 };
 
 /// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
@@ -46,14 +63,18 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
 Storage storage_of(const MeshDocument& document);
 
 /// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
-/// strip_triangles.h). A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and
-/// a note says so. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane())
-/// or have no finite coordinates in it (near the largest double), or the document holds cells but no triangle. A
-/// document without any cell is fine: nothing to smooth. Complexity: linear.
+/// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says. A triangle that
+/// repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says so. Throws ReadError
+/// naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in
+/// it (near the largest double), or the document holds cells but no triangle. A document without any cell is fine:
+/// nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// The same on the calling thread.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
+
+/// The same of a mesh that may lie in no plane, laid into the plane of x and y: z has no say. Do not settle its plane.
+PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// Not of a temporary: the triangles may be the document's own.
 PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers) = delete;

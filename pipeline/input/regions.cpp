@@ -4,15 +4,17 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/pipeline/input/array_names.h"
+#include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
-#include "trismooth/pipeline/input/region_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
@@ -27,8 +29,17 @@ struct Candidate {
   DataArray array;
   const LabelArray* labels = nullptr;
 
-  std::string text(std::size_t row) const {
-    return labels == nullptr ? value_text(array, row) : labels->labels[static_cast<std::size_t>(labels->of_row[row])];
+  /// The value in a row, or what it is called; `with_value`: both.
+  std::string text(std::size_t row, bool with_value) const {
+    if (labels != nullptr) {
+      return labels->labels[static_cast<std::size_t>(labels->of_row[row])];
+    }
+    const std::string value = value_text(array, row);
+    const std::string name = value_name(array, 2, value);
+    if (name.empty()) {
+      return value;
+    }
+    return with_value ? name + " (" + value + ")" : name;
   }
 };
 
@@ -194,16 +205,27 @@ class RegionFinder {
   }
 
   Regions take() {
+    std::unordered_map<std::string, int> uses;
     for (const std::int32_t triangle : numbers_.example) {
-      const auto row = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]);
-      std::string name;
-      for (const Candidate* const candidate : obeyed_) {
-        name.append(candidate == obeyed_.front() ? "" : ", ").append(candidate->text(row));
+      regions_.names.push_back(name_of_region(triangle, false));
+      ++uses[regions_.names.back()];
+    }
+    for (std::size_t r = 0; r < regions_.names.size(); ++r) {
+      if (uses[regions_.names[r]] > 1) {
+        regions_.names[r] = name_of_region(numbers_.example[r], true);
       }
-      regions_.names.push_back(std::move(name));
     }
     regions_.of_triangle = std::move(numbers_.of_item);
     return std::move(regions_);
+  }
+
+  std::string name_of_region(std::int32_t triangle, bool with_values) const {
+    const auto row = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]);
+    std::string name;
+    for (const Candidate* const candidate : obeyed_) {
+      name.append(candidate == obeyed_.front() ? "" : ", ").append(candidate->text(row, with_values));
+    }
+    return name;
   }
 
   const PlanarMesh& mesh_;

@@ -16,8 +16,9 @@ namespace trismooth {
 struct Regions {
   std::vector<RegionArray> arrays;        ///< the cell arrays that were obeyed, in the file's order
   std::vector<std::int32_t> of_triangle;  ///< a number from 0 for each triangle; empty where no array was obeyed
-  std::vector<std::string> names;         ///< of each region: its value in the file; of several arrays, "1, 7"
-  std::vector<std::string> notes;         ///< what the user should know, one sentence each
+  std::vector<std::string> names;  ///< of each region: its value in the file; of several arrays, "1, 7"; or the name
+                                   ///< that the file has for it, with the value behind where names repeat
+  std::vector<std::string> notes;  ///< what the user should know, one sentence each
 
   std::int32_t count() const { return static_cast<std::int32_t>(names.size()); }
 };

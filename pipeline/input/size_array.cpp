@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/input/array_names.h"
+#include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {

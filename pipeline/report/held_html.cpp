@@ -43,11 +43,21 @@ std::string held_html(const InputSummary& input) {
   if (!input.fixed_array.empty()) {
     rows += row(fmt::format("by the point array '{}'", input.fixed_array), "", input.fixed_array_vertices);
   }
+  for (const FilePointSet& set : input.point_sets) {
+    rows += row(fmt::format("{} the point set '{}'", set.holds ? "by" : "not by", set.name),
+                set.is_area ? "covers an area" : "", set.vertices);
+  }
+  for (const FileLineGroup& group : input.line_groups) {
+    rows += row(fmt::format("by the lines '{}'", group.name), "", group.vertices);
+  }
   if (!input.fixed_ids.empty()) {
     rows += row(fmt::format("by the file {}", input.fixed_ids.string()), "", input.fixed_ids_vertices);
   }
+  const std::string middles = input.middle_nodes > 0
+                                  ? row("not held: middles of sides", "move with their sides", input.middle_nodes)
+                                  : std::string{};
   return "<table>\n<thead><tr><th>held fixed</th><th>vertices</th></tr></thead>\n<tbody>\n" +
-         row("all", "", input.fixed_vertices) + rows + "</tbody>\n</table>\n";
+         row("all", "", input.fixed_vertices) + rows + middles + "</tbody>\n</table>\n";
 }
 
 }  // namespace trismooth

@@ -1,5 +1,7 @@
 #include "trismooth/pipeline/report/held_text.h"
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,7 +18,29 @@ std::string quoted_names(const std::vector<RegionArray>& arrays) {
   return names;
 }
 
+std::vector<FilePointSet> held_sets(const std::vector<FilePointSet>& sets) {
+  std::vector<FilePointSet> held;
+  std::ranges::copy_if(sets, std::back_inserter(held), &FilePointSet::holds);
+  return held;
+}
+
+/// "4 'Corners', 12 'RequiredVertices'": of many groups the first.
+template <class Group>
+std::string counted_names(const std::vector<Group>& groups, std::int64_t Group::*count) {
+  constexpr std::size_t most = 12;
+  std::string names;
+  const std::size_t shown = groups.size() <= most + 1 ? groups.size() : most;
+  for (std::size_t g = 0; g < shown; ++g) {
+    names += fmt::format("{}{} '{}'", names.empty() ? "" : ", ", groups[g].*count, groups[g].name);
+  }
+  return shown < groups.size() ? names + fmt::format(" and {} more", groups.size() - shown) : names;
+}
+
 }  // namespace
+
+std::string line_groups_text(const InputSummary& input) {
+  return counted_names(input.line_groups, &FileLineGroup::vertices);
+}
 
 std::string held_text(const InputSummary& input) {
   const HeldVertices& held = input.held;
@@ -41,10 +65,13 @@ std::string held_text(const InputSummary& input) {
   if (!input.fixed_array.empty()) {
     reasons.push_back(fmt::format("{} by the array '{}'", input.fixed_array_vertices, input.fixed_array));
   }
+  if (const std::string sets = counted_names(held_sets(input.point_sets), &FilePointSet::vertices); !sets.empty()) {
+    reasons.push_back(fmt::format("named by the file ({})", sets));
+  }
   if (input.fixed_ids_vertices > 0 || !input.fixed_ids.empty()) {
     reasons.push_back(fmt::format("{} by the file {}", input.fixed_ids_vertices, input.fixed_ids.string()));
   }
-  std::string text = fmt::format("{} of {}", input.fixed_vertices, input.vertices);
+  std::string text = fmt::format("{} of {}", input.fixed_vertices, input.vertices - input.middle_nodes);
   for (const std::string& reason : reasons) {
     text += (&reason == reasons.data() ? ": " : ", ") + reason;
   }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/held_html.h"
 #include "trismooth/pipeline/report/html_page.h"
@@ -44,7 +45,8 @@ std::string header(const PipelineOptions& options, const PipelineResult& result,
                                  options.output ? "Mesh smoothing report" : "Mesh quality report",
                                  escape_html(input.path.filename().string()), counts);
   if (const auto& written = options.written()) {
-    html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n", escape_html(written->string()));
+    html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n",
+                        escape_html(shown_output(*written).string()));
   }
   if (!record.date.empty()) {
     html += fmt::format("<div class=\"soft\">{}</div>\n", escape_html(record.date));
@@ -71,6 +73,9 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
   } else if (last.triangles > 0) {
     text += " No triangle is inverted.";
   }
+  if (const std::string quadratic = quadratic_text(result); !quadratic.empty()) {
+    text += " " + quadratic;
+  }
   if (last.degenerate > 0) {
     text += fmt::format(" {} without area.",
                         last.degenerate == 1 ? "1 triangle is" : count_text(last.degenerate) + " triangles are");
@@ -82,7 +87,8 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
   if (result.smoothing && !result.smoothing->reproducible) {
     text += fmt::format(" Not reproducible: {}.", escape_html(not_reproducible_text()));
   }
-  const bool bad = last.inverted > 0 || last.degenerate > 0 || failed > 0;
+  const auto& quadratic = result.quadratic_after ? result.quadratic_after : result.quadratic_before;
+  const bool bad = last.inverted > 0 || last.degenerate > 0 || failed > 0 || (quadratic && quadratic->invalid > 0);
   return fmt::format("<p class=\"lead{}\">{}</p>\n", bad ? " bad" : "", text);
 }
 
@@ -290,6 +296,9 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
   if (options.fixed_array) {
     rows.emplace_back("fixed by array", escape_html(*options.fixed_array));
   }
+  for (const std::string& set : options.fixed_sets) {
+    rows.emplace_back("fixed by set", escape_html(set));
+  }
   if (options.fixed_ids) {
     rows.emplace_back("fixed by file", escape_html(options.fixed_ids->string()));
   }
@@ -310,7 +319,7 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
   return row_table(rows);
 }
 
-std::string outcome_table(const SmoothingResult& smoothing) {
+std::string outcome_table(const SmoothingResult& smoothing, const std::vector<InterpolatedField>& fields) {
   Rows rows{{"stopped by", escape_html(to_string(smoothing.stop_reason))},
             {"sweeps", count_text(smoothing.sweeps)},
             {"vertex updates", count_text(smoothing.vertex_updates)},
@@ -319,6 +328,13 @@ std::string outcome_table(const SmoothingResult& smoothing) {
             {"guard rounds", count_text(smoothing.guard_rounds)}};
   if (smoothing.untangling) {
     rows.emplace_back("untangling", untangling_text(*smoothing.untangling));
+  }
+  if (!fields.empty()) {
+    std::string names;
+    for (const InterpolatedField& field : fields) {
+      names.append(names.empty() ? "" : ", ").append(field.name);
+    }
+    rows.emplace_back("fields interpolated", escape_html(names));
   }
   if (ran_on_device(smoothing)) {
     rows.emplace_back("kernel launches", launches_text(smoothing));
@@ -392,7 +408,7 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   }
   if (result.smoothing) {
     html += "<div class=\"two\">\n" + html_section("Options", options_table(options, *result.smoothing)) +
-            html_section("Smoothing", outcome_table(*result.smoothing)) + "</div>\n";
+            html_section("Smoothing", outcome_table(*result.smoothing, result.fields)) + "</div>\n";
   }
   return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);
 }

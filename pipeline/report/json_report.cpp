@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/timings.h"
 #include "trismooth/quality/metrics.h"
@@ -43,11 +44,25 @@ Json input_json(const InputSummary& input) {
                              {"values", array.values},
                              {"held_vertices", array.held_vertices}});
   }
+  Json point_sets = Json::array();
+  for (const FilePointSet& set : input.point_sets) {
+    point_sets.push_back({{"name", set.name}, {"vertices", set.vertices}, {"area", set.is_area}, {"holds", set.holds}});
+  }
+  Json cell_sets = Json::array();
+  for (const FileCellSet& set : input.cell_sets) {
+    cell_sets.push_back({{"name", set.name}, {"cells", set.cells}});
+  }
+  Json line_groups = Json::array();
+  for (const FileLineGroup& group : input.line_groups) {
+    line_groups.push_back({{"name", group.name}, {"vertices", group.vertices}});
+  }
   return {{"path", input.path.string()},
           {"format", name_of(input.format)},
           {"vertices", input.vertices},
           {"triangles", input.triangles},
           {"other_cells", input.other_cells},
+          {"quadratic_triangles", input.quadratic_triangles},
+          {"middle_nodes", input.middle_nodes},
           {"regions", input.regions},
           {"region_array", input.region_array.empty() ? Json(nullptr) : Json(input.region_array)},
           {"components", input.components},
@@ -58,6 +73,9 @@ Json input_json(const InputSummary& input) {
           {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
           {"fixed_array_vertices", input.fixed_array_vertices},
           {"fixed_ids_vertices", input.fixed_ids_vertices},
+          {"point_sets", std::move(point_sets)},
+          {"cell_sets", std::move(cell_sets)},
+          {"line_groups", std::move(line_groups)},
           {"held",
            {{"boundary", held.boundary},
             {"interface", held.interface},
@@ -79,7 +97,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
     annotated.push_back(std::string(info(metric).name));
   }
   const bool annotates = options.annotate || options.annotated.has_value();
-  return {{"output", written ? Json(written->string()) : Json(nullptr)},
+  return {{"output", written ? Json(shown_output(*written).string()) : Json(nullptr)},
           {"method", name_of(smoothing.method)},
           {"form", name_of(smoothing.form)},
           {"layout", name_of(smoothing.layout)},
@@ -99,9 +117,14 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"power", is_mean_ratio && mean_ratio.power > 0 ? Json(mean_ratio.power) : Json(nullptr)},
           {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
           {"size_array", is_mean_ratio ? text_or_null(options.size_array) : Json(nullptr)},
+          {"project", options.project ? name_of(*options.project) : Json(nullptr)},
+          {"geographic", options.geographic},
+          {"fields", options.fields ? name_of(*options.fields) : Json(nullptr)},
+          {"field_arrays", options.field_arrays},
           {"region_array", options.region_arrays.empty() ? Json(nullptr) : Json(options.region_arrays.front())},
           {"region_arrays", options.region_arrays},
           {"fixed_array", text_or_null(options.fixed_array)},
+          {"fixed_sets", options.fixed_sets},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
           {"annotate", annotates},
           {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
@@ -145,9 +168,9 @@ Json gates_json(const std::vector<GateOutcome>& outcomes) {
   return gates;
 }
 
-/// The report with the quality of each region.
+/// The report with the quality of each region and of quadratic triangles.
 Json quality_json(const QualityReport& report, const std::vector<std::string>& names,
-                  const std::vector<RegionQuality>& qualities) {
+                  const std::vector<RegionQuality>& qualities, const std::optional<QuadraticQuality>& quadratic) {
   Json regions = Json::array();
   for (std::size_t r = 0; r < qualities.size(); ++r) {
     const RegionQuality& quality = qualities[r];
@@ -159,6 +182,10 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   }
   Json json = quality_json(report);
   json["regions"] = std::move(regions);
+  json["quadratic"] = quadratic ? Json{{"elements", quadratic->elements},
+                                       {"invalid", quadratic->invalid},
+                                       {"min_jacobian", number_json(quadratic->min_jacobian)}}
+                                : Json(nullptr);
   return json;
 }
 
@@ -224,6 +251,14 @@ Json size_fit_json(const PipelineResult& result) {
   return {{"before", side(*result.size_fit_before)}, {"after", side(*result.size_fit_after)}};
 }
 
+Json fields_json(const std::vector<InterpolatedField>& fields) {
+  Json json = Json::array();
+  for (const InterpolatedField& field : fields) {
+    json.push_back({{"name", field.name}, {"interpolated_vertices", field.interpolated_vertices}});
+  }
+  return json;
+}
+
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
@@ -242,11 +277,14 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"command", record.command},
       {"input", input_json(result.input)},
       {"options", options_json(options, result.smoothing)},
-      {"before", quality_json(result.before, result.region_names, result.regions_before)},
-      {"after", result.after ? quality_json(*result.after, result.region_names, result.regions_after) : Json(nullptr)},
+      {"before", quality_json(result.before, result.region_names, result.regions_before, result.quadratic_before)},
+      {"after", result.after
+                    ? quality_json(*result.after, result.region_names, result.regions_after, result.quadratic_after)
+                    : Json(nullptr)},
       {"size_change", result.size_change ? size_change_json(*result.size_change) : Json(nullptr)},
       {"size_array", size_array_json(result.input)},
       {"size_fit", size_fit_json(result)},
+      {"fields", fields_json(result.fields)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

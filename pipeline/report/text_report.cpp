@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
@@ -23,6 +24,11 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 std::string input_lines(const InputSummary& input, TextDetail detail) {
   std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),
                                  counted(input.triangles, "triangle", "triangles"));
+  if (input.quadratic_triangles > 0) {
+    what += input.quadratic_triangles == input.triangles
+                ? std::string(" of six nodes")
+                : fmt::format(", {} of them of six nodes", input.quadratic_triangles);
+  }
   if (input.other_cells > 0) {
     what += ", " + counted(input.other_cells, "other cell", "other cells");
   }
@@ -38,7 +44,13 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
     text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
                                                   input.region_arrays.size() > 1 ? "s" : "", input.region_array));
   }
-  return text + labelled_line("fixed:", held_text(input));
+  text += labelled_line("fixed:", held_text(input));
+  if (input.middle_nodes > 0) {
+    text += labelled_line("middles:",
+                          counted(input.middle_nodes, "vertex moves with its side", "vertices move with their sides"));
+  }
+  const std::string lines = line_groups_text(input);
+  return lines.empty() ? text : text + labelled_line("lines:", lines);
 }
 
 /// What a run that moved nothing should say, or nothing.
@@ -143,6 +155,24 @@ std::string size_fit_line(const PipelineResult& result) {
                                        result.size_fit_before->rms_log_ratio, result.size_fit_after->rms_log_ratio));
 }
 
+/// The point arrays that followed the mesh; nothing where none did.
+std::string fields_line(const PipelineResult& result) {
+  if (result.fields.empty()) {
+    return {};
+  }
+  constexpr std::size_t few = 5;
+  const std::int64_t vertices = result.fields.front().interpolated_vertices;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(few, result.fields.size()); ++i) {
+    text.append(i == 0 ? "'" : ", '").append(result.fields[i].name).append("'");
+  }
+  if (result.fields.size() > few) {
+    text += fmt::format(" and {} more", result.fields.size() - few);
+  }
+  return labelled_line("fields:", text + fmt::format(" interpolated at {}",
+                                                     counted(vertices, "vertex that moved", "vertices that moved")));
+}
+
 std::string inverted_line(const PipelineResult& result) {
   const std::int64_t before = result.before.inverted;
   const std::int64_t now = result.after ? result.after->inverted : before;
@@ -157,7 +187,31 @@ std::string inverted_line(const PipelineResult& result) {
                      before);
 }
 
+std::string quadratic_lines(const PipelineResult& result) {
+  const std::string text = quadratic_text(result);
+  return text.empty() ? text : wrapped(text, "", "");
+}
+
 }  // namespace
+
+std::string quadratic_text(const PipelineResult& result) {
+  if (!result.quadratic_before) {
+    return {};
+  }
+  const QuadraticQuality& before = *result.quadratic_before;
+  const QuadraticQuality& now = result.quadratic_after ? *result.quadratic_after : before;
+  std::string text =
+      fmt::format("Of {} {} not valid", counted(now.elements, "triangle of six nodes", "triangles of six nodes"),
+                  now.invalid == 0 ? "none is" : counted(now.invalid, "is", "are"));
+  if (result.quadratic_after) {
+    text += fmt::format(" ({} before)", before.invalid);
+  }
+  text += fmt::format("; smallest Jacobian {:.3g} of that of straight sides", now.min_jacobian);
+  if (result.quadratic_after) {
+    text += fmt::format(" ({:.3g} before)", before.min_jacobian);
+  }
+  return text + ".";
+}
 
 std::string untangling_text(const UntanglingResult& untangling) {
   std::string text = "every triangle was valid";
@@ -220,11 +274,15 @@ std::string_view not_reproducible_text() {
 
 std::string text_report(const PipelineOptions& options, const PipelineResult& result, TextDetail detail) {
   std::string text = input_lines(result.input, detail);
+  if (options.geographic) {
+    text += labelled_line("map:", "longitude and latitude; shapes and angles are those on the sphere");
+  }
   if (result.smoothing) {
     text += method_lines(options.smoothing, result, detail);
     text += result_lines(result, detail);
     text += sizes_line(result);
     text += size_fit_line(result);
+    text += fields_line(result);
   }
   const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
   text += '\n' +
@@ -237,6 +295,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     }
   }
   text += inverted_line(result);
+  text += quadratic_lines(result);
   if (!result.smoothing && result.region_names.size() <= few_regions) {
     text += region_table(result);
   } else if (!result.smoothing) {
@@ -244,7 +303,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
                         result.region_names.size());
   }
   if (const auto& written = options.written()) {
-    text += labelled_line("written:", written->string());
+    text += labelled_line("written:", shown_output(*written).string());
   }
   return text;
 }

@@ -30,6 +30,9 @@ std::string launches_text(const SmoothingResult& smoothing);
 /// "12 triangles not valid before, 0 after it, 0 in the result": what untangling did.
 std::string untangling_text(const UntanglingResult& untangling);
 
+/// How valid quadratic triangles are, as a sentence; empty where the mesh has none.
+std::string quadratic_text(const PipelineResult& result);
+
 /// What every report says of a result that another run would not give.
 std::string_view not_reproducible_text();
 

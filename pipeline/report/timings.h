@@ -9,7 +9,7 @@
 namespace trismooth {
 
 /// The parts of a run's time in their order, each with its name in reports; the total is not among them.
-inline std::array<std::pair<std::string_view, double>, 10> timing_parts(const PipelineTimings& timings) {
+inline std::array<std::pair<std::string_view, double>, 11> timing_parts(const PipelineTimings& timings) {
   return {{{"read", timings.read},
            {"topology", timings.topology},
            {"check_before", timings.check_before},
@@ -18,6 +18,7 @@ inline std::array<std::pair<std::string_view, double>, 10> timing_parts(const Pi
            {"smooth", timings.smooth},
            {"transfer_out", timings.transfer_out},
            {"commit", timings.guard},
+           {"fields", timings.fields},
            {"check_after", timings.check_after},
            {"write", timings.write}}};
 }

@@ -46,15 +46,6 @@ Listener& listener() {
   return *only;
 }
 
-const trismooth::Codec& codec_of(std::string_view extension) {
-  constexpr std::array<std::string_view, 7> extensions{".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".vtp"};
-  const std::array codecs{&trismooth::off_codec, &trismooth::obj_codec,        &trismooth::ply_codec,
-                          &trismooth::stl_codec, &trismooth::vtk_legacy_codec, &trismooth::vtu_codec,
-                          &trismooth::vtp_codec};
-  const auto* const found = std::ranges::find(extensions, extension);
-  return *codecs.at(static_cast<std::size_t>(found - extensions.begin()));
-}
-
 std::string unclear(std::string_view message, std::string_view path) {
   constexpr std::size_t longest = 300;
   if (!message.starts_with(std::string(path) + ":")) {
@@ -94,8 +85,9 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
 }
 
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {
-  // Odd ones, which meet numbers at all their bytes.
-  return !is_sanitized ? 1 : !is_vtk_xml(file) ? 3 : file.name.find("lzma") == std::string::npos ? 13 : 61;
+  // Odd ones, which meet numbers at all their bytes; rows of Medit's may be three numbers.
+  const std::size_t plain = file.name.starts_with("medit") ? 5 : 3;
+  return !is_sanitized ? 1 : !is_vtk_xml(file) ? plain : file.name.find("lzma") == std::string::npos ? 13 : 61;
 }
 
 Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
@@ -105,7 +97,7 @@ Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
   listener().heard.clear();
   const MemoryPeak peak;
   try {
-    outcome.document = codec_of(file.extension).read(path, std::move(bytes));
+    outcome.document = trismooth::codec_of(accepted_files::format_of(file)).read(path, std::move(bytes));
     outcome.fault = broken_promise(*outcome.document);
   } catch (const trismooth::ReadError& error) {
     outcome.message = error.what();

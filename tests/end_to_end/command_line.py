@@ -113,7 +113,7 @@ class Output(CommandLineTest):
     def test_a_target_that_cannot_be_written_is_told_and_nothing_is_left(self):
         os.mkdir(self.path("folder.off"))
         for target, says in {"no/such/folder/out.off": "no/such/folder/out.off: .*No such file",
-                             "folder.off": "folder.off: is a folder", "out.xyz": "out.xyz: .*'.xyz'.*\\.off, .*\\.vtu",
+                             "folder.off": "folder.off: is a folder", "out.xyz": "out.xyz: .*'.xyz'.*\\(\\.off\\), .*\\(\\.vtu\\)",
                              "out": "out: .*extension"}.items():
             with self.subTest(target):
                 outcome = self.run_tool("smooth", "plate.off", target, expect=NOT_WRITTEN)

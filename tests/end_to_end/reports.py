@@ -19,23 +19,24 @@ METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ra
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
     "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_array",
-         "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
+         "size_fit", "fields", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
          "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
               "fixed_ids_vertices", "held"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
-                "max_sweeps", "tolerance", "size_weight", "power", "target", "size_array"},
+                "max_sweeps", "tolerance", "size_weight", "power", "target", "size_array", "fields",
+                "field_arrays", "project", "geographic"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
                   "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
                   "guard_rounds", "untangling", "history"},
     "timings_ms": {"read", "topology", "check_before", "transfer_in", "untangle", "smooth", "transfer_out", "commit",
-                   "check_after", "write", "total"},
+                   "fields", "check_after", "write", "total"},
 }
 # What a report may hold beyond the keys that are promised.
-MORE_KEYS = {"input": {"region_array"},
+MORE_KEYS = {"input": {"region_array", "quadratic_triangles", "middle_nodes", "point_sets", "cell_sets", "line_groups"},
              "options": {"output", "guard", "untangle", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
-                         "fixed_ids", "annotate", "annotated_metrics"}}
+                         "fixed_ids", "fixed_sets", "annotate", "annotated_metrics"}}
 
 
 class Reports(tool.ToolTest):
@@ -49,7 +50,8 @@ class Reports(tool.ToolTest):
         self.assertEqual({*part} - REPORT_KEYS[name] - MORE_KEYS.get(name, set()), set(), name)
 
     def assert_quality(self, quality):
-        self.assertEqual({*quality}, {"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions"})
+        self.assertEqual({*quality}, {"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions",
+                                       "quadratic"})
         self.assertEqual({*quality["metrics"]}, METRICS)
         for metric in quality["metrics"].values():
             self.assertEqual({*metric}, {"min", "mean", "max", "stddev", "acceptable_fraction"})

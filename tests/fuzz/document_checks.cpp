@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/msh/msh_element_types.h"
+#include "trismooth/mesh_io/text/number_text.h"
+
 #include "broken.h"
 
 namespace fuzz {
@@ -89,14 +92,12 @@ std::string difference_of_arrays(const std::vector<DataArray>& a, const std::vec
   return {};
 }
 
-}  // namespace
-
-const trismooth::Codec& codec_of(FileFormat format) {
-  static const std::array<const trismooth::Codec*, 7> codecs{
-      &trismooth::off_codec,        &trismooth::obj_codec, &trismooth::ply_codec, &trismooth::stl_codec,
-      &trismooth::vtk_legacy_codec, &trismooth::vtu_codec, &trismooth::vtp_codec};
-  return *codecs[static_cast<std::size_t>(format)];
+/// Whether files of the format hold x and y alone.
+bool is_flat(FileFormat format) {
+  return format == FileFormat::su2;
 }
+
+}  // namespace
 
 void require_guarantees(const MeshDocument& document) {
   require(document.points.size() % 3 == 0, "a point has not three coordinates");
@@ -147,9 +148,40 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
     case FileFormat::stl:
       groups = {{cell_type::triangle}};
       break;
+    case FileFormat::triangle:
+      groups = {{cell_type::triangle}};
+      break;
+    case FileFormat::su2:
+      groups = {{cell_type::triangle, cell_type::quad}};
+      break;
     case FileFormat::vtp:
       groups = {vertices, lines, faces, {cell_type::triangle_strip}};
       break;
+    case FileFormat::sms:
+      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
+                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad}};
+      break;
+    case FileFormat::adcirc:
+      groups = {{cell_type::triangle}};
+      break;
+    case FileFormat::medit:
+      // A section for each type.
+      for (const int type : {3, 5, 9, 10, 13, 12, 14, 21, 22, 28, 24}) {
+        groups.push_back({static_cast<std::uint8_t>(type)});
+      }
+      break;
+    case FileFormat::freefem:
+      groups = {{cell_type::triangle}, {cell_type::line}};
+      break;
+    case FileFormat::inp:
+      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
+                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
+                 cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26}};
+      break;
+    case FileFormat::mfem:
+      groups = {{cell_type::triangle, cell_type::quad}, {cell_type::line}};
+      break;
+    case FileFormat::msh:
     case FileFormat::vtk:
     case FileFormat::vtu:
       groups.resize(1);
@@ -159,9 +191,20 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
   }
   MeshDocument held;
   held.points = document.points;
+  if (is_flat(format)) {
+    for (std::size_t i = 2; i < held.points.size(); i += 3) {
+      held.points[i] = 0;
+    }
+  }
+  if (format == FileFormat::inp) {
+    std::ranges::transform(held.points, held.points.begin(),
+                           [](double value) { return trismooth::rounded_to_characters(value, 20); });
+  }
   for (const Types& group : groups) {
     for (std::size_t c = 0; c < document.cells.size(); ++c) {
-      if (std::ranges::find(group, document.cells.types[c]) != group.end()) {
+      const bool is_element =
+          format != FileFormat::msh || trismooth::msh_number_of(document.cells.types[c], document.cells[c].size()) != 0;
+      if (is_element && std::ranges::find(group, document.cells.types[c]) != group.end()) {
         held.cells.append(document.cells.types[c], document.cells[c]);
       }
     }

@@ -7,8 +7,6 @@
 
 namespace fuzz {
 
-const trismooth::Codec& codec_of(trismooth::FileFormat format);
-
 /// What readers promise of every document. Throws Broken.
 void require_guarantees(const trismooth::MeshDocument& document);
 

@@ -10,6 +10,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+#include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
@@ -41,7 +42,7 @@ constexpr const char* input_path = "input";
 /// Reads what must be readable, having been written by us.
 MeshDocument read_again(FileFormat format, const std::string& bytes, const std::string& what) {
   try {
-    MeshDocument document = codec_of(format).read(input_path, bytes);
+    MeshDocument document = trismooth::codec_of(format).read(input_path, bytes);
     document.format = format;
     require_guarantees(document);
     return document;
@@ -176,6 +177,16 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   return true;
 }
 
+/// What is stored of a coordinate that moves is what the file has characters for.
+void round_moved(MeshDocument& document, const std::vector<double>& before) {
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (document.points[i] != before[i]) {
+      document.points[i] = trismooth::rounded_to_characters(document.points[i], document.most_coordinate_characters,
+                                                            document.coordinate_form);
+    }
+  }
+}
+
 void check_moved(const MeshDocument& document) {
   const MeshDocument again = read_again(document.format, written_back(document), "a smoothed mesh");
   // Corners that came to lie on each other become one vertex in STL.
@@ -209,8 +220,8 @@ void check_parts(FileFormat format, const std::string& bytes) {
   using trismooth::FileWorkers;
   const auto reading = [&](std::size_t part_bytes) {
     const FileWorkers workers(alone, part_bytes);
-    return keeps_bytes(format) ? test_support::reading_and_sites_of(codec_of(format), bytes, workers)
-                               : test_support::reading_of(codec_of(format), bytes, workers);
+    return keeps_bytes(format) ? test_support::reading_and_sites_of(trismooth::codec_of(format), bytes, workers)
+                               : test_support::reading_of(trismooth::codec_of(format), bytes, workers);
   };
   const std::string serial = reading(FileWorkers::serial);
   for (const std::size_t part_bytes : {std::size_t{1}, 2 + bytes.size() % 61, FileWorkers::whole}) {
@@ -220,24 +231,36 @@ void check_parts(FileFormat format, const std::string& bytes) {
 }
 
 void check_conversion(const MeshDocument& document, FileFormat target) {
+  if (trismooth::codec_of(target).partner_of != nullptr) {
+    return;  // two files: no bytes to read again
+  }
   const std::string what = "as " + std::string(to_string(target));
   const MemoryFile file;
   try {
-    codec_of(target).write(file.path(), document);
+    trismooth::codec_of(target).write(file.path(), document);
   } catch (const WriteError&) {
     return;
   }
-  const bool loses_nothing = codec_of(target).what_is_lost(document).empty();
+  const bool loses_nothing = trismooth::codec_of(target).what_is_lost(document).empty();
   const MeshDocument converted = read_again(target, file.bytes(), "the mesh " + what);
   if (target == FileFormat::stl) {
     require_equal(difference_of_corners(document, converted), what);
     return;
   }
-  if (loses_nothing) {
+  if (loses_nothing && !trismooth::has_names(target)) {
     require_equal(difference(document, converted, Comparison::converted), what);
   }
-  const MeshDocument cells_alone = held_cells(converted, target);
-  require_equal(difference(held_cells(document, target), cells_alone, Comparison::converted), what);
+  const auto cells_alone = [target](const MeshDocument& mesh) {
+    MeshDocument held = held_cells(mesh, target);
+    if (trismooth::has_names(target)) {
+      // Many of these formats are flat: they say what they lose of z.
+      for (std::size_t i = 2; i < held.points.size(); i += 3) {
+        held.points[i] = 0;
+      }
+    }
+    return held;
+  };
+  require_equal(difference(cells_alone(document), cells_alone(converted), Comparison::converted), what);
 }
 
 }  // namespace
@@ -247,7 +270,7 @@ void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   MeshDocument document;
   check_parts(format, bytes);
   try {
-    document = codec_of(format).read(input_path, bytes);
+    document = trismooth::codec_of(format).read(input_path, bytes);
   } catch (const ReadError&) {
     return;
   }
@@ -259,7 +282,9 @@ void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   }
   check_written_back(document, bytes);
   check_conversion(document, trismooth::all_formats()[choices.below(trismooth::all_formats().size())]);
+  const std::vector<double> before = document.points;
   if (smooth(document, choices)) {
+    round_moved(document, before);
     check_moved(document);
     if (choices.below(4) == 0) {
       check_added_arrays(document);

@@ -25,11 +25,25 @@ constexpr Target reader(std::string_view name, bool is_xml = false) {
   return {name, [](std::span<const std::uint8_t> input) { run_reader(format, input); }, true, is_xml};
 }
 
-constexpr std::array<Target, 8> targets{
-    reader<FileFormat::off>("off"),       reader<FileFormat::obj>("obj"),
-    reader<FileFormat::ply>("ply"),       reader<FileFormat::stl>("stl"),
-    reader<FileFormat::vtk>("vtk"),       reader<FileFormat::vtu>("vtu", true),
-    reader<FileFormat::vtp>("vtp", true), {"flat_arrays", &run_flat_arrays, false, false}};
+constexpr auto targets = std::to_array<Target>({
+    reader<FileFormat::off>("off"),
+    reader<FileFormat::obj>("obj"),
+    reader<FileFormat::ply>("ply"),
+    reader<FileFormat::stl>("stl"),
+    reader<FileFormat::vtk>("vtk"),
+    reader<FileFormat::vtu>("vtu", true),
+    reader<FileFormat::vtp>("vtp", true),
+    reader<FileFormat::msh>("msh"),
+    reader<FileFormat::medit>("medit"),
+    reader<FileFormat::su2>("su2"),
+    reader<FileFormat::inp>("inp"),
+    reader<FileFormat::adcirc>("adcirc"),
+    reader<FileFormat::sms>("2dm"),
+    reader<FileFormat::freefem>("freefem"),
+    reader<FileFormat::mfem>("mfem"),
+    reader<FileFormat::triangle>("triangle"),
+    {"flat_arrays", &run_flat_arrays, false, false},
+});
 
 /// The accepted files have one free vertex; this has more.
 std::string grid(FileFormat format) {
@@ -42,7 +56,7 @@ std::string grid(FileFormat format) {
     document.cells.append(trismooth::cell_type::triangle, triangle);
   }
   const test_support::MemoryFile file;
-  codec_of(format).write(file.path(), document);
+  trismooth::codec_of(format).write(file.path(), document);
   return file.bytes();
 }
 
@@ -73,13 +87,13 @@ const Target& find_target(std::string_view name) {
 }
 
 std::vector<Seed> seeds_of(const Target& target) {
-  const auto format = trismooth::format_of("mesh." + std::string(target.name));
+  const auto format = trismooth::format_named(target.name);
   if (!format) {
     return random_bytes();
   }
   std::vector<Seed> seeds{{"grid", grid(*format)}};
   for (const accepted_files::AcceptedFile& file : accepted_files::all()) {
-    if (file.extension == "." + std::string(target.name)) {
+    if (accepted_files::format_of(file) == *format) {
       seeds.push_back({file.name, file.bytes});
     }
   }

@@ -27,6 +27,6 @@ run("${FOLDER}/moved/bin/trismooth" smooth "${plate}" "${FOLDER}/plate.vtu")
 foreach(component IN ITEMS mesh_io pipeline)
   run("${CMAKE_COMMAND}" -D "PREFIX=${FOLDER}/moved" -D "GENERATOR=${GENERATOR}" -D "COMPILER=${COMPILER}"
       -D "FLAGS=${FLAGS}" -D "FOLDER=${FOLDER}/${component}" -D "COMPONENT=${component}"
-      -D "SOURCE=${CMAKE_CURRENT_LIST_DIR}/consumer/${component}.cpp" -D "WITHOUT=EXPAT\\;PkgConfig\\;TBB\\;VTK\\;fmt"
+      -D "SOURCE=${CMAKE_CURRENT_LIST_DIR}/consumer/${component}.cpp" -D "WITHOUT=EXPAT\\;PkgConfig\\;TBB\\;VTK\\;ZLIB\\;fmt"
       -D "ARGUMENTS=${plate}\\;${FOLDER}/plate.vtu" -P "${CMAKE_CURRENT_LIST_DIR}/find_package.cmake")
 endforeach()

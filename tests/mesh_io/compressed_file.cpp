@@ -21,8 +21,7 @@ struct CompressedFile {
 };
 
 std::vector<CompressedFile> compressed_files() {
-  return {{"gzip", ".gz", std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03", 10)},
-          {"bzip2", ".bz2", "BZh91AY&SY\x8e"},
+  return {{"bzip2", ".bz2", "BZh91AY&SY\x8e"},
           {"xz", ".xz",
            std::string("\xfd"
                        "7zXZ\x00\x00\x04",
@@ -47,7 +46,8 @@ TEST_CASE("a compressed file is called that, by its name or by its first bytes")
     }
     const std::string output = "out.vtu" + extension;
     const std::string message = message_of<WriteError>([&] { trismooth::output_format(output); });
-    CHECK(message.find("out.vtu" + extension + ": nothing is written compressed; leave out '" + extension + "'") == 0);
+    CHECK(message.find("out.vtu" + extension + ": nothing is written compressed but by gzip (.gz); leave out '" +
+                       extension + "'") == 0);
   }
 }
 

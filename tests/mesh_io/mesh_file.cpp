@@ -49,18 +49,19 @@ TEST_CASE("the extension chooses the format, in any case of letters") {
   CHECK(read_mesh(folder / "mesh.Obj").format == FileFormat::obj);
 }
 
-TEST_CASE("an unknown extension is refused, the known ones are listed") {
+TEST_CASE("an unknown extension is refused where the content is unknown, too; the known ones are listed") {
   const ScratchFolder folder;
+  const std::string unknown = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   const MeshDocument document = read_mesh(folder.write("mesh.off", triangle));
   for (const std::string name : {"mesh.xyz", "mesh", "mesh.", "mesh.of", "mesh.offf", ".off"}) {
     CAPTURE(name);
-    const std::string read_message = message_of<ReadError>([&] { read_mesh(folder.write(name, triangle)); });
+    const std::string read_message = message_of<ReadError>([&] { read_mesh(folder.write(name, unknown)); });
     const std::string write_message = message_of<WriteError>([&] { write_mesh(folder / name, document); });
     for (const std::string& message : {read_message, write_message}) {
       CHECK(message.find((folder / name).string() + ": ") == 0);
-      CHECK(message.find(".off, .obj") != std::string::npos);
+      CHECK(message.find("OFF (.off), OBJ (.obj)") != std::string::npos);
     }
-    CHECK(bytes_of(folder / name) == triangle);
+    CHECK(bytes_of(folder / name) == unknown);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/text/number_text.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -10,8 +11,12 @@
 #include "catch.h"
 
 using trismooth::append_number;
+using trismooth::NumberForm;
+using trismooth::parse_fortran_number;
 using trismooth::parse_integer;
 using trismooth::parse_number;
+using trismooth::rounded_to_characters;
+using trismooth::write_within;
 
 namespace {
 
@@ -20,6 +25,11 @@ std::string text_of(T value) {
   std::string text;
   append_number(text, value);
   return text;
+}
+
+std::string text_within(double value, std::size_t most, NumberForm form) {
+  std::array<char, 32> text{};
+  return {text.data(), write_within(value, most, form, text.data())};
 }
 
 }  // namespace
@@ -76,4 +86,52 @@ TEST_CASE("whole numbers are whole tokens within 64 bits") {
     CAPTURE(token);
     CHECK_FALSE(parse_integer(token).has_value());
   }
+}
+
+TEST_CASE("what a few characters hold is what their text reads back to, and stays as it is then") {
+  std::mt19937_64 bits(2);
+  for (int i = 0; i < 20000; ++i) {
+    const auto pattern = bits();
+    double value = 0;
+    std::memcpy(&value, &pattern, sizeof(value));
+    value = i % 2 == 0 ? value : std::ldexp(static_cast<double>(static_cast<std::int64_t>(pattern)), -(i % 90));
+    if (!std::isfinite(value)) {
+      continue;
+    }
+    CAPTURE(value);
+    for (const NumberForm form : {NumberForm::usual, NumberForm::nastran}) {
+      for (const std::size_t most : {16, 20}) {
+        const std::string text = text_within(value, most, form);
+        CAPTURE(text, most);
+        REQUIRE(text.size() <= most);
+        const double rounded = rounded_to_characters(value, most, form);
+        REQUIRE(parse_fortran_number<double>(text) == rounded);
+        REQUIRE(std::abs(rounded - value) <= 1e-8 * std::abs(value));
+        REQUIRE(text_within(rounded, most, form) == text);
+        REQUIRE((form == NumberForm::usual || text.find('.') < text.size()));
+      }
+    }
+  }
+  CHECK(rounded_to_characters(0.1234567890123456789, 0) == 0.1234567890123456789);
+  CHECK(rounded_to_characters(0.1234567890123456789, 8) == 0.123457);
+}
+
+TEST_CASE("numbers in Nastran's form have a decimal point and no letter before the exponent") {
+  const auto text = [](double value) { return text_within(value, 16, NumberForm::nastran); };
+  CHECK(text(0) == "0.");
+  CHECK(text(-0.0) == "-0.");
+  CHECK(text(7) == "7.");
+  CHECK(text(-12.25) == "-12.25");
+  CHECK(text(0.5) == ".5");
+  CHECK(text(-0.0625) == "-.0625");
+  CHECK(text(1.5e-5) == "1.5-5");
+  CHECK(text(0.001) == ".001");
+  CHECK(text(100) == "100.");
+  CHECK(text(1e20) == "1.+20");
+  CHECK(text(-2e-300) == "-2.-300");
+  CHECK(text(1.0 / 3) == ".333333333333333");
+  CHECK(text(-1.0 / 3) == "-.33333333333333");
+  CHECK(text(1e6 / 3) == "333333.333333333");
+  CHECK(text(1e-4 / 3) == "3.333333333333-5");
+  CHECK(text(0.99999999999999999e-3) == ".001");
 }

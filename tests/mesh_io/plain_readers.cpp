@@ -65,7 +65,7 @@ bool reads_ply(const trismooth::PlyHeader& header, Source source, std::string_vi
   trismooth::ScalarColumns of_vertices = columns_of(vertex, 3);
   trismooth::ScalarColumns of_faces = columns_of(face, 0);
   CellList cells;
-  return read_plain_vertices(source, vertex, axes, points, sites, of_vertices) &&
+  return read_plain_vertices(source, vertex, axes, 3, points, sites, of_vertices) &&
          trismooth::PlainFaceReader(source, face, *face.find("vertex_indices"), vertex.count, cells, of_faces,
                                     workers.workers)
              .read() &&
@@ -74,7 +74,7 @@ bool reads_ply(const trismooth::PlyHeader& header, Source source, std::string_vi
 
 bool reads_ply(const std::string& bytes, const FileWorkers& workers) {
   const trismooth::PlyHeader header = trismooth::parse_ply_header("mesh.ply", bytes);
-  if (header.encoding == trismooth::CoordinateEncoding::text) {
+  if (header.encoding == trismooth::NumberEncoding::text) {
     return reads_ply(header, trismooth::PlyTextSource("mesh.ply", bytes, header.size, workers), bytes, workers);
   }
   return reads_ply(header, trismooth::PlyBinarySource("mesh.ply", bytes, header.size, header.encoding, workers), bytes,
@@ -138,7 +138,7 @@ TEST_CASE("OFF with fields, colours and faces of any degrees is read in parts") 
     const trismooth::OffKeyword keyword = trismooth::parse_off_keyword(text.substr(0, line)).value();
     MeshDocument document;
     document.points.resize(9);
-    trismooth::CoordinateSites sites;
+    trismooth::NumberSites sites;
     sites.offsets.resize(9);
     trismooth::OffPlainRows rows(text, workers);
     const auto vertices = rows.read_vertices(line, 3, keyword, document, sites);

@@ -25,16 +25,6 @@ struct Sample {
   std::string bytes;
 };
 
-/// Of a format that is written back byte by byte; null for others.
-const Codec* codec_of(const std::string& extension) {
-  return extension == ".off"   ? &trismooth::off_codec
-         : extension == ".obj" ? &trismooth::obj_codec
-         : extension == ".ply" ? &trismooth::ply_codec
-         : extension == ".stl" ? &trismooth::stl_codec
-         : extension == ".vtk" ? &trismooth::vtk_legacy_codec
-                               : nullptr;
-}
-
 std::string with_line_ends(const std::string& text, const std::string& line_end) {
   std::string changed;
   for (const char c : text) {
@@ -324,8 +314,9 @@ std::vector<Sample> samples() {
     all.push_back({"legacy VTK with arrays", trismooth::vtk_legacy_codec, file.bytes()});
   }
   for (const AcceptedFile& file : accepted_files::all()) {
-    if (const Codec* const codec = codec_of(file.extension)) {
-      all.push_back({file.name, *codec, file.bytes});
+    const trismooth::FileFormat format = accepted_files::format_of(file);
+    if (format != trismooth::FileFormat::vtu && format != trismooth::FileFormat::vtp) {
+      all.push_back({file.name, codec_of(format), file.bytes});
     }
   }
   return all;

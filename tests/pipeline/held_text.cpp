@@ -55,6 +55,22 @@ TEST_CASE("an array that was obeyed is named even where it holds nothing") {
   CHECK(held_text(input) == "0 of 7: no interface ('region' is one region), 0 by the array 'fixed'");
 }
 
+TEST_CASE("sets and lines that the file names are named, with the vertices they hold") {
+  InputSummary input = machine();
+  input.point_sets = {{"Corners", 4, false, true}, {"NALL", 3207, true, false}, {"Required", 12, false, true}};
+  input.line_groups = {{"inlet", 12}, {"wall", 40}};
+  CHECK(
+      held_text(input) ==
+      "804 of 3207: 140 boundary, 672 interface ('region'), named by the file (4 'Corners', 12 'Required'), 8 of them "
+      "for several reasons");
+  CHECK(trismooth::line_groups_text(input) == "12 'inlet', 40 'wall'");
+  const std::string html = held_html(input);
+  CHECK(says(html, "not by the point set &#39;NALL&#39;<small>covers an area</small>"));
+  CHECK(says(html, "by the lines &#39;wall&#39;"));
+  input.line_groups.assign(40, {"x", 1});
+  CHECK(says(trismooth::line_groups_text(input), "1 'x' and 28 more"));
+}
+
 TEST_CASE("a page says the same, with why each array counts, and shows names literally") {
   InputSummary input = machine();
   input.region_arrays.push_back({"<b>", RegionReason::looks_like_regions, 1, 33});

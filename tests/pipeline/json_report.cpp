@@ -32,27 +32,45 @@ using Keys = std::vector<std::string>;
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
   CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "size_change",
-                                "size_array", "size_fit", "gates", "smoothing", "coordinates_hash", "uncommitted_hash",
-                                "warnings", "timings_ms", "peak_memory_bytes"});
+                                "size_array", "size_fit", "fields", "gates", "smoothing", "coordinates_hash",
+                                "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
   CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
-  CHECK(keys_of(report["input"]) == Keys{"path", "format", "vertices", "triangles", "other_cells", "regions",
-                                         "region_array", "components", "fixed_vertices", "free_vertices",
-                                         "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
-                                         "fixed_ids_vertices", "held"});
+  CHECK(keys_of(report["input"]) == Keys{"path",
+                                         "format",
+                                         "vertices",
+                                         "triangles",
+                                         "other_cells",
+                                         "quadratic_triangles",
+                                         "middle_nodes",
+                                         "regions",
+                                         "region_array",
+                                         "components",
+                                         "fixed_vertices",
+                                         "free_vertices",
+                                         "reoriented_triangles",
+                                         "region_arrays",
+                                         "fixed_array",
+                                         "fixed_array_vertices",
+                                         "fixed_ids_vertices",
+                                         "point_sets",
+                                         "cell_sets",
+                                         "line_groups",
+                                         "held"});
   CHECK(keys_of(report["input"]["held"]) ==
         Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells", "unused", "named", "several"});
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
-  for (const char* key : {"method", "form", "layout", "backend", "execution", "order", "topology", "precision",
-                          "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard", "size_weight",
-                          "power", "target", "size_array", "untangle"}) {
+  for (const char* key :
+       {"method",      "form",    "layout",     "backend",    "execution",  "order",          "topology",
+        "precision",   "threads", "max_sweeps", "tolerance",  "time_limit", "target_quality", "guard",
+        "size_weight", "power",   "target",     "size_array", "untangle",   "fields",         "field_arrays"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
   for (const char* side : {"before", "after"}) {
     CHECK(keys_of(report[side]) ==
-          Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions"});
+          Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions", "quadratic"});
     CHECK(keys_of(report[side]["metrics"]) == Keys{"shape", "area", "min_angle", "max_angle", "aspect_ratio",
                                                    "radius_ratio", "edge_ratio", "condition", "scaled_jacobian",
                                                    "equiangle_skew"});
@@ -67,7 +85,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
   CHECK(keys_of(report["smoothing"]["history"][0]) ==
         Keys{"sweep", "evaluated", "moved", "max_relative_move", "min_shape"});
   CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "untangle", "smooth",
-                                              "transfer_out", "commit", "check_after", "write", "total"});
+                                              "transfer_out", "commit", "fields", "check_after", "write", "total"});
 }
 
 TEST_CASE("the JSON report says what untangling did") {

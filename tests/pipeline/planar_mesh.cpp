@@ -91,7 +91,7 @@ TEST_CASE("the vertices of every cell that is no triangle are held, and a note s
                                 {{cell_type::vertex, {5}}, {0, 0, 0, 0, 0, 1}},
                                 {{cell_type::poly_vertex, {3, 4, 5}}, {0, 0, 0, 1, 1, 1}},
                                 {{cell_type::triangle_strip, {1, 2, 2, 1}}, {0, 1, 1, 0, 0, 0}},
-                                {{22, {0, 1, 4, 2, 3, 5}}, {1, 1, 1, 1, 1, 1}},
+                                {{30, {0, 1, 4, 2, 3, 5}}, {1, 1, 1, 1, 1, 1}},
                                 {{0, {}}, {0, 0, 0, 0, 0, 0}}};
   for (const Case& c : cases) {
     CAPTURE(static_cast<int>(c.cell.type));

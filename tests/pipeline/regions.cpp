@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/pipeline/input/region_names.h"
+#include "trismooth/mesh_io/document/region_names.h"
 
 #include "catch.h"
 #include "mesh_io/byte_files.h"
@@ -422,6 +422,19 @@ TEST_CASE("regions that differ beyond the digits of a double are two regions") {
       make_data_array("region", 1, std::vector<std::int64_t>{large, large, 0, large + 1, large + 1}));
   CHECK(regions_of(document).of_triangle == Numbers{0, 0, 1, 1});
   CHECK(regions_of(document).names == Names{"9007199254740992", "9007199254740993"});
+}
+
+TEST_CASE("regions have the names that the file has for them, with the value where two have one name") {
+  MeshDocument document = two_squares();
+  document.cell_arrays.push_back(make_data_array("region", 1, std::vector<std::int32_t>{1, 2, 0, 3, 3}));
+  const auto call = [&](std::vector<trismooth::ValueName> names) {
+    trismooth::ArrayDescription description;
+    description.value_names = std::move(names);
+    document.cell_arrays.back().description = std::make_shared<trismooth::ArrayDescription>(std::move(description));
+    return regions_of(document, {"region"}).names;
+  };
+  CHECK(call({{1, 2, "steel"}, {2, 2, "air"}, {3, 1, "wall"}}) == Names{"steel", "air", "3"});
+  CHECK(call({{1, 2, "steel"}, {2, 2, "air"}, {3, 2, "steel"}}) == Names{"steel (1)", "air", "steel (3)"});
 }
 
 TEST_CASE("random regions on random meshes: what counts holds the ends of the edges where it changes") {

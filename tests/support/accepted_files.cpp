@@ -10,6 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "support/accepted_freefem_files.h"
+#include "support/accepted_inp_files.h"
+#include "support/accepted_medit_files.h"
+#include "support/accepted_mfem_files.h"
+#include "support/accepted_msh_files.h"
+#include "support/accepted_ocean_files.h"
+#include "support/accepted_su2_files.h"
 #include "support/accepted_vtk_files.h"
 
 namespace accepted_files {
@@ -444,6 +451,13 @@ std::vector<AcceptedFile> make_all() {
   add_stl(files);
   vtk::add_legacy(files);
   vtk::add_xml(files);
+  add_su2(files);
+  add_ocean_files(files);
+  add_medit(files);
+  add_freefem(files);
+  add_inp(files);
+  add_mfem(files);
+  msh::add(files);
   return files;
 }
 
@@ -456,6 +470,13 @@ Mesh mesh(bool others) {
     all.faces.insert(all.faces.end(), {{1, 5, 6, 2}, {3, 2, 6, 7, 8}});
   }
   return all;
+}
+
+trismooth::FileFormat format_of(const AcceptedFile& file) {
+  const std::string first_word = file.name.substr(0, file.name.find('_'));
+  const auto named = trismooth::format_named(first_word == "legacy" ? "vtk" : first_word);
+  const auto formats = trismooth::formats_of("file" + file.extension);
+  return named && std::ranges::find(formats, *named) != formats.end() ? *named : formats.at(0);
 }
 
 const std::vector<AcceptedFile>& all() {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/file_format.h"
+
 /// Small files of every dialect of every format that is read, all of one mesh: what tests damage, and what fuzzers
 /// start from.
 namespace accepted_files {
@@ -14,6 +16,10 @@ struct AcceptedFile {
   std::string bytes;
   double scale = 1;  ///< of the mesh: 4 in files whose coordinates are whole numbers
 };
+
+/// What the file is: the format that its name begins with ("off_colours"), or, where its extension is not of that
+/// format, the first that the extension names.
+trismooth::FileFormat format_of(const AcceptedFile& file);
 
 /// Every file; no two have the same name. Made once.
 const std::vector<AcceptedFile>& all();

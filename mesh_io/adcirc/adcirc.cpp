@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "trismooth/mesh_io/adcirc/adcirc_boundary.h"
+#include "trismooth/mesh_io/adcirc/adcirc_reader.h"
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/flat_points.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/document/place_values.h"
+#include "trismooth/mesh_io/text/text_mesh_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::array adcirc_types{cell_type::triangle};
+
+/// A boundary, and the set of points that it is.
+struct WrittenBoundary {
+  AdcircBoundary boundary;
+  const NamedSet* set;
+};
+
+/// The boundary that a set of points is written as. Those of weirs have heights, which sets have not.
+std::optional<AdcircBoundary> written_boundary(const NamedSet& set) {
+  const auto boundary = parse_adcirc_boundary(set.name);
+  const bool needs_more =
+      boundary && !boundary->is_open && (is_adcirc_weir(boundary->type) || has_adcirc_pairs(boundary->type));
+  return needs_more ? std::nullopt : boundary;
+}
+
+std::vector<WrittenBoundary> written_boundaries(const MeshDocument& document, bool open) {
+  std::vector<WrittenBoundary> found;
+  for (const NamedSet& set : document.point_sets) {
+    if (const auto boundary = written_boundary(set); boundary && boundary->is_open == open) {
+      found.push_back({*boundary, &set});
+    }
+  }
+  return found;
+}
+
+void write_boundaries(TextMeshWriter& writer, const MeshDocument& document, bool open) {
+  const std::string kind = open ? "open" : "land";
+  const std::vector<WrittenBoundary> boundaries = written_boundaries(document, open);
+  std::size_t nodes = 0;
+  for (const WrittenBoundary& written : boundaries) {
+    nodes += written.set->members.size();
+  }
+  writer.write_line(
+      [&](TextLines& line) { line.number(boundaries.size()).word("= Number of " + kind + " boundaries"); });
+  writer.write_line([&](TextLines& line) { line.number(nodes).word("= Total number of " + kind + " boundary nodes"); });
+  std::size_t number = 0;
+  for (const WrittenBoundary& written : boundaries) {
+    const auto& boundary = written.boundary;
+    const auto* const set = written.set;
+    ++number;
+    writer.write_line([&](TextLines& line) {
+      line.number(set->members.size());
+      if (!open || boundary.type != 0) {
+        line.number(boundary.type);
+      }
+      line.word("= Number of nodes for " + kind + " boundary").number(number);
+    });
+    writer.write_lines(set->members.size(), [&members = set->members](TextLines& lines, std::size_t i) {
+      lines.number(std::int64_t{members[i]} + 1).end_line();
+    });
+  }
+}
+
+void write_adcirc(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
+  require_flat_points(path, "ADCIRC", document);
+  const CellList& cells = document.cells;
+  const std::vector<double> depths = find_place_values(document, PlaceValue::depth).values;
+  // Rows of triangles are numbered one after the other.
+  std::vector<std::size_t> triangles;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (cells.types[cell] == cell_type::triangle) {
+      triangles.push_back(cell);
+    }
+  }
+  TextMeshWriter writer(path, workers);
+  writer.write_line([](TextLines& line) { line.word("grid"); });
+  writer.write_line([&](TextLines& line) { line.number(triangles.size()).number(document.point_count()); });
+  writer.write_lines(document.point_count(), [&](TextLines& lines, std::size_t i) {
+    lines.number(i + 1).number(document.points[3 * i]).number(document.points[3 * i + 1]).number(depths[i]).end_line();
+  });
+  writer.write_lines(triangles.size(), [&](TextLines& lines, std::size_t i) {
+    lines.number(i + 1).number(3);
+    for (const std::int32_t vertex : cells[triangles[i]]) {
+      lines.number(std::int64_t{vertex} + 1);
+    }
+    lines.end_line();
+  });
+  write_boundaries(writer, document, true);
+  write_boundaries(writer, document, false);
+  writer.close();
+}
+
+std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
+  MeshDocument lost;
+  lost.cell_arrays = document.cell_arrays;
+  lost.field_arrays = document.field_arrays;
+  lost.cell_sets = document.cell_sets;
+  const std::string depths = find_place_values(document, PlaceValue::depth).array;
+  std::ranges::copy_if(document.point_arrays, std::back_inserter(lost.point_arrays),
+                       [&depths](const DataArray& array) { return array.name != depths; });
+  std::ranges::copy_if(document.point_sets, std::back_inserter(lost.point_sets),
+                       [](const NamedSet& set) { return !written_boundary(set); });
+  std::vector<std::string> sentences = describe_lost_cells("ADCIRC", "triangles", adcirc_types, document.cells);
+  std::ranges::move(describe_lost_arrays("ADCIRC", lost), std::back_inserter(sentences));
+  if (!lost.point_sets.empty()) {
+    std::string sentence =
+        "ADCIRC holds boundaries without heights by their names ('open boundary 1', 'land boundary "
+        "1 (type 20)'), no other sets of points: ";
+    for (const NamedSet& set : lost.point_sets) {
+      sentence.append(&set == lost.point_sets.data() ? "" : ", ").append(set.name.empty() ? "(no name)" : set.name);
+    }
+    sentences.push_back(sentence + (lost.point_sets.size() == 1 ? " is not written" : " are not written"));
+    lost.point_sets.clear();
+  }
+  std::ranges::move(describe_lost_sets("ADCIRC", lost), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_z("ADCIRC", document), std::back_inserter(sentences));
+  std::ranges::move(describe_missing_place_values("ADCIRC", document, PlaceValue::depth),
+                    std::back_inserter(sentences));
+  if (written_boundaries(document, true).empty() && written_boundaries(document, false).empty()) {
+    sentences.emplace_back("ADCIRC runs with boundaries: the mesh names none, and none are written");
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const Codec adcirc_codec{&read_adcirc, &write_adcirc, &lost_in_adcirc};
+
+}  // namespace trismooth

@@ -1,0 +1,117 @@
+#include "trismooth/mesh_io/bytes/file_content.h"
+
+#include <array>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/compressed_file.h"
+#include "trismooth/mesh_io/bytes/gzip.h"
+#include "trismooth/mesh_io/bytes/memory_file.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
+#include "trismooth/mesh_io/bytes/standard_output.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/standard_streams.h"
+
+namespace trismooth {
+
+namespace {
+
+void decompress(FileContent& content) {
+  try {
+    content.bytes = FileBytes(gunzip(content.name, content.bytes));
+  } catch (const std::bad_alloc&) {
+    throw ReadError(content.name, "is too large for the memory of this machine, decompressed");
+  }
+  content.is_plain_file = false;
+}
+
+void write_compressed(const std::filesystem::path& path, std::string_view bytes, const FileWorkers& workers) {
+  BufferedWriter writer(path);
+  write_gzip(
+      bytes, [&writer](std::string_view part) { writer.write(part); }, workers);
+  writer.close();
+}
+
+}  // namespace
+
+FileContent read_content(const std::filesystem::path& path, const FileWorkers& workers) {
+  const bool is_stream = is_standard_stream(path);
+  FileContent content;
+  content.name = shown_input(path);
+  content.bytes = is_stream ? read_standard_input() : read_file_bytes(path, workers);
+  content.is_plain_file = !is_stream;
+  if (is_gzip(content.bytes)) {
+    decompress(content);
+    if (!is_stream && !names_gzip(path)) {
+      content.note = "the file is compressed by gzip, which its name does not say";
+    }
+  } else if (names_gzip(path)) {
+    throw ReadError(path, "is not compressed by gzip, as its name says; where it is a mesh as it is, leave out '.gz'");
+  }
+  if (const auto compression = compression_of(content.bytes)) {
+    throw ReadError(content.name, describe(*compression));
+  }
+  return content;
+}
+
+void write_content(const std::filesystem::path& path, const FileWorkers& workers,
+                   const std::function<void(const std::filesystem::path&)>& write) {
+  const std::filesystem::path name = shown_output(path);
+  try {
+    if (is_standard_stream(path)) {
+      MemoryFile plain(name);
+      write(plain.path());
+      write_standard_output(plain.view());
+      return;
+    }
+    OutputFile output(path);
+    if (names_gzip(path)) {
+      MemoryFile plain(name);
+      write(plain.path());
+      write_compressed(output.path(), plain.view(), workers);
+    } else {
+      write(output.path());
+    }
+    output.commit();
+  } catch (const WriteError& error) {
+    // Codecs know the temporary file only.
+    throw WriteError(name, error.reason);
+  }
+}
+
+void write_two_files(const std::filesystem::path& path,
+                     std::filesystem::path (*partner_of)(const std::filesystem::path& path),
+                     const std::function<void(const std::filesystem::path&)>& write) {
+  const char* const needs_plain_files = "the mesh is two files, which are written as plain files, uncompressed";
+  if (is_standard_stream(path) || names_gzip(path)) {
+    throw WriteError(shown_output(path), needs_plain_files);
+  }
+  const std::array names{path, partner_of(path)};
+  std::array<std::optional<OutputFile>, 2> outputs;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    outputs.at(i).emplace(names.at(i));
+    if (outputs.at(i)->is_direct()) {
+      throw WriteError(names.at(i), needs_plain_files);
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    try {
+      write(outputs.at(i)->path());
+    } catch (const WriteError& error) {
+      // Codecs know the temporary file only.
+      throw WriteError(names.at(i), error.reason);
+    }
+  }
+  for (std::optional<OutputFile>& output : outputs) {
+    output->prepare();
+  }
+  for (std::optional<OutputFile>& output : outputs) {
+    output->commit();
+  }
+}
+
+}  // namespace trismooth

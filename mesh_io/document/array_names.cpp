@@ -1,0 +1,37 @@
+#include "trismooth/mesh_io/document/array_names.h"
+
+#include <algorithm>
+
+namespace trismooth {
+
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || byte >= 0x80) {
+      plain += c;
+    } else if (c >= 'A' && c <= 'Z') {
+      plain += static_cast<char>(c - 'A' + 'a');
+    }
+  }
+  return plain;
+}
+
+std::string array_names(std::span<const DataArray> arrays) {
+  std::string names;
+  for (const DataArray& array : arrays) {
+    names.append(names.empty() ? "" : ", ").append(array.name);
+  }
+  return names.empty() ? "none" : names;
+}
+
+const DataArray* find_array_loosely(std::span<const DataArray> arrays, std::string_view name) {
+  if (const DataArray* const exact = find_array(arrays, name)) {
+    return exact;
+  }
+  const std::string plain = plain_name(name);
+  const auto found = std::ranges::find(arrays, plain, [](const DataArray& array) { return plain_name(array.name); });
+  return plain.empty() || found == arrays.end() ? nullptr : &*found;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,103 @@
+#include "trismooth/mesh_io/document/cell_groups.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "trismooth/mesh_io/document/region_names.h"
+
+namespace trismooth {
+
+namespace {
+
+bool is_whole(ScalarType type) {
+  return type != ScalarType::float32 && type != ScalarType::float64;
+}
+
+bool has_names(const DataArray& array) {
+  return array.description != nullptr && !array.description->value_names.empty();
+}
+
+const DataArray* group_array(const MeshDocument& document) {
+  const auto usable = [](const DataArray& array) { return array.components == 1 && is_whole(array.type); };
+  for (const DataArray& array : document.cell_arrays) {
+    if (usable(array) && has_names(array)) {
+      return &array;
+    }
+  }
+  for (const DataArray& array : document.cell_arrays) {
+    if (usable(array) && is_region_name(array.name)) {
+      return &array;
+    }
+  }
+  return nullptr;
+}
+
+std::string name_of(const DataArray& array, int dimension, std::int64_t value) {
+  if (array.description != nullptr) {
+    for (const ValueName& name : array.description->value_names) {
+      if (name.dimension == dimension && name.value == value) {
+        return name.name;
+      }
+    }
+  }
+  return {};
+}
+
+std::vector<std::int64_t> values_of(const DataArray& array) {
+  return visit_scalar_type(array.type, [&array](auto zero) {
+    const auto values = array.as<decltype(zero)>();
+    std::vector<std::int64_t> whole(values.size());
+    std::ranges::transform(values, whole.begin(), [](auto value) { return static_cast<std::int64_t>(value); });
+    return whole;
+  });
+}
+
+}  // namespace
+
+CellGroups find_cell_groups(const MeshDocument& document) {
+  const DataArray* const array = group_array(document);
+  if (array == nullptr) {
+    return {};
+  }
+  using Key = std::pair<int, std::int64_t>;
+  const std::vector<std::int64_t> values = values_of(*array);
+  const CellList& cells = document.cells;
+  std::map<Key, std::int32_t> places;
+  // Cells of one group stand together, mostly.
+  Key last{-1, 0};
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (const Key key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
+      places.emplace(last = key, 0);
+    }
+  }
+  CellGroups found;
+  found.array = array->name;
+  for (auto& [key, place] : places) {
+    const auto& [dimension, value] = key;
+    CellGroup group{dimension, value, name_of(*array, dimension, value)};
+    const auto first = places.lower_bound({dimension, std::numeric_limits<std::int64_t>::min()});
+    const bool alone =
+        first->first == key && (std::next(first) == places.end() || std::next(first)->first.first != dimension);
+    if (value == 0 && group.name.empty() && (has_names(*array) || !alone)) {
+      place = -1;
+      continue;
+    }
+    place = static_cast<std::int32_t>(found.groups.size());
+    found.groups.push_back(std::move(group));
+  }
+  found.of_cell.resize(cells.size());
+  last = {-1, 0};
+  std::int32_t place = -1;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (const Key key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
+      place = places.at(last = key);
+    }
+    found.of_cell[cell] = place;
+  }
+  return found;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/file_workers.h"
+#include "trismooth/mesh_io/data_array.h"
+
+namespace trismooth {
+
+/// How a file writes its numbers.
+enum class NumberEncoding : std::uint8_t { text, little_endian, big_endian };
+
+/// What a number at a site is.
+struct SiteColumn {
+  std::string array = {};      ///< the point array that it is of; empty for coordinates
+  std::uint8_t component = 0;  ///< of that array; x, y or z
+
+  bool operator==(const SiteColumn&) const = default;
+};
+
+/// Where in a file's bytes the numbers of each vertex stand that may change: its coordinates, values of its fields.
+struct NumberSites {
+  NumberEncoding encoding = NumberEncoding::text;
+  ScalarType type = ScalarType::float64;  ///< for text of floating point, what a reader rounds to
+  /// What each number of a site is. Coordinates that a file does not state (z of a flat one) are left out.
+  std::vector<SiteColumn> columns{{.component = 0}, {.component = 1}, {.component = 2}};
+  std::vector<ScalarType> column_types;  ///< of each column where they differ; empty where all are of `type`
+  std::vector<std::uint64_t> offsets;    ///< byte offsets, one a column and site; sites in the file's order
+  std::vector<std::int32_t> vertices;    ///< the vertex at each site; empty where site i is vertex i
+  std::uint8_t most_characters = 0;      ///< that a new number may take as text; 0: any number of them
+
+  /// Sites.
+  std::size_t size() const { return offsets.size() / columns.size(); }
+};
+
+/// Where the values of a column are: those of vertex v at first[v * stride]. Null: the column stays as it is.
+struct ColumnValues {
+  const double* first = nullptr;
+  std::size_t stride = 0;
+};
+
+/// Writes `bytes` to the plain path `path`, each number that differs from its site's value replaced by that of
+/// `values` (one a column of `sites`, representable in their types), every other byte as it is, and then `suffix`.
+/// Text gets the shortest text that reads back to the same value, or, where that is longer than most_characters, the
+/// nearest number that is not. Text that stands there may have an exponent as Fortran writes it. Throws WriteError.
+void write_patched(const std::filesystem::path& path, std::string_view bytes, const NumberSites& sites,
+                   std::span<const ColumnValues> values, std::string_view suffix, const FileWorkers& workers);
+
+/// The same for several lists of sites, each wholly behind the one before, with the values of each.
+struct PatchedSites {
+  const NumberSites& sites;
+  std::vector<ColumnValues> values;
+};
+void write_patched(const std::filesystem::path& path, std::string_view bytes, std::span<const PatchedSites> lists,
+                   std::string_view suffix, const FileWorkers& workers);
+
+/// The same for sites of x, y and z: `points` has them of every vertex.
+void write_patched(const std::filesystem::path& path, std::string_view bytes, const NumberSites& sites,
+                   std::span<const double> points, std::string_view suffix, const FileWorkers& workers);
+
+}  // namespace trismooth

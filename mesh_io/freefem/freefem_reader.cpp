@@ -1,0 +1,265 @@
+#include "trismooth/mesh_io/freefem/freefem_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/integer_array.h"
+#include "trismooth/mesh_io/document/number_sites.h"
+#include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+std::size_t begin_of_freefem(std::string_view bytes) {
+  return bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+}
+
+/// Cells of one kind, as the file lists them.
+struct FreeFemCells {
+  std::string_view name;  ///< of one, for messages
+  std::uint8_t type;
+  std::size_t vertices;
+};
+constexpr FreeFemCells freefem_triangles{"triangle", cell_type::triangle, 3};
+constexpr FreeFemCells freefem_edges{"edge", cell_type::line, 2};
+constexpr std::size_t freefem_vertex_numbers = 3;  // x, y and the label
+
+class FreeFemReader {
+ public:
+  FreeFemReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
+      : scanner_(bytes, path, TextScanner::Comments::none, begin_of_freefem(bytes)),
+        workers_(workers),
+        plain_rows_(bytes, workers) {
+    sites_.columns.resize(2);
+  }
+
+  std::pair<MeshDocument, NumberSites> read() {
+    read_counts();
+    read_vertices();
+    read_cells(freefem_triangles, triangle_count_);
+    read_cells(freefem_edges, edge_count_);
+    if (!scanner_.at_end()) {
+      const std::string_view token = scanner_.next_token("the end of the file");
+      scanner_.fail("expected the end of the file after the declared " + std::to_string(vertex_count_) + " vertices, " +
+                    std::to_string(triangle_count_) + " triangles and " + std::to_string(edge_count_) + " edges, got " +
+                    quoted(token));
+    }
+    add_labels(document_.point_arrays, std::move(vertex_labels_));
+    add_labels(document_.cell_arrays, std::move(cell_labels_));
+    return {std::move(document_), std::move(sites_)};
+  }
+
+ private:
+  void read_counts() {
+    const auto next_count = [this](std::string_view what) {
+      constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+      return static_cast<std::size_t>(scanner_.next_integer(what, 0, most));
+    };
+    vertex_count_ = next_count("the number of vertices");
+    triangle_count_ = next_count("the number of triangles");
+    edge_count_ = next_count("the number of edges");
+    // Every number takes a digit and a separator, except for the separator at the end of the file.
+    std::size_t left = scanner_.text().size() - scanner_.offset() + 1;
+    const auto require = [&](std::string_view what, std::size_t count, std::size_t numbers_each) {
+      require_room(scanner_.path(), what, count, 2 * numbers_each, left);
+      left -= 2 * numbers_each * count;
+    };
+    require("vertices", vertex_count_, freefem_vertex_numbers);
+    require("triangles", triangle_count_, freefem_triangles.vertices + 1);
+    require("edges", edge_count_, freefem_edges.vertices + 1);
+  }
+
+  /// Rows read in parts, by all workers; false where these are none, or not plain.
+  template <class ReadRow>
+  bool read_plain(std::size_t count, std::size_t columns, const ReadRow& read_row) {
+    const auto end = count == 0 ? std::nullopt
+                                : plain_rows_.read(scanner_.offset(), count, columns,
+                                                   [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+                                                     bool plain = true;
+                                                     for (std::size_t row = first; row < last && plain; ++row) {
+                                                       plain = read_row(numbers, row);
+                                                     }
+                                                     return plain;
+                                                   });
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+
+  void read_vertices() {
+    shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 2 * vertex_count_, workers_.workers);
+    shared_resize(vertex_labels_, vertex_count_, workers_.workers);
+    const bool plain =
+        read_plain(vertex_count_, freefem_vertex_numbers, [&](PlainNumbers& numbers, std::size_t vertex) {
+          for (std::size_t axis = 0; axis < 2; ++axis) {
+            double& coordinate = document_.points[3 * vertex + axis];
+            if (!numbers.next(coordinate) || !std::isfinite(coordinate)) {
+              return false;
+            }
+            sites_.offsets[2 * vertex + axis] = numbers.token_offset();
+          }
+          return numbers.next(vertex_labels_[vertex]);
+        });
+    for (std::size_t vertex = 0; vertex < vertex_count_ && !plain; ++vertex) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        document_.points[3 * vertex + axis] = scanner_.next_double("a coordinate");
+        sites_.offsets[2 * vertex + axis] = scanner_.token_offset();
+      }
+      vertex_labels_[vertex] = next_label();
+    }
+  }
+
+  void read_cells(const FreeFemCells& kind, std::size_t count) {
+    CellList& cells = document_.cells;
+    const std::size_t first_cell = cells.size();
+    const std::size_t first_corner = cells.connectivity.size();
+    shared_resize(cells.connectivity, first_corner + count * kind.vertices, cells.offsets, first_cell + count + 1,
+                  workers_.workers);
+    shared_resize(cells.types, first_cell + count, cell_labels_, first_cell + count, workers_.workers);
+    const auto corners = std::span(cells.connectivity).subspan(first_corner);
+    const auto labels = std::span(cell_labels_).subspan(first_cell);
+    const auto vertices = static_cast<std::int64_t>(vertex_count_);
+    for_file_blocks(workers_, count, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t cell = begin; cell < end; ++cell) {
+        cells.offsets[first_cell + cell + 1] = static_cast<std::int64_t>(first_corner + (cell + 1) * kind.vertices);
+        cells.types[first_cell + cell] = kind.type;
+      }
+    });
+    const bool plain = read_plain(count, kind.vertices + 1, [&](PlainNumbers& numbers, std::size_t cell) {
+      for (std::int32_t& corner : corners.subspan(cell * kind.vertices, kind.vertices)) {
+        if (!numbers.next(corner) || corner < 1 || corner > vertices) {
+          return false;
+        }
+        --corner;
+      }
+      return numbers.next(labels[cell]);
+    });
+    for (std::size_t cell = 0; cell < count && !plain; ++cell) {
+      for (std::int32_t& corner : corners.subspan(cell * kind.vertices, kind.vertices)) {
+        corner = next_corner(kind, cell, count);
+      }
+      labels[cell] = next_label();
+    }
+  }
+
+  std::int32_t next_corner(const FreeFemCells& kind, std::size_t cell, std::size_t count) {
+    const std::string_view token = scanner_.next_token("a vertex number");
+    const std::optional<std::int64_t> number = parse_integer(token);
+    if (!number || *number < 1 || *number > static_cast<std::int64_t>(vertex_count_)) {
+      scanner_.fail(std::string(kind.name) + " " + std::to_string(cell + 1) + " of " + std::to_string(count) +
+                    ": expected a vertex number, got " + quoted(token) + "; the file has " +
+                    std::to_string(vertex_count_) + " vertices, counted from 1");
+    }
+    return static_cast<std::int32_t>(*number - 1);
+  }
+
+  std::int64_t next_label() {
+    return scanner_.next_integer("a label", std::numeric_limits<std::int64_t>::min(),
+                                 std::numeric_limits<std::int64_t>::max());
+  }
+
+  /// 0 is what all have where a file tells nothing apart.
+  static void add_labels(std::vector<DataArray>& arrays, std::vector<std::int64_t> labels) {
+    if (std::ranges::any_of(labels, [](std::int64_t label) { return label != 0; })) {
+      arrays.push_back(make_integer_array("freefem:label", std::move(labels)));
+    }
+  }
+
+  TextScanner scanner_;
+  FileWorkers workers_;
+  PlainRows plain_rows_;
+  MeshDocument document_;
+  NumberSites sites_;
+  std::vector<std::int64_t> vertex_labels_;
+  std::vector<std::int64_t> cell_labels_;
+  std::size_t vertex_count_ = 0;
+  std::size_t triangle_count_ = 0;
+  std::size_t edge_count_ = 0;
+};
+
+/// The numbers of the next line, which has as many whole ones as `columns`, behind `reals` of any kind.
+template <std::size_t columns>
+std::optional<std::array<std::int64_t, columns>> next_freefem_line(TextScanner& scanner, std::size_t reals = 0) {
+  for (std::size_t i = 0; i < reals; ++i) {
+    if (scanner.at_end_of_line() || !parse_number<double>(scanner.next_token("a number"))) {
+      return std::nullopt;
+    }
+  }
+  std::array<std::int64_t, columns> numbers{};
+  for (std::int64_t& number : numbers) {
+    const auto whole = scanner.at_end_of_line() ? std::nullopt : parse_integer(scanner.next_token("a number"));
+    if (!whole) {
+      return std::nullopt;
+    }
+    number = *whole;
+  }
+  const bool ends = scanner.at_end_of_line();
+  scanner.at_end();
+  return ends ? std::optional(numbers) : std::nullopt;
+}
+
+}  // namespace
+
+bool begins_as_freefem(std::string_view bytes) {
+  constexpr std::size_t enough = std::size_t{1} << 14;
+  const bool is_whole = bytes.size() <= enough;
+  // No line that is cut.
+  const std::string_view head = is_whole ? bytes : bytes.substr(0, bytes.find_last_of("\r\n", enough) + 1);
+  TextScanner scanner(head, {}, TextScanner::Comments::none, begin_of_freefem(head));
+  if (scanner.at_end()) {
+    return false;
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  const auto counts = next_freefem_line<3>(scanner);
+  if (!counts || std::ranges::any_of(*counts, [](std::int64_t count) { return count < 0 || count > most; }) ||
+      (*counts)[1] == 0) {
+    return false;
+  }
+  const auto [vertices, triangles, edges] = *counts;
+  const auto is_vertex = [vertex_count = vertices](std::int64_t number) {
+    return 1 <= number && number <= vertex_count;
+  };
+  std::int64_t rows = 0;
+  for (; rows < vertices && !scanner.at_end(); ++rows) {
+    if (!next_freefem_line<1>(scanner, 2)) {
+      return false;
+    }
+  }
+  for (; rows < vertices + triangles && !scanner.at_end(); ++rows) {
+    const auto row = next_freefem_line<4>(scanner);
+    if (!row || !std::ranges::all_of(std::span(*row).first(3), is_vertex)) {
+      return false;
+    }
+  }
+  for (; rows < vertices + triangles + edges && !scanner.at_end(); ++rows) {
+    const auto row = next_freefem_line<3>(scanner);
+    if (!row || !std::ranges::all_of(std::span(*row).first(2), is_vertex)) {
+      return false;
+    }
+  }
+  // The beginning of a long OFF file without a keyword looks alike, but for its edges, which it leaves at 0.
+  return rows > 0 && (edges > 0 || (rows == vertices + triangles && is_whole && scanner.at_end()));
+}
+
+MeshDocument read_freefem(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  auto [document, sites] = FreeFemReader(bytes, path, workers).read();
+  document.original = make_patched_original(std::move(bytes), std::move(sites));
+  return std::move(document);
+}
+
+}  // namespace trismooth

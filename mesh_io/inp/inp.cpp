@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/inp/inp_element_types.h"
+#include "trismooth/mesh_io/inp/inp_names.h"
+#include "trismooth/mesh_io/inp/inp_reader.h"
+#include "trismooth/mesh_io/inp/inp_text.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_rows_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t most_inp_characters = 20;
+
+/// A set as it is written: members are numbers from 1.
+struct WrittenInpSet {
+  std::string name;
+  std::vector<std::int32_t> members;
+};
+
+/// The sets of a document as the file gets them.
+struct WrittenInpSets {
+  InpSetNames cell_names;
+  InpSetNames point_names;
+  std::vector<WrittenInpSet> of_cells;
+  std::vector<WrittenInpSet> of_points;
+  std::string array;  ///< whose groups they are from; empty: none
+};
+
+bool is_point_cell(std::uint8_t type) {
+  return type == cell_type::vertex || type == cell_type::poly_vertex;
+}
+
+std::string group_name(const CellGroups& groups, const CellGroup& group) {
+  return group.name.empty() ? groups.array + "_" + std::to_string(group.number) : group.name;
+}
+
+/// Groups of cells, and sets of these, become element sets; sets of points and groups of vertex cells node sets.
+WrittenInpSets written_sets(const MeshDocument& document) {
+  WrittenInpSets sets;
+  const CellGroups groups = find_cell_groups(document);
+  sets.array = groups.array;
+  std::vector<WrittenInpSet*> of_group(groups.groups.size());
+  sets.of_cells.reserve(groups.groups.size() + document.cell_sets.size());
+  sets.of_points.reserve(groups.groups.size() + document.point_sets.size());
+  for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+    const bool of_points = groups.groups[i].dimension == 0;
+    auto& list = of_points ? sets.of_points : sets.of_cells;
+    InpSetNames& taken = of_points ? sets.point_names : sets.cell_names;
+    list.push_back({taken.claim(group_name(groups, groups.groups[i])), {}});
+    of_group[i] = &list.back();
+  }
+  for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
+    const std::int32_t group = groups.of_cell[cell];
+    if (group < 0) {
+      continue;
+    }
+    std::vector<std::int32_t>& members = of_group[static_cast<std::size_t>(group)]->members;
+    if (groups.groups[static_cast<std::size_t>(group)].dimension == 0) {
+      const auto vertices = document.cells[cell];
+      members.insert(members.end(), vertices.begin(), vertices.end());
+    } else if (!inp_type_of_cell(document.cells.types[cell]).empty()) {
+      members.push_back(static_cast<std::int32_t>(cell));
+    }
+  }
+  for (const NamedSet& set : document.cell_sets) {
+    WrittenInpSet& written = sets.of_cells.emplace_back();
+    written.name = sets.cell_names.claim(set.name);
+    std::ranges::copy_if(set.members, std::back_inserter(written.members), [&](std::int32_t cell) {
+      return !inp_type_of_cell(document.cells.types[static_cast<std::size_t>(cell)]).empty();
+    });
+  }
+  for (const NamedSet& set : document.point_sets) {
+    sets.of_points.push_back({sets.point_names.claim(set.name), set.members});
+  }
+  return sets;
+}
+
+void write_coordinate(TextBlock& text, double value) {
+  std::array<char, 32> number{};
+  text.text(", ").text({number.data(), write_within(value, most_inp_characters, number.data())});
+}
+
+/// Numbers from 1, and where the middle of a curve stands in the middle.
+void write_element(TextBlock& text, const CellList& cells, std::size_t cell) {
+  text.number(cell + 1);
+  const auto vertices = cells[cell];
+  const auto add = [&](std::size_t i) { text.text(", ").number(std::int64_t{vertices[i]} + 1); };
+  if (cells.types[cell] == cell_type::quadratic_edge) {
+    add(0);
+    add(2);
+    add(1);
+  } else {
+    constexpr std::size_t most_in_line = 15;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (i == most_in_line) {
+        text.text(",\n").number(std::int64_t{vertices[i]} + 1);
+      } else {
+        add(i);
+      }
+    }
+  }
+  text.text("\n");
+}
+
+void write_sets(TextRowsWriter& writer, std::string_view keyword, const std::vector<WrittenInpSet>& sets) {
+  constexpr std::size_t most_in_line = 16;
+  for (const WrittenInpSet& set : sets) {
+    if (set.members.empty()) {
+      continue;
+    }
+    writer.write_text(std::string(keyword) + set.name + "\n");
+    const std::size_t lines = (set.members.size() + most_in_line - 1) / most_in_line;
+    writer.write_rows(lines, [&set](TextBlock& text, std::size_t line) {
+      const std::size_t end = std::min((line + 1) * most_in_line, set.members.size());
+      for (std::size_t i = line * most_in_line; i < end; ++i) {
+        text.number(std::int64_t{set.members[i]} + 1).text(i + 1 < end ? ", " : "\n");
+      }
+    });
+  }
+}
+
+void write_inp(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
+  const CellList& cells = document.cells;
+  TextRowsWriter writer(path, workers);
+  writer.write_text("*HEADING\nwritten by trismooth\n*NODE\n");
+  writer.write_rows(document.point_count(), [&points = document.points](TextBlock& text, std::size_t i) {
+    text.number(i + 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      write_coordinate(text, points[3 * i + axis]);
+    }
+    text.text("\n");
+  });
+  for (std::size_t begin = 0; begin < cells.size();) {
+    std::size_t end = begin;
+    while (end < cells.size() && cells.types[end] == cells.types[begin]) {
+      ++end;
+    }
+    const std::string_view type = inp_type_of_cell(cells.types[begin]);
+    if (!type.empty()) {
+      writer.write_text("*ELEMENT, TYPE=" + std::string(type) + "\n");
+      writer.write_rows(end - begin,
+                        [&cells, begin](TextBlock& text, std::size_t i) { write_element(text, cells, begin + i); });
+    }
+    begin = end;
+  }
+  const WrittenInpSets sets = written_sets(document);
+  write_sets(writer, "*ELSET, ELSET=", sets.of_cells);
+  write_sets(writer, "*NSET, NSET=", sets.of_points);
+  writer.close();
+}
+
+/// Of vertex cells those are written that are in a group: as a node set.
+CellList cells_to_tell_of(const MeshDocument& document, const CellGroups& groups) {
+  CellList cells;
+  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
+    const std::uint8_t type = document.cells.types[cell];
+    if (inp_type_of_cell(type).empty() &&
+        !(is_point_cell(type) && !groups.of_cell.empty() && groups.of_cell[cell] >= 0)) {
+      cells.append(type, {});
+    }
+  }
+  return cells;
+}
+
+std::vector<std::string> lost_in_inp(const MeshDocument& document) {
+  const WrittenInpSets sets = written_sets(document);
+  std::vector<std::string> sentences = describe_lost_cells("Abaqus", "lines, faces and solids", {},
+                                                           cells_to_tell_of(document, find_cell_groups(document)));
+  MeshDocument arrays;
+  arrays.point_arrays = document.point_arrays;
+  arrays.field_arrays = document.field_arrays;
+  std::ranges::copy_if(document.cell_arrays, std::back_inserter(arrays.cell_arrays),
+                       [&sets](const DataArray& array) { return array.name != sets.array; });
+  std::ranges::move(describe_lost_arrays("Abaqus", arrays), std::back_inserter(sentences));
+  std::string renamed;
+  for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {
+    for (const std::string& name : taken->changed()) {
+      renamed.append(renamed.empty() ? "" : ", ").append(name);
+    }
+  }
+  if (!renamed.empty()) {
+    sentences.push_back("Abaqus holds names of letters, digits, _ and - only: changed are " + renamed);
+  }
+  return sentences;
+}
+
+/// The first line that says anything is a keyword that input files begin with, or a comment of theirs before one.
+bool is_inp(std::string_view bytes) {
+  constexpr auto first_keywords =
+      std::to_array<std::string_view>({"HEADING", "NODE", "ELEMENT", "PART", "ASSEMBLY", "NSET", "ELSET", "INCLUDE",
+                                       "PREPRINT", "MATERIAL", "PARAMETER", "RESTART", "SYSTEM"});
+  InpLines lines(bytes);
+  return lines.next() == InpLines::Kind::keyword &&
+         std::ranges::find(first_keywords, lines.keyword().name) != first_keywords.end();
+}
+
+}  // namespace
+
+const Codec inp_codec{&read_inp, &write_inp, &lost_in_inp, &is_inp};
+
+}  // namespace trismooth

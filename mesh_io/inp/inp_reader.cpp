@@ -1,0 +1,111 @@
+#include "trismooth/mesh_io/inp/inp_reader.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/inp/inp_cells.h"
+#include "trismooth/mesh_io/inp/inp_lines_reader.h"
+#include "trismooth/mesh_io/inp/inp_original.h"
+#include "trismooth/mesh_io/inp/inp_sets.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Names, separated by commas, the first few of them.
+template <class Names>
+std::string listed_names(const Names& names) {
+  constexpr std::size_t most_listed = 8;
+  std::string list;
+  std::size_t count = 0;
+  for (const auto& name : names) {
+    if (count++ == most_listed) {
+      return list + ", ...";
+    }
+    list.append(list.empty() ? "" : ", ").append(name);
+  }
+  return list;
+}
+
+void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<std::string>& notes) {
+  std::set<std::string> unknown_types;
+  for (const InpElementBlock& block : model.blocks) {
+    if (!block.known.is_known() || block.known.cell == cell_type::poly_vertex) {
+      unknown_types.insert(trismooth::quoted(block.type));
+    }
+  }
+  if (!unknown_types.empty()) {
+    notes.push_back("what elements of type " + listed_names(unknown_types) +
+                    " look like is not known: their nodes are held");
+  }
+  if (unknown_members > 0) {
+    notes.push_back("sets name " + std::to_string(unknown_members) +
+                    " nodes, elements or other sets that are not there; these lines stay as they are");
+  }
+  std::set<std::string> included;
+  for (const InpSource& source : model.sources) {
+    for (const InpInclude& include : source.includes) {
+      included.insert(trismooth::quoted(include.name.string()));
+    }
+  }
+  if (!included.empty()) {
+    notes.push_back("includes " + listed_names(included) +
+                    ": a file whose nodes move, or that is not found from the output's folder, is written in the "
+                    "place of the line that includes it; the file itself stays as it is");
+  }
+  if (model.names_other_files) {
+    notes.push_back("names files that hold no mesh (INPUT=, FILE=): output in another folder needs them there");
+  }
+}
+
+/// A node has all its coordinates nearly always, or all but z, which is 0 for all.
+void drop_needless_gaps(InpModel& model) {
+  bool is_flat = true;
+  for (std::size_t i = 2; i < model.points.size() && is_flat; i += 3) {
+    is_flat = model.points[i] == 0;
+  }
+  for (InpSource& source : model.sources) {
+    if (is_flat) {
+      std::erase_if(source.gaps, [](const InpGap& gap) { return gap.component == 2; });
+    }
+    source.gaps.shrink_to_fit();
+  }
+}
+
+/// Sites whose vertices are simply all of them need no list of these.
+void drop_needless_vertices(InpModel& model) {
+  std::vector<NumberSites>& sites = model.sources.front().sites;
+  if (model.sources.size() == 1 && sites.size() == 1 && sites.front().size() == model.node_offsets.size()) {
+    sites.front().vertices = {};
+  }
+}
+
+}  // namespace
+
+InpModel read_inp_model(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  InpModel model;
+  model.sources.push_back({path, std::move(bytes), {}, {}, {}});
+  InpLinesReader(model, workers).read();
+  return model;
+}
+
+MeshDocument read_inp(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  InpModel model = read_inp_model(path, std::move(bytes), workers);
+  number_inp_items(model);
+  MeshDocument document;
+  document.cells = make_inp_cells(model);
+  const std::size_t unknown_members = find_inp_members(model, document.cells);
+  add_inp_sets(model, document);
+  add_notes(model, unknown_members, document.notes);
+  document.most_coordinate_characters = 20;
+  document.points = model.points;
+  drop_needless_gaps(model);
+  drop_needless_vertices(model);
+  document.original = make_inp_original(std::move(model.sources), std::move(model.points));
+  return document;
+}
+
+}  // namespace trismooth

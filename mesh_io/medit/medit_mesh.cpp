@@ -1,0 +1,131 @@
+#include "trismooth/mesh_io/medit/medit_mesh.h"
+
+#include <algorithm>
+#include <span>
+
+#include "trismooth/mesh_io/bytes/shared_blocks.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/integer_array.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t most_medit_others = 10;
+
+/// The type of cell whose numbers a set takes where the file has none of its own type.
+std::uint8_t quadratic_kind_of(std::uint8_t type) {
+  switch (type) {
+    case cell_type::line:
+      return cell_type::quadratic_edge;
+    case cell_type::triangle:
+      return cell_type::quadratic_triangle;
+    default:
+      return cell_type::biquadratic_quad;
+  }
+}
+
+std::string_view name_of_medit_cells(std::uint8_t type) {
+  return type == cell_type::line ? "edges" : type == cell_type::triangle ? "triangles" : "quadrilaterals";
+}
+
+}  // namespace
+
+void MeditMesh::set_dimension(std::size_t dimension) {
+  dimension_ = dimension;
+  sites.columns.resize(dimension);
+}
+
+void MeditMesh::resize_vertices(std::size_t count) {
+  has_vertices = true;
+  shared_resize(document.points, 3 * count, sites.offsets, dimension_ * count, workers_.workers);
+  shared_resize(vertex_refs, count, workers_.workers);
+}
+
+std::size_t MeditMesh::append_cells(const MeditKeyword& keyword, std::size_t count) {
+  CellList& cells = document.cells;
+  const std::size_t first = cells.size();
+  const std::size_t first_corner = cells.connectivity.size();
+  shared_resize(cells.connectivity, first_corner + count * keyword.vertices, cells.offsets, first + count + 1,
+                workers_.workers);
+  shared_resize(cells.types, first + count, cell_refs, first + count, workers_.workers);
+  for_file_blocks(workers_, count, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      cells.offsets[first + cell + 1] = static_cast<std::int64_t>(first_corner + (cell + 1) * keyword.vertices);
+      cells.types[first + cell] = keyword.cell_type;
+    }
+  });
+  sections_.push_back({keyword.cell_type, first, count});
+  return first;
+}
+
+void MeditMesh::add_other(std::string_view name) {
+  if (others_.size() <= most_medit_others && std::ranges::find(others_, name) == others_.end()) {
+    others_.emplace_back(others_.size() < most_medit_others ? name : "others");
+  }
+}
+
+std::optional<MeditMesh::Section> MeditMesh::cells_of_type(std::uint8_t type) const {
+  const auto found = std::ranges::find(sections_, type, &Section::type);
+  return found == sections_.end() ? std::nullopt : std::optional(*found);
+}
+
+std::optional<MeditMesh::WrongNumber> MeditMesh::make_set(const Set& set) {
+  NamedSet named{std::string(set.keyword->name), {}};
+  const bool of_cells = set.keyword->role == MeditRole::cell_set;
+  Section section{0, 0, document.point_count()};
+  if (of_cells) {
+    const std::uint8_t type = set.keyword->cell_type;
+    const auto found = cells_of_type(type);
+    section = found ? *found : cells_of_type(quadratic_kind_of(type)).value_or(Section{type, 0, 0});
+  }
+  for (std::size_t i = 0; i < set.numbers.size(); ++i) {
+    const std::int64_t number = set.numbers[i];
+    if (number < 1 || static_cast<std::uint64_t>(number) > section.count) {
+      return WrongNumber{&set, i, section.count, of_cells ? name_of_medit_cells(set.keyword->cell_type) : "vertices"};
+    }
+    if (!of_cells) {
+      named.members.push_back(static_cast<std::int32_t>(number - 1));
+      continue;
+    }
+    const auto vertices = document.cells[section.first + static_cast<std::size_t>(number - 1)];
+    named.members.insert(named.members.end(), vertices.begin(), vertices.end());
+  }
+  if (of_cells) {
+    std::ranges::sort(named.members);
+    named.members.erase(std::unique(named.members.begin(), named.members.end()), named.members.end());
+  }
+  document.point_sets.push_back(std::move(named));
+  return std::nullopt;
+}
+
+std::optional<MeditMesh::WrongNumber> MeditMesh::finish() {
+  for (const Set& set : sets_) {
+    if (const auto wrong = make_set(set)) {
+      return wrong;
+    }
+  }
+  // 0 is what all have where a file tells nothing apart.
+  const auto says_anything = [](std::span<const std::int64_t> refs) {
+    return std::ranges::any_of(refs, [](std::int64_t ref) { return ref != 0; });
+  };
+  if (says_anything(vertex_refs)) {
+    document.point_arrays.push_back(make_integer_array("medit:ref", std::move(vertex_refs)));
+  }
+  if (says_anything(cell_refs)) {
+    document.cell_arrays.push_back(make_integer_array("medit:ref", std::move(cell_refs)));
+  }
+  if (!has_end) {
+    document.notes.emplace_back("The file has no End: nothing says whether something is missing there.");
+  }
+  if (!others_.empty()) {
+    std::string list;
+    for (const std::string& name : others_) {
+      list.append(list.empty() ? "" : ", ").append(name);
+    }
+    document.notes.push_back("Kept in Medit output only, where it is text or binary as the input is: " + list + ".");
+  }
+  return std::nullopt;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,327 @@
+#include "trismooth/mesh_io/mfem/mfem_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/number_sites.h"
+#include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/mfem/mfem_geometry.h"
+#include "trismooth/mesh_io/mfem/mfem_sets.h"
+#include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/plain_rows.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t most_indices = std::numeric_limits<std::int32_t>::max();
+
+class MfemReader {
+ public:
+  MfemReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
+      : scanner_(bytes, path, TextScanner::Comments::hash,
+                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+        workers_(workers),
+        rows_(bytes, workers) {}
+
+  /// Nothing where an element has a vertex that there is not, and elements were read in parts: read one by one, their
+  /// lines are known.
+  std::optional<std::pair<MeshDocument, NumberSites>> read() {
+    read_version();
+    bool ended = false;
+    while (!ended && !scanner_.at_end()) {
+      ended = read_section(scanner_.next_token("a section"));
+    }
+    if (!ended && has_end_ && scanner_.at_end()) {
+      scanner_.fail("expected the end of the mesh, 'mfem_mesh_end', got the end of the file");
+    }
+    if (!has_vertices_) {
+      scanner_.fail("expected the section 'vertices', got the end of the file");
+    }
+    if (highest_index_ >= static_cast<std::int64_t>(document_.point_count())) {
+      if (highest_is_of_part_) {
+        return std::nullopt;
+      }
+      fail_index();
+    }
+    name_mfem_attributes(sets_, attributes_, document_);
+    return std::pair(std::move(document_), std::move(sites_));
+  }
+
+ private:
+  void read_version() {
+    const std::string_view line = trimmed(scanner_.next_line());
+    constexpr std::array<std::string_view, 4> versions{"MFEM mesh v1.0", "MFEM mesh v1.1", "MFEM mesh v1.2",
+                                                       "MFEM mesh v1.3"};
+    if (std::ranges::find(versions, line) != versions.end()) {
+      has_end_ = line != versions.front();
+      return;
+    }
+    if (line.starts_with("MFEM NURBS mesh")) {
+      scanner_.fail_at(0, "is a NURBS mesh of MFEM; only meshes of straight elements are read");
+    }
+    if (line.starts_with("MFEM NC mesh")) {
+      scanner_.fail_at(0, "is a non-conforming mesh of MFEM; its hanging vertices must not move by themselves");
+    }
+    if (line.starts_with("MFEM INLINE mesh")) {
+      scanner_.fail_at(0, "is an INLINE mesh of MFEM: it has no vertices; save it from MFEM as a mesh v1.0 first");
+    }
+    scanner_.fail_at(0, "expected 'MFEM mesh v1.0' to 'v1.3' in the first line, got " + quoted(line));
+  }
+
+  /// False as long as more may follow.
+  bool read_section(std::string_view name) {
+    if (name == "dimension") {
+      read_dimension();
+    } else if (name == "elements") {
+      read_elements("elements", has_elements_);
+    } else if (name == "boundary") {
+      read_elements("boundary", has_boundary_);
+    } else if (name == "attribute_sets") {
+      read_sets(dimension_);
+    } else if (name == "bdr_attribute_sets") {
+      read_sets(dimension_ - 1);
+    } else if (name == "vertices") {
+      read_vertices();
+    } else if (name == "nodes") {
+      fail_curved();
+    } else if (name == "vertex_parents" || name == "coarse_elements" || name == "root_state") {
+      scanner_.fail("is a non-conforming mesh of MFEM; its hanging vertices must not move by themselves");
+    } else if (name == "mfem_mesh_end" || name == "mfem_serial_mesh_end") {
+      // Pieces of parallel meshes go on with what ranks exchange; all of it stays as it is.
+      return true;
+    } else {
+      scanner_.fail("expected a section of MFEM, got " + quoted(name));
+    }
+    return false;
+  }
+
+  [[noreturn]] void fail_curved() const {
+    scanner_.fail(
+        "is a curved mesh of MFEM: its places are in a grid function 'nodes', which is not smoothed; "
+        "Mesh::SetCurvature(1), then Mesh::SetNodalFESpace(nullptr), makes it one of vertices");
+  }
+
+  void read_dimension() { dimension_ = static_cast<int>(scanner_.next_integer("the dimension", 1, 3)); }
+
+  void read_elements(std::string_view section, bool& seen) {
+    if (seen) {
+      scanner_.fail("the section " + quoted(section) + " comes twice");
+    }
+    seen = true;
+    if (dimension_ == 0) {
+      scanner_.fail("expected the section 'dimension' before " + quoted(section));
+    }
+    const auto count = static_cast<std::size_t>(scanner_.next_integer("the number of elements", 0, most_indices));
+    constexpr std::size_t least_numbers = 3;  // an attribute, a geometry, a vertex
+    require_room(scanner_.path(), "elements", count, 2 * least_numbers, bytes_left() + 1);
+    if (count == 0 || read_plain_elements(count)) {
+      return;
+    }
+    CellList& cells = document_.cells;
+    for (std::size_t element = 0; element < count; ++element) {
+      if (scanner_.at_end()) {
+        scanner_.fail("expected " + std::to_string(count) + " " + std::string(section) + ", got " +
+                      std::to_string(element));
+      }
+      attributes_.push_back(static_cast<std::int32_t>(
+          scanner_.next_integer("an attribute", std::numeric_limits<std::int32_t>::min(), most_indices)));
+      const auto geometry = static_cast<std::size_t>(
+          scanner_.next_integer("a geometry from 0 to 7", 0, static_cast<std::int64_t>(mfem_geometries.size()) - 1));
+      const auto& [type, vertices] = mfem_geometries[geometry];
+      for (std::size_t i = 0; i < vertices; ++i) {
+        const std::int64_t index = scanner_.next_integer("a vertex, counted from 0", 0, most_indices - 1);
+        note_index(index, scanner_.token_offset(), false);
+        cells.connectivity.push_back(static_cast<std::int32_t>(index));
+      }
+      cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+      cells.types.push_back(type);
+    }
+  }
+
+  /// Elements that are all like the first one.
+  bool read_plain_elements(std::size_t count) {
+    PlainNumbers first_row(scanner_.text(), scanner_.offset());
+    std::int32_t attribute = 0;
+    std::size_t geometry = 0;
+    if (!first_row.next(attribute) || !first_row.next(geometry) || geometry >= mfem_geometries.size()) {
+      return false;
+    }
+    const std::uint8_t type = mfem_geometries[geometry].cell;
+    const std::size_t vertices = mfem_geometries[geometry].vertices;
+    if (count > (bytes_left() + 1) / 2 / (2 + vertices)) {
+      return false;
+    }
+    CellList& cells = document_.cells;
+    const std::size_t begin = cells.size();
+    const std::size_t corner = cells.connectivity.size();
+    shared_resize(cells.connectivity, corner + vertices * count, cells.offsets, begin + count + 1, workers_.workers);
+    shared_resize(cells.types, begin + count, attributes_, begin + count, workers_.workers);
+    std::atomic<std::int32_t> highest = -1;
+    const auto end = rows_.read(
+        scanner_.offset(), count, 2 + vertices, [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+          std::int32_t highest_here = -1;
+          bool plain = true;
+          for (std::size_t element = first; element < last && plain; ++element) {
+            std::size_t kind = 0;
+            plain = numbers.next(attributes_[begin + element]) && numbers.next(kind) && kind == geometry;
+            for (std::size_t i = corner + vertices * element; i < corner + vertices * (element + 1) && plain; ++i) {
+              std::int32_t& index = cells.connectivity[i];
+              plain = numbers.next(index) && index >= 0 && index < most_indices;
+              highest_here = std::max(highest_here, index);
+            }
+            cells.offsets[begin + element + 1] = static_cast<std::int64_t>(corner + vertices * (element + 1));
+            cells.types[begin + element] = type;
+          }
+          std::int32_t known = highest;
+          while (highest_here > known && !highest.compare_exchange_weak(known, highest_here)) {
+          }
+          return plain;
+        });
+    if (!end) {
+      cells.connectivity.resize(corner);
+      cells.offsets.resize(begin + 1);
+      cells.types.resize(begin);
+      attributes_.resize(begin);
+      return false;
+    }
+    note_index(highest, scanner_.offset(), true);
+    scanner_.resume(end->last_number, end->offset);
+    return true;
+  }
+
+  /// "name" number-of-attributes attribute ...
+  void read_sets(int dimension) {
+    const std::int64_t count = scanner_.next_integer("the number of sets", 0, most_indices);
+    for (std::int64_t i = 0; i < count; ++i) {
+      MfemSet set{read_name(), dimension, {}};
+      const std::int64_t size = scanner_.next_integer("the number of attributes of a set", 0, most_indices);
+      for (std::int64_t k = 0; k < size; ++k) {
+        set.attributes.push_back(
+            scanner_.next_integer("an attribute", std::numeric_limits<std::int32_t>::min(), most_indices));
+      }
+      sets_.push_back(std::move(set));
+    }
+  }
+
+  /// In quotation marks where it has blanks.
+  std::string read_name() {
+    if (!scanner_.peek_token().starts_with('"')) {
+      return std::string(scanner_.next_token("the name of a set"));
+    }
+    scanner_.next_token("the name of a set");
+    const std::size_t begin = scanner_.token_offset() + 1;
+    const std::size_t end = scanner_.text().find('"', begin);
+    if (end == std::string_view::npos) {
+      scanner_.fail("expected the end of the name of a set, '\"'");
+    }
+    scanner_.seek(end + 1);
+    return std::string(scanner_.text().substr(begin, end - begin));
+  }
+
+  void read_vertices() {
+    if (has_vertices_) {
+      scanner_.fail("the section 'vertices' comes twice");
+    }
+    has_vertices_ = true;
+    const auto count = static_cast<std::size_t>(scanner_.next_integer("the number of vertices", 0, most_indices));
+    const std::string_view next = scanner_.peek_token();
+    if (next == "nodes") {
+      scanner_.next_token("a section");
+      fail_curved();
+    }
+    axes_ = static_cast<std::size_t>(scanner_.next_integer("the number of coordinates of a vertex", 1, 3));
+    require_room(scanner_.path(), "vertices", count, 2 * axes_, bytes_left() + 1);
+    sites_.columns.resize(axes_);
+    shared_resize(document_.points, 3 * count, sites_.offsets, axes_ * count, workers_.workers);
+    if (count == 0 || read_plain_vertices(count)) {
+      return;
+    }
+    for (std::size_t vertex = 0; vertex < count; ++vertex) {
+      if (scanner_.at_end()) {
+        scanner_.fail("expected " + std::to_string(count) + " vertices, got " + std::to_string(vertex));
+      }
+      for (std::size_t axis = 0; axis < axes_; ++axis) {
+        document_.points[3 * vertex + axis] = scanner_.next_double("a coordinate");
+        sites_.offsets[axes_ * vertex + axis] = scanner_.token_offset();
+      }
+    }
+  }
+
+  bool read_plain_vertices(std::size_t count) {
+    const auto end =
+        rows_.read(scanner_.offset(), count, axes_, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+          bool plain = true;
+          for (std::size_t vertex = first; vertex < last && plain; ++vertex) {
+            for (std::size_t axis = 0; axis < axes_; ++axis) {
+              double& coordinate = document_.points[3 * vertex + axis];
+              plain = plain && numbers.next(coordinate) && std::isfinite(coordinate);
+              sites_.offsets[axes_ * vertex + axis] = numbers.token_offset();
+            }
+          }
+          return plain;
+        });
+    if (end) {
+      scanner_.resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+
+  /// Elements stand before the vertices: whether there are so many is known later.
+  void note_index(std::int64_t index, std::size_t offset, bool is_of_part) {
+    if (index > highest_index_) {
+      highest_index_ = index;
+      highest_offset_ = offset;
+      highest_is_of_part_ = is_of_part;
+    }
+  }
+
+  [[noreturn]] void fail_index() const {
+    scanner_.fail_at(highest_offset_, "vertex " + std::to_string(highest_index_) + " is out of range: the file has " +
+                                          std::to_string(document_.point_count()) + " vertices, counted from 0");
+  }
+
+  std::size_t bytes_left() const { return scanner_.text().size() - scanner_.offset(); }
+
+  TextScanner scanner_;
+  FileWorkers workers_;
+  PlainRows rows_;
+  MeshDocument document_;
+  NumberSites sites_;
+  std::vector<std::int32_t> attributes_;
+  std::vector<MfemSet> sets_;
+  int dimension_ = 0;
+  std::size_t axes_ = 0;
+  bool has_end_ = false;  ///< says where it ends, as from version 1.1 on
+  bool has_elements_ = false;
+  bool has_boundary_ = false;
+  bool has_vertices_ = false;
+  std::int64_t highest_index_ = -1;
+  std::size_t highest_offset_ = 0;
+  bool highest_is_of_part_ = false;
+};
+
+}  // namespace
+
+MeshDocument read_mfem(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
+  auto read = MfemReader(bytes, path, workers).read();
+  if (!read) {
+    read = MfemReader(bytes, path, FileWorkers(workers.workers, FileWorkers::serial)).read();
+  }
+  read->first.original = make_patched_original(std::move(bytes), std::move(read->second));
+  return std::move(read->first);
+}
+
+}  // namespace trismooth

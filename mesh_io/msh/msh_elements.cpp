@@ -1,0 +1,290 @@
+#include "trismooth/mesh_io/msh/msh_elements.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "trismooth/mesh_io/msh/msh_element_types.h"
+#include "trismooth/mesh_io/msh/msh_repeated_elements.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t msh_int_bytes = sizeof(std::int32_t);
+
+class MshElementReader {
+ public:
+  MshElementReader(MshInput& input, MshRows& rows, const MshTags& nodes, MshEntities& entities, MeshDocument& document,
+                   MshElements& elements)
+      : input_(input), rows_(rows), nodes_(nodes), entities_(entities), cells_(document.cells), elements_(elements) {}
+
+  void read_blocks() {
+    const bool of_4_1 = input_.header().version >= 41;
+    const std::int64_t blocks = input_.size("the number of blocks of elements");
+    element_count_ = static_cast<std::size_t>(input_.size("the number of elements", largest_msh_int));
+    count_offset_ = input_.number_offset();
+    if (of_4_1) {
+      input_.size("the smallest tag of an element");
+      input_.size("the largest tag of an element");
+    }
+    input_.require_room("elements", element_count_, 2, 2 * msh_int_bytes);
+    reserve();
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      const std::int64_t first = input_.integer("a dimension or a tag of an entity", -largest_msh_int, largest_msh_int);
+      const std::int64_t second =
+          input_.integer("a dimension or a tag of an entity", -largest_msh_int, largest_msh_int);
+      const std::int64_t dimension = of_4_1 ? first : second;
+      if (dimension < 0 || dimension > 3) {
+        input_.fail("expected the dimension of an entity, 0 to 3, got " + std::to_string(dimension));
+      }
+      const MshElementType& type = next_type();
+      const auto count = static_cast<std::size_t>(input_.size("the number of elements of a block", largest_msh_int));
+      if (count > element_count_ - cells_.size()) {
+        fail_count(std::to_string(cells_.size() + count) + " or more");
+      }
+      read_block(entities_(static_cast<int>(dimension), of_4_1 ? second : first), static_cast<int>(dimension), type,
+                 count);
+    }
+    require_all();
+    finish();
+  }
+
+  /// Of version 2; its length is text in binary files too.
+  void read_list() {
+    begin_list();
+    if (!input_.header().binary) {
+      while (cells_.size() < element_count_) {
+        tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
+        const MshElementType* type = &next_type();
+        const std::int64_t labels = input_.integer("the number of tags of an element", 0, largest_msh_int);
+        read_labels(static_cast<std::size_t>(labels));
+        MshElementType polygon;
+        if (type->vertices == 0) {
+          polygon = {
+              2, static_cast<std::size_t>(input_.integer("the number of vertices of a polygon", 3, largest_msh_int))};
+          input_.require_room("vertices of a polygon", polygon.vertices, 1, msh_int_bytes);
+          polygon.cell = cell_type::of_face(polygon.vertices);
+          type = &polygon;
+        }
+        read_vertices(*type);
+      }
+    } else {
+      input_.text().next_line();
+      while (cells_.size() < element_count_) {
+        read_binary_group();
+      }
+    }
+    elements_.tags.add(tag_list_);
+    finish_list();
+  }
+
+  /// Of version 1.
+  void read_list_of_version_1() {
+    begin_list();
+    while (cells_.size() < element_count_) {
+      tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
+      const MshElementType& type = next_type();
+      read_labels(2);
+      const std::int64_t vertices = input_.integer("the number of nodes of an element", 0, largest_msh_int);
+      if (static_cast<std::size_t>(vertices) != type.vertices) {
+        input_.fail("elements of type " + std::to_string(type_number_) + " have " + std::to_string(type.vertices) +
+                    " nodes, got " + std::to_string(vertices));
+      }
+      read_vertices(type);
+    }
+    elements_.tags.add(tag_list_);
+    finish_list();
+  }
+
+ private:
+  const MshElementType& next_type() {
+    type_number_ = input_.integer("the type of an element", 0, largest_msh_int);
+    const MshElementType& type = msh_element_type(type_number_);
+    if (type.vertices == 0 && !(is_msh_polygon(type_number_) && !input_.header().binary &&
+                                input_.header().version < 40 && input_.header().version >= 20)) {
+      input_.fail("elements of type " + std::to_string(type_number_) + " are not supported");
+    }
+    return type;
+  }
+
+  void begin_list() {
+    element_count_ = static_cast<std::size_t>(input_.text().next_integer("the number of elements", 0, largest_msh_int));
+    count_offset_ = input_.number_offset();
+    input_.require_room("elements", element_count_, 4, 3 * msh_int_bytes);
+    reserve();
+    elements_.physical.reserve(element_count_);
+    elements_.geometrical.reserve(element_count_);
+    elements_.partition.reserve(element_count_);
+    tag_list_.reserve(element_count_);
+  }
+
+  [[noreturn]] void fail_count(const std::string& got) const {
+    input_.fail_at(count_offset_, "expected " + std::to_string(element_count_) + " elements, got " + got);
+  }
+
+  void reserve() {
+    shared_reserve(cells_.offsets, element_count_ + 1, rows_.workers().workers);
+    shared_reserve(cells_.types, element_count_, rows_.workers().workers);
+  }
+
+  void require_all() const {
+    if (cells_.size() != element_count_) {
+      fail_count(std::to_string(cells_.size()));
+    }
+  }
+
+  void read_block(const MshEntity& entity, int dimension, const MshElementType& type, std::size_t count) {
+    const MshTagKind kind = tag_kind_of(input_.header());
+    const std::size_t numbers = 1 + type.vertices;
+    input_.require_room("elements in a block", count, numbers, numbers * tag_bytes(kind));
+    const std::size_t first = cells_.size();
+    const std::size_t first_vertex = cells_.connectivity.size();
+    Workers& workers = rows_.workers().workers;
+    grow_shared(cells_.connectivity, first_vertex + count * type.vertices, workers);
+    grow_shared(cells_.offsets, first + 1 + count, workers);
+    grow_shared(cells_.types, first + count, workers);
+    const auto begin_cell = [&](std::size_t row) {
+      cells_.offsets[first + row + 1] = static_cast<std::int64_t>(first_vertex + (row + 1) * type.vertices);
+      cells_.types[first + row] = type.cell;
+      return cells_.connectivity.data() + first_vertex + row * type.vertices;
+    };
+    const bool plain = MshRowTags(kind, count)
+                           .read(rows_, input_, {count, numbers, numbers * tag_bytes(kind)}, elements_.tags,
+                                 [&](auto& row_numbers, std::size_t row) {
+                                   std::int32_t* const vertices = begin_cell(row);
+                                   bool found = true;
+                                   for (std::size_t i = 0; i < type.vertices && found; ++i) {
+                                     std::int64_t tag = 0;
+                                     found = next_tag(row_numbers, kind, tag);
+                                     const std::int64_t vertex = nodes_.find(tag);
+                                     found = found && vertex >= 0;
+                                     vertices[type.places.empty() ? i : type.places[i]] =
+                                         static_cast<std::int32_t>(vertex);
+                                   }
+                                   return found;
+                                 });
+    if (!plain) {
+      tag_list_.clear();
+      for (std::size_t row = 0; row < count; ++row) {
+        tag_list_.push_back(next_element_or_node_tag("the tag of an element"));
+        read_vertices(type, begin_cell(row));
+      }
+      elements_.tags.add(tag_list_);
+    }
+    grow_shared(elements_.geometrical, first + count, workers);
+    std::fill_n(elements_.geometrical.begin() + static_cast<std::ptrdiff_t>(first), count, entity.geometrical);
+    grow_shared(elements_.physical, first + count, workers);
+    std::fill_n(elements_.physical.begin() + static_cast<std::ptrdiff_t>(first), count,
+                entity.physical.empty() ? 0 : entity.physical.front());
+    if (entity.partition != 0 || !elements_.partition.empty()) {
+      elements_.partition.resize(first);
+      elements_.partition.resize(first + count, entity.partition);
+    }
+    for (std::size_t i = 1; i < entity.physical.size(); ++i) {
+      std::vector<std::int32_t>& members = elements_.further_groups[{dimension, entity.physical[i]}];
+      for (std::size_t cell = first; cell < first + count; ++cell) {
+        members.push_back(static_cast<std::int32_t>(cell));
+      }
+    }
+  }
+
+  std::int64_t next_element_or_node_tag(std::string_view what) {
+    return input_.header().version >= 41 ? input_.size(what) : input_.integer(what, 0, largest_msh_int);
+  }
+
+  /// Of an element that has been begun: its nodes are read.
+  void read_vertices(const MshElementType& type, std::int32_t* vertices) {
+    for (std::size_t i = 0; i < type.vertices; ++i) {
+      const std::int64_t tag = next_element_or_node_tag("the tag of a node");
+      const std::int64_t vertex = nodes_.find(tag);
+      if (vertex < 0) {
+        input_.fail("the element refers to node " + std::to_string(tag) + ", which the file does not have");
+      }
+      vertices[type.places.empty() ? i : type.places[i]] = static_cast<std::int32_t>(vertex);
+    }
+  }
+
+  /// The same for the next one of a list.
+  void read_vertices(const MshElementType& type) {
+    const std::size_t begin = cells_.connectivity.size();
+    cells_.connectivity.resize(begin + type.vertices);
+    read_vertices(type, cells_.connectivity.data() + begin);
+    cells_.offsets.push_back(static_cast<std::int64_t>(cells_.connectivity.size()));
+    cells_.types.push_back(type.cell);
+  }
+
+  /// Numbers behind the type of an element: its group, its entity, its partitions.
+  void read_labels(std::size_t count) {
+    std::array<std::int64_t, 4> first{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t label = input_.integer("a tag of an element", -largest_msh_int, largest_msh_int);
+      if (i < first.size()) {
+        first[i] = label;
+      }
+    }
+    elements_.physical.push_back(static_cast<std::int32_t>(std::abs(first[0])));
+    elements_.geometrical.push_back(static_cast<std::int32_t>(first[1]));
+    // From version 2.2 on the number of partitions stands before them.
+    const bool counted = input_.header().version >= 22;
+    elements_.partition.push_back(static_cast<std::int32_t>(!counted                    ? first[2]
+                                                            : count > 3 && first[2] > 0 ? first[3]
+                                                                                        : 0));
+  }
+
+  void read_binary_group() {
+    const MshElementType& type = next_type();
+    const std::int64_t count = input_.integer("the number of elements of a group", 0, largest_msh_int);
+    const std::int64_t labels = input_.integer("the number of tags of an element", 0, largest_msh_int);
+    if (static_cast<std::size_t>(count) > element_count_ - cells_.size()) {
+      fail_count(std::to_string(cells_.size() + static_cast<std::size_t>(count)) + " or more");
+    }
+    for (std::int64_t i = 0; i < count; ++i) {
+      tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
+      read_labels(static_cast<std::size_t>(labels));
+      read_vertices(type);
+    }
+  }
+
+  void finish() {
+    if (const auto twice = elements_.tags.finish()) {
+      input_.fail_at(count_offset_, "the tag of element number " + std::to_string(*twice + 1) + " of " +
+                                        std::to_string(element_count_) + " is that of another one before it");
+    }
+  }
+
+  void finish_list() {
+    finish();
+    merge_repeated_elements(cells_, elements_);
+  }
+
+  MshInput& input_;
+  MshRows& rows_;
+  const MshTags& nodes_;
+  MshEntities& entities_;
+  CellList& cells_;
+  MshElements& elements_;
+  std::size_t element_count_ = 0;
+  std::size_t count_offset_ = 0;
+  std::int64_t type_number_ = 0;
+  std::vector<std::int64_t> tag_list_;
+};
+
+}  // namespace
+
+void read_msh_elements(MshInput& input, MshRows& rows, const MshTags& nodes, MshEntities& entities,
+                       MeshDocument& document, MshElements& elements) {
+  MshElementReader reader(input, rows, nodes, entities, document, elements);
+  if (input.header().version >= 40) {
+    reader.read_blocks();
+  } else if (input.header().version >= 20) {
+    reader.read_list();
+  } else {
+    reader.read_list_of_version_1();
+  }
+}
+
+}  // namespace trismooth

@@ -1,0 +1,224 @@
+#include "trismooth/mesh_io/msh/msh_entity_plan.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/msh/msh_element_types.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What makes cells be of one entity.
+struct MshEntityKey {
+  int dimension;
+  std::int32_t geometrical;          ///< 0 where the document does not say
+  std::int32_t vertex;               ///< of a point cell; else -1
+  std::vector<std::int32_t> groups;  ///< places in the plan, ascending but for the first one
+
+  auto operator<=>(const MshEntityKey&) const = default;
+};
+
+class MshEntityPlanner {
+ public:
+  explicit MshEntityPlanner(const MeshDocument& document)
+      : document_(document), cells_(document.cells), groups_(find_cell_groups(document)) {}
+
+  MshEntityPlan plan() {
+    find_element_types();
+    plan_groups();
+    find_geometrical();
+    find_entities();
+    classify_points();
+    return std::move(plan_);
+  }
+
+ private:
+  int dimension_of(std::size_t cell) const { return msh_element_type(plan_.element_types[cell]).dimension; }
+
+  void find_element_types() {
+    plan_.element_types.resize(cells_.size());
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      const bool goes_on =
+          cell > 0 && cells_.types[cell] == cells_.types[cell - 1] && cells_[cell].size() == cells_[cell - 1].size();
+      plan_.element_types[cell] =
+          goes_on ? plan_.element_types[cell - 1] : msh_number_of(cells_.types[cell], cells_[cell].size());
+    }
+  }
+
+  void plan_groups() {
+    plan_.group_array = groups_.array;
+    std::map<int, std::set<std::int32_t>> taken;
+    const auto can_be_tag = [](std::int64_t number) {
+      return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
+    };
+    for (const CellGroup& group : groups_.groups) {
+      if (can_be_tag(group.number)) {
+        taken[group.dimension].insert(static_cast<std::int32_t>(group.number));
+      }
+    }
+    const auto free_tag = [&taken](int dimension) {
+      std::set<std::int32_t>& tags = taken[dimension];
+      std::int32_t tag = tags.empty() ? 1 : *tags.rbegin() + 1;
+      if (tag <= 0 || tag == std::numeric_limits<std::int32_t>::max()) {
+        for (tag = 1; tags.contains(tag); ++tag) {
+        }
+      }
+      tags.insert(tag);
+      return tag;
+    };
+    for (const CellGroup& group : groups_.groups) {
+      const bool keeps = can_be_tag(group.number);
+      plan_.renumbers_groups = plan_.renumbers_groups || !keeps;
+      plan_.groups.push_back(
+          {group.dimension, keeps ? static_cast<std::int32_t>(group.number) : free_tag(group.dimension), group.name});
+    }
+    groups_of_cells_.resize(document_.cell_sets.empty() ? 0 : cells_.size());
+    for (const NamedSet& set : document_.cell_sets) {
+      std::array<std::int32_t, 4> places{-1, -1, -1, -1};
+      for (const std::int32_t member : set.members) {
+        const auto cell = static_cast<std::size_t>(member);
+        if (plan_.element_types[cell] == 0) {
+          continue;
+        }
+        const int dimension = dimension_of(cell);
+        std::int32_t& place = places[static_cast<std::size_t>(dimension)];
+        if (place < 0) {
+          place = place_of_set(set.name, dimension, free_tag);
+        }
+        groups_of_cells_[cell].push_back(place);
+      }
+    }
+  }
+
+  /// A set of a group's name has some of its cells, or all, and others.
+  template <class FreeTag>
+  std::int32_t place_of_set(const std::string& name, int dimension, const FreeTag& free_tag) {
+    for (std::size_t i = 0; i < plan_.groups.size() && !name.empty(); ++i) {
+      if (plan_.groups[i].dimension == dimension && plan_.groups[i].name == name) {
+        return static_cast<std::int32_t>(i);
+      }
+    }
+    plan_.groups.push_back({dimension, free_tag(dimension), name});
+    return static_cast<std::int32_t>(plan_.groups.size() - 1);
+  }
+
+  void find_geometrical() {
+    const DataArray* const array = find_array(document_.cell_arrays, "gmsh:geometrical");
+    if (array != nullptr && array->components == 1 && array->type == ScalarType::int32) {
+      geometrical_ = array->as<std::int32_t>();
+    }
+  }
+
+  MshEntityKey key_of(std::size_t cell) {
+    MshEntityKey key{dimension_of(cell), geometrical_.empty() ? 0 : geometrical_[cell], -1, {}};
+    if (key.dimension == 0) {
+      key.vertex = cells_[cell].front();
+    }
+    if (!groups_.of_cell.empty() && groups_.of_cell[cell] >= 0) {
+      key.groups.push_back(groups_.of_cell[cell]);
+    }
+    if (!groups_of_cells_.empty()) {
+      std::vector<std::int32_t>& further = groups_of_cells_[cell];
+      std::ranges::sort(further);
+      for (const std::int32_t group : further) {
+        if (std::ranges::find(key.groups, group) == key.groups.end()) {
+          key.groups.push_back(group);
+        }
+      }
+    }
+    return key;
+  }
+
+  void find_entities() {
+    std::map<MshEntityKey, std::int32_t> places;
+    std::vector<const MshEntityKey*> keys;
+    plan_.of_cell.assign(cells_.size(), -1);
+    const MshEntityKey* last = nullptr;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      if (plan_.element_types[cell] == 0) {
+        continue;
+      }
+      MshEntityKey key = key_of(cell);
+      if (last == nullptr || key != *last) {
+        last = &places.try_emplace(std::move(key), 0).first->first;
+      }
+      plan_.of_cell[cell] = 0;
+      keys.push_back(last);
+    }
+    plan_.keeps_entities = can_keep_tags(places);
+    std::array<std::int32_t, 4> tags{};
+    for (auto& [key, place] : places) {
+      place = static_cast<std::int32_t>(plan_.entities.size());
+      MshPlannedEntity entity{key.dimension,
+                              plan_.keeps_entities ? key.geometrical : ++tags[static_cast<std::size_t>(key.dimension)]};
+      for (const std::int32_t group : key.groups) {
+        entity.physical.push_back(plan_.groups[static_cast<std::size_t>(group)].tag);
+      }
+      plan_.entities.push_back(std::move(entity));
+    }
+    std::size_t next = 0;
+    for (std::int32_t& of_cell : plan_.of_cell) {
+      if (of_cell == 0) {
+        of_cell = places.at(*keys[next++]);
+      }
+    }
+  }
+
+  /// The document's numbers of entities can be tags if each is of one entity.
+  bool can_keep_tags(const std::map<MshEntityKey, std::int32_t>& places) const {
+    const MshEntityKey* before = nullptr;
+    for (const auto& [key, place] : places) {
+      const bool repeated =
+          before != nullptr && before->dimension == key.dimension && before->geometrical == key.geometrical;
+      if (key.geometrical < 1 || repeated) {
+        return false;
+      }
+      before = &key;
+    }
+    return !geometrical_.empty();
+  }
+
+  void classify_points() {
+    plan_.of_point.assign(document_.point_count(), -1);
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      const std::int32_t entity = plan_.of_cell[cell];
+      if (entity < 0) {
+        continue;
+      }
+      for (const std::int32_t vertex : cells_[cell]) {
+        // Entities ascend by dimension.
+        std::int32_t& known = plan_.of_point[static_cast<std::size_t>(vertex)];
+        known = known < 0 ? entity : std::min(known, entity);
+      }
+    }
+    if (std::ranges::find(plan_.of_point, -1) == plan_.of_point.end()) {
+      return;
+    }
+    // Points of no cell: on the last entity, or on one of their own where there is none.
+    if (plan_.entities.empty()) {
+      plan_.entities.push_back({2, 1});
+    }
+    std::ranges::replace(plan_.of_point, -1, static_cast<std::int32_t>(plan_.entities.size() - 1));
+  }
+
+  const MeshDocument& document_;
+  const CellList& cells_;
+  CellGroups groups_;
+  std::vector<std::vector<std::int32_t>> groups_of_cells_;  ///< beside the first one
+  std::span<const std::int32_t> geometrical_;
+  MshEntityPlan plan_;
+};
+
+}  // namespace
+
+MshEntityPlan plan_msh_entities(const MeshDocument& document) {
+  return MshEntityPlanner(document).plan();
+}
+
+}  // namespace trismooth

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+
+namespace trismooth {
+
+/// An entity that cells and points of a document are written on.
+struct MshPlannedEntity {
+  int dimension = 2;
+  std::int32_t tag = 1;                  ///< unique for the dimension
+  std::vector<std::int32_t> physical{};  ///< the groups that it is in
+};
+
+struct MshPlannedGroup {
+  int dimension = 2;
+  std::int32_t tag = 1;  ///< unique for the dimension
+  std::string name;      ///< may be empty
+};
+
+/// The geometry that an MSH file of version 4 needs to hold the groups of a document: an entity for every set of groups
+/// that cells of a dimension are in, and one for every point cell.
+struct MshEntityPlan {
+  std::vector<MshPlannedEntity> entities;  ///< ascending by dimension, then tag
+  std::vector<MshPlannedGroup> groups;     ///< ascending by dimension
+  std::vector<std::int32_t> of_cell;       ///< a place in `entities`; -1 for cells that are not written
+  std::vector<std::int32_t> of_point;      ///< the one of the lowest dimension that has the point
+  std::vector<int> element_types;          ///< of every cell, Gmsh's number; 0: not written
+  std::string group_array;                 ///< the cell array that the groups are from; empty: none
+  bool keeps_entities = false;             ///< the tags are those of the array gmsh:geometrical
+  bool renumbers_groups = false;           ///< some group's number is none that Gmsh can have
+};
+
+/// Complexity: n log g in the cells and their groups.
+MshEntityPlan plan_msh_entities(const MeshDocument& document);
+
+}  // namespace trismooth

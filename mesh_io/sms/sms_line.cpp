@@ -1,0 +1,64 @@
+#include "trismooth/mesh_io/sms/sms_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/number_text.h"
+
+namespace trismooth {
+
+SmsLine::SmsLine(TextScanner& scanner)
+    : scanner_(scanner), offset_(scanner.offset()), line_(scanner.next_line()), word_offset_(offset_) {}
+
+std::optional<std::string_view> SmsLine::next_word() {
+  at_ = std::min(line_.find_first_not_of(blanks, at_), line_.size());
+  word_offset_ = offset_ + at_;
+  is_quoted_ = at_ < line_.size() && line_[at_] == '"';
+  if (at_ == line_.size() || line_[at_] == '#') {
+    at_ = line_.size();
+    return std::nullopt;
+  }
+  if (is_quoted_) {
+    const std::size_t end = line_.find('"', at_ + 1);
+    if (end == std::string_view::npos) {
+      fail("expected a quotation mark behind " + quoted(line_.substr(at_)));
+    }
+    const std::string_view word = line_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    return word;
+  }
+  const std::size_t end = std::min(line_.find_first_of(" \t\v\f#", at_), line_.size());
+  const std::string_view word = line_.substr(at_, end - at_);
+  at_ = end;
+  return word;
+}
+
+std::string_view SmsLine::require_word(std::string_view what) {
+  const auto word = next_word();
+  if (!word) {
+    fail("expected " + std::string(what) + ", got the end of the line");
+  }
+  return *word;
+}
+
+std::int64_t SmsLine::next_integer(std::string_view what) {
+  const std::string_view word = require_word(what);
+  const auto number = parse_integer(word);
+  if (!number) {
+    fail("expected " + std::string(what) + " (a whole number), got " + quoted(word));
+  }
+  return *number;
+}
+
+double SmsLine::next_number(std::string_view what) {
+  const std::string_view word = require_word(what);
+  const auto number = parse_fortran_number<double>(word);
+  if (!number || !std::isfinite(*number)) {
+    fail("expected " + std::string(what) + " (a finite number), got " + quoted(word));
+  }
+  return *number;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,10 @@
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/su2/su2_keyword_line.h"
+#include "trismooth/mesh_io/su2/su2_reader.h"
+#include "trismooth/mesh_io/su2/su2_writer.h"
+
+namespace trismooth {
+
+const Codec su2_codec{&read_su2, &write_su2, &lost_in_su2, &recognises_su2};
+
+}  // namespace trismooth

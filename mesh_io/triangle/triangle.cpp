@@ -1,0 +1,10 @@
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/triangle/triangle_files.h"
+#include "trismooth/mesh_io/triangle/triangle_reader.h"
+#include "trismooth/mesh_io/triangle/triangle_writer.h"
+
+namespace trismooth {
+
+const Codec triangle_codec{&read_triangle, &write_triangle, &lost_in_triangle, nullptr, &triangle_output_partner};
+
+}  // namespace trismooth

@@ -1,0 +1,70 @@
+#include "trismooth/pipeline/fields/field_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "trismooth/base/exact_arithmetic.h"
+#include "trismooth/base/rounding.h"
+#include "trismooth/base/workers.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t transfer_grain = 4096;
+
+template <class T>
+DataArray interpolated_as(const DataArray& array, std::span<const Triangle> triangles,
+                          std::span<const std::int32_t> vertices, std::span<const MeshPlace> places, Workers& workers) {
+  const std::span<const T> read = array.as<T>();
+  std::vector<T> values(read.begin(), read.end());
+  workers.for_blocks(std::ssize(vertices), transfer_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const MeshPlace& place = places[i];
+      if (place.triangle < 0) {
+        continue;
+      }
+      const Triangle& triangle = triangles[static_cast<std::size_t>(place.triangle)];
+      for (std::size_t component = 0; component < array.components; ++component) {
+        const auto value_at = [&](std::int32_t vertex) {
+          return static_cast<double>(read[static_cast<std::size_t>(vertex) * array.components + component]);
+        };
+        const double value =
+            interpolated_value({value_at(triangle[0]), value_at(triangle[1]), value_at(triangle[2])}, place.weights);
+        values[static_cast<std::size_t>(vertices[i]) * array.components + component] = static_cast<T>(value);
+      }
+    }
+  });
+  DataArray result = make_data_array(array.name, array.components, std::move(values));
+  result.description = array.description;
+  return result;
+}
+
+}  // namespace
+
+double interpolated_value(const std::array<double, 3>& corners, const std::array<double, 3>& weights) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double value = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (weights[i] > 0) {
+      value += weights[i] * corners[i];
+      low = std::min(low, corners[i]);
+      high = std::max(high, corners[i]);
+    }
+  }
+  // No number compares with what is none, which so stays.
+  return value < low ? low : (value > high ? high : value);
+}
+
+DataArray interpolated(const DataArray& array, std::span<const Triangle> triangles,
+                       std::span<const std::int32_t> vertices, std::span<const MeshPlace> places, Workers& workers) {
+  return array.type == ScalarType::float32 ? interpolated_as<float>(array, triangles, vertices, places, workers)
+                                           : interpolated_as<double>(array, triangles, vertices, places, workers);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,211 @@
+#include "trismooth/pipeline/input/point_sets.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "trismooth/base/shell_words.h"
+#include "trismooth/mesh_io/document/array_names.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The members, each once.
+std::vector<std::int32_t> different_members(const NamedSet& set) {
+  std::vector<std::int32_t> members = set.members;
+  if (!std::ranges::is_sorted(members)) {
+    std::ranges::sort(members);
+  }
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  return members;
+}
+
+/// The neighbours of the vertices that are asked for.
+class InnerNeighbours {
+ public:
+  /// Of the vertices whose flag in `wanted` is 1.
+  InnerNeighbours(std::span<const Triangle> triangles, std::span<const std::uint8_t> wanted)
+      : starts_(wanted.size() + 1, 0), ends_(wanted.size(), 0) {
+    const auto is_wanted = [wanted](std::int32_t v) { return wanted[static_cast<std::size_t>(v)] != 0; };
+    for (const Triangle& triangle : triangles) {
+      for (const std::int32_t v : triangle) {
+        starts_[static_cast<std::size_t>(v) + 1] += is_wanted(v) ? 2 : 0;
+      }
+    }
+    for (std::size_t v = 0; v < wanted.size(); ++v) {
+      starts_[v + 1] += starts_[v];
+      ends_[v] = starts_[v];
+    }
+    neighbours_.resize(static_cast<std::size_t>(starts_.back()));
+    for (const auto& [a, b, c] : triangles) {
+      for (const auto& [v, left, right] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
+        if (is_wanted(v)) {
+          std::int64_t& end = ends_[static_cast<std::size_t>(v)];
+          neighbours_[static_cast<std::size_t>(end++)] = left;
+          neighbours_[static_cast<std::size_t>(end++)] = right;
+        }
+      }
+    }
+    for (std::size_t v = 0; v < wanted.size(); ++v) {
+      keep_inner(v);
+    }
+  }
+
+  /// The neighbours of a wanted vertex, each once; none where it is not inside the mesh.
+  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return std::span(neighbours_)
+        .subspan(static_cast<std::size_t>(starts_[v]), static_cast<std::size_t>(ends_[v] - starts_[v]));
+  }
+
+ private:
+  /// Keeps one of the two times that each neighbour is there; nothing where one is there another number of times.
+  void keep_inner(std::size_t v) {
+    const auto begin = neighbours_.begin() + starts_[v];
+    const auto end = neighbours_.begin() + ends_[v];
+    std::sort(begin, end);
+    auto kept = begin;
+    ends_[v] = starts_[v];
+    for (auto next = begin; next != end; next += 2) {
+      if (*next != *(next + 1) || (kept != begin && *(kept - 1) == *next)) {
+        return;
+      }
+      *kept++ = *next;
+    }
+    ends_[v] += kept - begin;
+  }
+
+  std::vector<std::int64_t> starts_;
+  std::vector<std::int64_t> ends_;
+  std::vector<std::int32_t> neighbours_;
+};
+
+class SetFinder {
+ public:
+  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles) : document_(document) {
+    std::vector<std::uint8_t> in_set(document.point_count(), 0);
+    for (const NamedSet& set : document.point_sets) {
+      members_.push_back(different_members(set));
+      for (const std::int32_t v : members_.back()) {
+        in_set[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+    const InnerNeighbours neighbours(triangles, in_set);
+    // Which set was the last to have the vertex: no set clears what the one before it has marked.
+    std::vector<std::int32_t> last_set(document.point_count(), -1);
+    for (std::size_t s = 0; s < members_.size(); ++s) {
+      const auto number = static_cast<std::int32_t>(s);
+      for (const std::int32_t v : members_[s]) {
+        last_set[static_cast<std::size_t>(v)] = number;
+      }
+      const bool is_area = std::ranges::any_of(members_[s], [&](std::int32_t v) {
+        const auto around = neighbours[v];
+        return !around.empty() && std::ranges::all_of(around, [&](std::int32_t neighbour) {
+          return last_set[static_cast<std::size_t>(neighbour)] == number;
+        });
+      });
+      found_.sets.push_back({document.point_sets[s].name, std::ssize(members_[s]), is_area, false});
+    }
+  }
+
+  HeldSets by_names(std::span<const std::string> names) {
+    for (const std::string& name : names) {
+      for (const std::size_t set : named(name)) {
+        hold(set);
+      }
+    }
+    return std::move(found_);
+  }
+
+  HeldSets by_document() {
+    std::string areas;
+    std::string first_area;
+    for (std::size_t s = 0; s < found_.sets.size(); ++s) {
+      const FilePointSet& set = found_.sets[s];
+      if (!set.is_area) {
+        hold(s);
+        continue;
+      }
+      areas += fmt::format("{}'{}'", areas.empty() ? "" : ", ", set.name);
+      first_area = first_area.empty() ? set.name : first_area;
+    }
+    if (!areas.empty()) {
+      found_.notes.push_back(
+          fmt::format("point sets that cover an area hold nothing: {}; --fixed-set {} holds the vertices of one", areas,
+                      shell_word(first_area)));
+    }
+    return std::move(found_);
+  }
+
+ private:
+  /// All sets of that name, or else of names that differ from it in case, blanks and the like.
+  std::vector<std::size_t> named(const std::string& name) const {
+    std::vector<std::size_t> found;
+    const auto find = [&](const auto& same) {
+      for (std::size_t s = 0; s < found_.sets.size(); ++s) {
+        if (same(found_.sets[s].name)) {
+          found.push_back(s);
+        }
+      }
+    };
+    find([&](const std::string& other) { return other == name; });
+    if (found.empty()) {
+      find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
+    }
+    if (found.empty()) {
+      std::string names;
+      for (const FilePointSet& set : found_.sets) {
+        names += (names.empty() ? "" : ", ") + set.name;
+      }
+      throw std::invalid_argument("the file has no point set '" + name +
+                                  "' to hold; it has: " + (names.empty() ? "none" : names));
+    }
+    return found;
+  }
+
+  void hold(std::size_t set) {
+    found_.sets[set].holds = !members_[set].empty();
+    if (!members_[set].empty()) {
+      found_.flags.resize(document_.point_count(), 0);
+    }
+    for (const std::int32_t v : members_[set]) {
+      found_.flags[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+
+  const MeshDocument& document_;
+  std::vector<std::vector<std::int32_t>> members_;  ///< of each set, each once
+  HeldSets found_;
+};
+
+}  // namespace
+
+HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
+                        std::span<const std::string> names) {
+  const bool holds_none = std::ranges::find(names, no_sets) != names.end();
+  if (holds_none && names.size() > 1) {
+    throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
+  }
+  if (document.point_sets.empty() && (names.empty() || holds_none)) {
+    return {};
+  }
+  SetFinder finder(document, triangles);
+  if (holds_none) {
+    return finder.by_names({});
+  }
+  return names.empty() ? finder.by_document() : finder.by_names(names);
+}
+
+std::vector<FileCellSet> summarise_cell_sets(const MeshDocument& document) {
+  std::vector<FileCellSet> sets;
+  for (const NamedSet& set : document.cell_sets) {
+    sets.push_back({set.name, std::ssize(different_members(set))});
+  }
+  return sets;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace trismooth {
+
+struct RunState;
+
+/// Reports the quality of the mesh that was read, and of its regions.
+void check_before(RunState& run);
+
+/// The same after the smoothing.
+void check_after(RunState& run);
+
+}  // namespace trismooth

@@ -1,0 +1,145 @@
+#include "trismooth/pipeline/stages/field_stage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/fields/field_choice.h"
+#include "trismooth/pipeline/fields/field_transfer.h"
+#include "trismooth/pipeline/fields/point_location.h"
+#include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/pipeline/stages/stored_result.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The vertices that are elsewhere now.
+std::vector<std::int32_t> moved_vertices(std::span<const Point2<double>> before,
+                                         std::span<const Point2<double>> after) {
+  std::vector<std::int32_t> moved;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    if (!(before[v] == after[v])) {
+      moved.push_back(static_cast<std::int32_t>(v));
+    }
+  }
+  return moved;
+}
+
+/// The triangles in which fields are linear, with their regions: those of the mesh, but in place of one of six nodes
+/// the four between its nodes.
+class FieldTriangles {
+ public:
+  FieldTriangles(const PlanarMesh& mesh, std::span<const std::int32_t> regions)
+      : triangles_(mesh.triangles), regions_(regions) {
+    if (mesh.quadratics.empty()) {
+      return;
+    }
+    parts_.reserve(mesh.triangles.size() + 3 * mesh.quadratics.size());
+    auto quadratic = mesh.quadratics.begin();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh.triangles[t];
+      if (quadratic != mesh.quadratics.end() && static_cast<std::size_t>(quadratic->triangle) == t) {
+        const auto [ab, bc, ca] = quadratic->middles;
+        parts_.insert(parts_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        ++quadratic;
+      } else {
+        parts_.push_back({a, b, c});
+      }
+      if (!regions.empty()) {
+        regions_of_parts_.resize(parts_.size(), regions[t]);
+      }
+    }
+    triangles_ = parts_;
+    regions_ = regions_of_parts_;
+  }
+
+  FieldTriangles(const FieldTriangles&) = delete;
+  FieldTriangles& operator=(const FieldTriangles&) = delete;
+  ~FieldTriangles() = default;
+
+  std::span<const Triangle> triangles() const { return triangles_; }
+  std::span<const std::int32_t> regions() const { return regions_; }
+
+ private:
+  std::vector<Triangle> parts_;
+  std::vector<std::int32_t> regions_of_parts_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::int32_t> regions_;
+};
+
+/// Gives the vertices the third coordinate that the mesh has at their places.
+void move_heights(RunState& run, std::span<const Triangle> triangles, std::span<const std::int32_t> moved,
+                  std::span<const MeshPlace> places) {
+  MeshDocument& document = run.document;
+  std::vector<double> heights(document.point_count());
+  for (std::size_t v = 0; v < heights.size(); ++v) {
+    heights[v] = document.points[3 * v + 2];
+  }
+  const DataArray read = make_data_array("z", 1, std::move(heights));
+  const DataArray now = interpolated(read, triangles, moved, places, run.workers);
+  for (const std::int32_t vertex : moved) {
+    const auto v = static_cast<std::size_t>(vertex);
+    if (now.value(v) != read.value(v)) {
+      document.points[3 * v + 2] = stored_coordinate(document, read.value(v), now.value(v));
+    }
+  }
+}
+
+}  // namespace
+
+void find_fields(RunState& run) {
+  const PipelineOptions& options = run.options;
+  if (!options.output) {
+    return;
+  }
+  const MeshDocument& document = run.document;
+  FieldChoice choice = choose_fields(document, {options.fields, options.field_arrays, run.result.input.fixed_array,
+                                                run.sizes.of_cells ? "" : run.sizes.array});
+  std::ranges::move(choice.notes, std::back_inserter(run.result.notes));
+  const FileFormat target = output_format(*options.output, run.document.format, options.format);
+  for (const std::size_t array : choice.arrays) {
+    const std::string& name = document.point_arrays[array].name;
+    if (writes_values_of(document, target, name)) {
+      run.fields.push_back(array);
+    } else {
+      run.result.losses.push_back(fmt::format(
+          "the point array '{}' is not interpolated: a {} file is written back with the values that were read", name,
+          title_of(target)));
+    }
+  }
+}
+
+void move_fields(RunState& run, const LocalPoints& input) {
+  const bool has_heights = run.options.project && run.options.fields != Fields::keep;
+  if (run.fields.empty() && !has_heights) {
+    return;
+  }
+  const Stopwatch watch;
+  const LocalPoints after = entered(input.frame, run.mesh.points);
+  const std::vector<std::int32_t> moved = moved_vertices(input.points, after.points);
+  const FieldTriangles mesh(run.mesh, run.regions.of_triangle);
+  const PointLocation location(input.points, mesh.triangles(), mesh.regions());
+  const std::vector<MeshPlace> places = location.places_of(moved, after.points, run.workers);
+  const auto found = std::ranges::count_if(places, [](const MeshPlace& place) { return place.triangle >= 0; });
+  if (has_heights) {
+    move_heights(run, mesh.triangles(), moved, places);
+    run.result.fields.push_back({"z", found});
+  }
+  for (const std::size_t array : run.fields) {
+    DataArray& field = run.document.point_arrays[array];
+    field = interpolated(field, mesh.triangles(), moved, places, run.workers);
+    run.result.fields.push_back({field.name, found});
+  }
+  run.result.timings_ms.fields += watch.milliseconds();
+}
+
+}  // namespace trismooth

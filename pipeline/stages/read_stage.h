@@ -1,0 +1,11 @@
+#pragma once
+
+namespace trismooth {
+
+struct RunState;
+
+/// Reads the input. What the reader says of the file is among the notes, or, where another format is written, among
+/// the losses.
+void read_input(RunState& run);
+
+}  // namespace trismooth

@@ -1,0 +1,108 @@
+#include "trismooth/pipeline/stages/smooth_stage.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+#include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/stages/field_stage.h"
+#include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/pipeline/stages/stored_result.h"
+#include "trismooth/pipeline/stages/warnings.h"
+#include "trismooth/pipeline/stages/write_stage.h"
+#include "trismooth/smoothing/backend_choice.h"
+#include "trismooth/smoothing/sweeps/relative_sizes.h"
+
+namespace trismooth {
+
+namespace {
+
+/// `input`: the points that were read, where they are needed.
+void hash_coordinates(RunState& run, std::span<const double> input, const SmoothingResult& smoothing) {
+  run.result.coordinates_hash = run.result.unguarded_hash = coordinates_hash(run.document.points);
+  if (smoothing.reverted.empty()) {
+    return;
+  }
+  std::vector<double> unguarded = run.document.points;
+  for (const auto& [vertex, position] : smoothing.reverted) {
+    const auto v = static_cast<std::size_t>(vertex);
+    Eigen::Map<Eigen::Vector3d> point(unguarded.data() + 3 * v);
+    const Eigen::Vector3d moved = run.mesh.moved(point, run.mesh.points[v], position);
+    point = rounded_to(storage_of(run.document), moved);
+  }
+  if (!input.empty()) {
+    fit_to_file(run, input, unguarded);
+  }
+  run.result.unguarded_hash = coordinates_hash(unguarded);
+}
+
+void compare_sizes(RunState& run, const TriangleView& before) {
+  const Stopwatch watch;
+  PipelineResult& result = run.result;
+  const int threads = run.options.smoothing.threads;
+  result.size_change = size_change(before, run.view(), threads);
+  if (run.smoothing.aims_at_sizes()) {
+    const std::vector<double> asked = inverse_sizes(run.smoothing, run.found.fixed);
+    result.size_fit_before = size_fit(before, asked, run.found.fixed, threads);
+    result.size_fit_after = size_fit(run.view(), asked, run.found.fixed, threads);
+  }
+  result.timings_ms.check_after += watch.milliseconds();
+}
+
+SmoothingResult smooth_points(RunState& run) {
+  PlanarMesh& mesh = run.mesh;
+  std::vector<double>& xyz = run.document.points;
+  const Storage storage = storage_of(run.document);
+  if (!mesh.map) {
+    return smooth_in_plane(run.found, mesh.triangles, mesh.plane, xyz, mesh.points, run.local, storage, run.smoothing);
+  }
+  const SpaceImage image{[&mesh](std::size_t v, const Eigen::Vector3d& stored) { return mesh.place(v, stored); },
+                         [&mesh](const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to) {
+                           return mesh.moved(stored, from, to);
+                         }};
+  return smooth_in_image(run.found, mesh.triangles, image, xyz, mesh.points, run.local, storage, run.smoothing);
+}
+
+}  // namespace
+
+void smooth_mesh(RunState& run) {
+  if (run.options.annotate) {
+    run.input_points = run.document.points;
+    run.metrics_before = metrics_of_cells(run, "_before");
+  }
+  const std::vector<double> points_read = is_stored_otherwise(run) ? run.document.points : std::vector<double>{};
+  SmoothingResult smoothing = smooth_points(run);
+  smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
+  if (smoothing.stop_reason == StopReason::cancelled) {
+    throw Cancelled();
+  }
+  if (!points_read.empty()) {
+    store_result(run, points_read, smoothing);
+  }
+  const LocalPoints input = std::exchange(run.local, {});
+  const std::vector<std::uint8_t> input_reversed = run.found.reversed;
+  run.enter_frame();
+  if (smoothing.untangling) {
+    for (std::size_t t = 0; t < smoothing.untangling->turned.size(); ++t) {
+      run.found.reversed[t] ^= smoothing.untangling->turned[t];
+    }
+  }
+  warn_of_folds_put_back(run, smoothing);
+  move_fields(run, input);
+  hash_coordinates(run, points_read, smoothing);
+  compare_sizes(run, {input.points, run.mesh.triangles, input_reversed, input.frame.exponent});
+  PipelineTimings& timings = run.result.timings_ms;
+  timings.topology += smoothing.timings.prepare;
+  timings.transfer_in = smoothing.timings.transfer_in;
+  timings.untangle = smoothing.timings.untangle;
+  timings.smooth = smoothing.timings.smooth;
+  timings.transfer_out = smoothing.timings.transfer_out;
+  timings.guard = smoothing.timings.commit;
+  run.result.smoothing = std::move(smoothing);
+}
+
+}  // namespace trismooth

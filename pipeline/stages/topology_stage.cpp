@@ -1,0 +1,177 @@
+#include "trismooth/pipeline/stages/topology_stage.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
+#include "trismooth/pipeline/geographic/map_mesh.h"
+#include "trismooth/pipeline/input/fixed_array.h"
+#include "trismooth/pipeline/input/line_groups.h"
+#include "trismooth/pipeline/input/point_sets.h"
+#include "trismooth/pipeline/stages/field_stage.h"
+#include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/smoothing/backend_choice.h"
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth {
+
+namespace {
+
+std::int64_t count_different(std::vector<std::int32_t> numbers) {
+  std::ranges::sort(numbers);
+  return std::unique(numbers.begin(), numbers.end()) - numbers.begin();
+}
+
+/// Flags that are set in one of the two; none where neither has any.
+std::vector<std::uint8_t> united(const std::vector<std::uint8_t>& first, const std::vector<std::uint8_t>& second) {
+  if (first.empty() || second.empty()) {
+    return first.empty() ? second : first;
+  }
+  std::vector<std::uint8_t> both(first.size());
+  std::ranges::transform(first, second, both.begin(),
+                         [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+  return both;
+}
+
+/// Sets the flags of these vertices.
+void add_vertices(std::vector<std::uint8_t>& flags, const std::vector<std::int32_t>& vertices, std::size_t count) {
+  if (!vertices.empty()) {
+    flags.resize(count, 0);
+  }
+  for (const std::int32_t v : vertices) {
+    flags[static_cast<std::size_t>(v)] = 1;
+  }
+}
+
+/// The vertices by what holds them, but for the middles that follow their sides.
+ReasonCounts count_vertices(RunState& run) {
+  ReasonCounts counts = count_reasons(run.found.fixed, run.workers);
+  for (const MiddleNode& middle : run.mesh.middles) {
+    --counts[run.found.fixed[static_cast<std::size_t>(middle.vertex)]];
+  }
+  return counts;
+}
+
+void find_sizes(RunState& run) {
+  if (run.options.size_array && run.smoothing.method == Method::mean_ratio) {
+    if (run.options.geographic) {
+      throw std::invalid_argument(
+          "--size-array has lengths or areas of no unit that --geographic could compare with those on its map; leave "
+          "out "
+          "one of them");
+    }
+    run.sizes = find_size_array(run.document, run.mesh, *run.options.size_array);
+    run.result.input.size_array = run.sizes.array;
+    run.result.input.sizes_are_areas = run.sizes.of_cells;
+    run.smoothing.mean_ratio.target_lengths = run.sizes.lengths;
+  }
+}
+
+MeshRings rings_of(RunState& run, const Constraints& constraints) {
+  const PlanarMesh& mesh = run.mesh;
+  try {
+    return rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, [&] {
+      return run.smoothing.topology == Topology::halfedge
+                 ? find_halfedge_rings(run.document.points, run.local.points, mesh.triangles, constraints, run.workers)
+                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers);
+    });
+  } catch (const MeshError& error) {
+    throw ReadError(run.options.input, error.what());
+  }
+}
+
+void note_irregular_vertices(RunState& run, const ReasonCounts& counts) {
+  std::int64_t non_manifold = 0;
+  std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
+  for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
+    const bool on_edge = (reasons & hold::non_manifold) != 0;
+    non_manifold += on_edge ? counts[reasons] : 0;
+    bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
+  }
+  const auto note = [&](std::int64_t count, const std::string& where) {
+    if (count > 0) {
+      run.note(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + where + ": held fixed");
+    }
+  };
+  note(non_manifold, "on edges of three triangles or more");
+  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
+}
+
+void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
+  InputSummary& input = run.result.input;
+  input.triangles = static_cast<std::int64_t>(run.mesh.triangles.size());
+  input.other_cells = run.mesh.other_cells;
+  input.regions = run.regions.count();
+  input.region_arrays = run.regions.arrays;
+  run.result.region_names = run.regions.names;
+  for (const RegionArray& array : run.regions.arrays) {
+    input.region_array.append(input.region_array.empty() ? "" : ", ").append(array.name);
+  }
+  input.components = run.found.components;
+  input.free_vertices = reasons[0];
+  input.quadratic_triangles = std::ssize(run.mesh.quadratics);
+  input.middle_nodes = std::ssize(run.mesh.middles);
+  input.fixed_vertices = input.vertices - input.middle_nodes - input.free_vertices;
+  input.reoriented_triangles = run.found.reoriented_triangles;
+  input.held = count_held(reasons);
+}
+
+}  // namespace
+
+void connect_mesh(RunState& run) {
+  const PipelineOptions& options = run.options;
+  const MeshDocument& document = run.document;
+  PlanarMesh& mesh = run.mesh;
+  PipelineResult& result = run.result;
+  InputSummary& input = result.input;
+  mesh = options.project ? projected_mesh(document, options.input, run.workers)
+                         : planar_mesh(document, options.input, run.workers);
+  if (options.geographic) {
+    lay_on_map(mesh, document, options.input);
+  } else if (looks_geographic(mesh, document)) {
+    run.note(
+        "x and y look like longitude and latitude in degrees: --geographic smooths shapes as they are on the sphere");
+  }
+  std::ranges::copy(mesh.notes, std::back_inserter(result.notes));
+  run.enter_frame();
+  find_sizes(run);
+  run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");
+  result.notes.insert(result.notes.begin(), run.regions.notes.begin(), run.regions.notes.end());
+  const FixedArray named = find_fixed_array(document, options.fixed_array);
+  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets);
+  std::ranges::move(sets.notes, std::back_inserter(result.notes));
+  std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
+  const std::vector<std::int32_t> ids =
+      options.fixed_ids ? read_vertex_ids(*options.fixed_ids, input.vertices) : std::vector<std::int32_t>{};
+  if (options.fixed_ids && ids.empty()) {
+    run.warn(options.fixed_ids->string() + ": names no vertices, so it holds none");
+  }
+  if (!mesh.quadratics.empty()) {
+    add_vertices(fixed, ids, document.point_count());
+    settle_middles(mesh, fixed);
+  }
+  run.found = rings_of(
+      run, {.fixed = fixed, .fixed_ids = ids, .other_cells = mesh.in_other_cell, .regions = run.regions.of_triangle});
+  if (!options.project && !mesh.map && settle_plane(mesh, document, run.found.fixed, options.input, run.workers)) {
+    run.enter_frame();
+  }
+  const ReasonCounts reasons = count_vertices(run);
+  note_irregular_vertices(run, reasons);
+  summarise_mesh(run, reasons);
+  input.fixed_array = named.array;
+  input.fixed_array_vertices = named.vertices;
+  input.point_sets = std::move(sets.sets);
+  input.cell_sets = summarise_cell_sets(document);
+  input.line_groups = find_line_groups(document);
+  input.fixed_ids = options.fixed_ids.value_or(std::filesystem::path{});
+  input.fixed_ids_vertices = count_different(ids);
+  find_fields(run);
+}
+
+}  // namespace trismooth

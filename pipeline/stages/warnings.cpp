@@ -1,0 +1,92 @@
+#include "trismooth/pipeline/stages/warnings.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/quality/coarse_boundary.h"
+#include "trismooth/quality/precision_loss.h"
+
+namespace trismooth {
+
+namespace {
+
+void warn_of_precision(RunState& run) {
+  const SmoothingOptions& options = run.options.smoothing;
+  if (options.precision != Precision::single_precision) {
+    return;
+  }
+  const PrecisionLoss loss = single_precision_loss(run.view(), options.threads);
+  if (!loss.any()) {
+    return;
+  }
+  run.warn(describe(loss) + (options.guard ? "; the guard checks the result in double" : "") +
+           "; --precision double smooths it as it is");
+}
+
+void warn_of_options_without_effect(RunState& run) {
+  const SmoothingOptions& options = run.options.smoothing;
+  const MeanRatioOptions& given = options.mean_ratio;
+  const MeanRatioOptions usual;
+  if (options.method == Method::mean_ratio) {
+    return;
+  }
+  std::vector<std::string_view> names;
+  if (run.options.size_array) {
+    names.emplace_back("--size-array");
+  }
+  if (given.target != usual.target) {
+    names.emplace_back("--target");
+  }
+  if (given.size_weight != usual.size_weight) {
+    names.emplace_back("--size-weight");
+  }
+  if (given.power != usual.power) {
+    names.emplace_back("--power");
+  }
+  if (!names.empty()) {
+    run.warn(fmt::format("the method {} takes no notice of {}; --method mean-ratio does", to_string(options.method),
+                         fmt::join(names, ", ")));
+  }
+}
+
+void warn_of_boundary(RunState& run) {
+  if (const CoarseBoundary coarse = find_coarse_boundary(run.view(), run.found.fixed, run.options.smoothing.threads);
+      coarse.any()) {
+    run.warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
+  }
+}
+
+void warn_of_projection(RunState& run) {
+  const QualityReport& before = run.result.before;
+  if (run.options.project && before.inverted + before.degenerate > 0) {
+    run.warn(
+        fmt::format("--project {}: {} of {} triangles lie over others or upright there; the mesh is no function of "
+                    "x and y",
+                    to_string(*run.options.project), before.inverted + before.degenerate, run.result.input.triangles));
+  }
+}
+
+}  // namespace
+
+void warn_before_smoothing(RunState& run) {
+  warn_of_precision(run);
+  warn_of_options_without_effect(run);
+  warn_of_boundary(run);
+  warn_of_projection(run);
+}
+
+void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {
+  const auto& untangling = smoothing.untangling;
+  if (untangling && untangling->inverted_after > untangling->inverted_untangled && smoothing.reverted_vertices > 0) {
+    run.warn(
+        fmt::format("the never-worse check put vertices back whose moves had inverted valid triangles: {} triangles "
+                    "are not valid now, {} were after the untangling; --guard off leaves them moved",
+                    untangling->inverted_after, untangling->inverted_untangled));
+  }
+}
+
+}  // namespace trismooth

@@ -1,0 +1,79 @@
+#include "trismooth/pipeline/stages/write_stage.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/annotations.h"
+#include "trismooth/pipeline/stages/run_state.h"
+
+namespace trismooth {
+
+namespace {
+
+void note_old_annotations(RunState& run) {
+  std::string names;
+  for (const auto& arrays : {std::span(run.document.cell_arrays), std::span(run.document.point_arrays)}) {
+    for (const DataArray& array : arrays) {
+      if (is_annotation(array.name)) {
+        names.append(names.empty() ? "" : ", ").append(array.name);
+      }
+    }
+  }
+  if (!names.empty()) {
+    run.note("annotations of an earlier run are kept, and show that mesh: " + names + "; --annotate makes new ones");
+  }
+}
+
+/// What holds each vertex. A middle is held where its side's ends are.
+std::vector<std::uint8_t> holds_of(const RunState& run) {
+  std::vector<std::uint8_t> holds = run.found.fixed;
+  for (const MiddleNode& middle : run.mesh.middles) {
+    const bool follows =
+        std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[static_cast<std::size_t>(end)] == 0; });
+    if (follows) {
+      holds[static_cast<std::size_t>(middle.vertex)] = 0;
+    }
+  }
+  return holds;
+}
+
+AddedArrays annotations_of(RunState& run) {
+  AddedArrays added;
+  added.cell_arrays = metrics_of_cells(run);
+  std::ranges::copy(run.metrics_before, std::back_inserter(added.cell_arrays));
+  added.point_arrays.push_back(fixed_annotation(holds_of(run), run.workers));
+  if (run.result.smoothing) {
+    added.point_arrays.push_back(displacement_annotation(run.input_points, run.document.points, run.workers));
+  }
+  return added;
+}
+
+}  // namespace
+
+std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) {
+  return metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, run.document.cells.size(),
+                            run.workers, suffix);
+}
+
+void write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
+  const FileFormat target = output_format(path, run.document.format, run.options.format);
+  std::ranges::copy(what_is_lost(run.document, target), std::back_inserter(run.result.losses));
+  const bool annotates = annotate && takes_added_arrays(run.document, target);
+  if (annotate && !annotates) {
+    run.note("--annotate has no effect: " +
+             (target == FileFormat::ply ? std::string("a PLY file that was read is written back with nothing added")
+                                        : "." + std::string(to_string(target)) + " holds no arrays") +
+             "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
+  }
+  if (!annotates && has_arrays(target)) {
+    note_old_annotations(run);
+  }
+  write_mesh(path, run.document, annotates ? annotations_of(run) : AddedArrays{},
+             FileOptions{run.options.smoothing.threads, run.options.format});
+}
+
+}  // namespace trismooth

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+
+namespace trismooth {
+
+struct RunState;
+
+/// Writes the mesh to `path`, with annotations where they are wanted and the format takes them. What is lost is among
+/// the losses. Throws WriteError.
+void write_output(RunState& run, const std::filesystem::path& path, bool annotate);
+
+/// The metrics that annotations show, of the mesh as it is now.
+std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix = {});
+
+}  // namespace trismooth

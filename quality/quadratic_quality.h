@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/quadratic_triangle.h"
+
+namespace trismooth {
+
+/// A triangle of the mesh that has a node in the middle of each side.
+struct QuadraticTriangle {
+  std::int32_t triangle = 0;            ///< its corners, by its place among the triangles
+  std::array<std::int32_t, 3> middles;  ///< of the sides 01, 12 and 20, as the triangle is listed
+};
+
+/// How valid the quadratic triangles of a mesh are: see quadratic_triangle.h.
+struct QuadraticQuality {
+  std::int64_t elements = 0;
+  std::int64_t invalid = 0;  ///< those of which it is not certain that they are valid
+  /// The smallest bound of J by that of the straight triangle; minus infinity where one has no area, infinity of none.
+  double min_jacobian = 0;
+};
+
+/// The nodes of a quadratic triangle, counter-clockwise in the orientation that `is_reversed` says of its triangle.
+inline QuadraticNodes quadratic_nodes(const Triangle& corners, const std::array<std::int32_t, 3>& middles,
+                                      bool is_reversed, std::span<const Point2<double>> points) {
+  const auto at = [points](std::int32_t v) { return points[static_cast<std::size_t>(v)]; };
+  return is_reversed ? QuadraticNodes{at(corners[0]), at(corners[2]), at(corners[1]),
+                                      at(middles[2]), at(middles[1]), at(middles[0])}
+                     : QuadraticNodes{at(corners[0]), at(corners[1]), at(corners[2]),
+                                      at(middles[0]), at(middles[1]), at(middles[2])};
+}
+
+/// Finds it; the points of the view have the middles, too. `threads` as in QualityOptions; the same for every number of
+/// them. Complexity: linear.
+[[nodiscard]] QuadraticQuality quadratic_quality(const TriangleView& view, std::span<const QuadraticTriangle> elements,
+                                                 int threads = 0);
+
+}  // namespace trismooth

@@ -1,0 +1,209 @@
+#include "trismooth/mesh_io/format_choice.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/unread_formats.h"
+
+#include "catch.h"
+#include "support/accepted_files.h"
+#include "support/says.h"
+#include "support/scratch_folder.h"
+
+using accepted_files::AcceptedFile;
+using trismooth::choose_format;
+using trismooth::FileFormat;
+using trismooth::FormatChoice;
+using trismooth::MeshDocument;
+using trismooth::output_format;
+using trismooth::ReadError;
+using trismooth::WriteError;
+
+namespace {
+
+bool recognises(FileFormat format, const std::string& bytes) {
+  const trismooth::Codec& codec = trismooth::codec_of(format);
+  return codec.recognises != nullptr && codec.recognises(bytes);
+}
+
+std::vector<FileFormat> recognising(const std::string& bytes) {
+  std::vector<FileFormat> found;
+  std::ranges::copy_if(trismooth::all_formats(), std::back_inserter(found),
+                       [&bytes](FileFormat format) { return recognises(format, bytes); });
+  return found;
+}
+
+std::string refusal(const std::filesystem::path& path, const std::string& bytes) {
+  return message_of<ReadError>([&] { choose_format(path, bytes, std::nullopt); });
+}
+
+const std::string off_bytes = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+}  // namespace
+
+TEST_CASE("no file is recognised by a format that it is not of, and a file of its extension is read as before") {
+  for (const AcceptedFile& file : accepted_files::all()) {
+    CAPTURE(file.name);
+    const auto formats = trismooth::formats_of("mesh" + file.extension);
+    for (const FileFormat format : recognising(file.bytes)) {
+      CAPTURE(to_string(format));
+      CHECK(std::ranges::find(formats, format) != formats.end());
+    }
+    const FormatChoice choice = choose_format("mesh" + file.extension, file.bytes, std::nullopt);
+    CHECK(std::ranges::find(formats, choice.format) != formats.end());
+    CHECK(choice.note.empty());
+  }
+}
+
+TEST_CASE("formats with a signature recognise it, others have no function for it") {
+  const std::map<FileFormat, std::string> begins{
+      {FileFormat::off, "# a comment\nSTCNOFF\n3 1 0\n"},
+      {FileFormat::ply, "ply\r\nformat ascii 1.0\r\n"},
+      {FileFormat::stl, "\xEF\xBB\xBFsolid of a plate\n  facet normal 0 0 1\n"},
+      {FileFormat::vtk, "# vtk DataFile Version 3.0\nOFF\nASCII\n"},
+      {FileFormat::vtu, "<?xml version=\"1.0\"?>\n<!-- a -->\n<VTKFile type='UnstructuredGrid' version=\"1.0\">\n"},
+      {FileFormat::vtp, "<VTKFile version=\"0.1\" type=\"PolyData\">"},
+  };
+  for (const auto& [format, bytes] : begins) {
+    CAPTURE(bytes);
+    CHECK(recognising(bytes) == std::vector{format});
+  }
+  CHECK(trismooth::codec_of(FileFormat::obj).recognises == nullptr);
+}
+
+TEST_CASE("what only looks similar is recognised by nobody") {
+  for (const std::string bytes : {"", " ", "\n", "off we go\n", "OFFSET 3\n", "OFF", "plyboard\n", "ply\n",
+                                  "ply\nfour\n", "solid\n", "solid rock\nand more\n", "<VTKFile", "<html>", "# vtk\n",
+                                  "3 1 0\n0 0 0\n", "\xEF\xBB\xBF", "<VTKFile type=\"ImageData\">"}) {
+    CAPTURE(bytes);
+    CHECK(recognising(bytes).empty());
+    CHECK(recognising(bytes + std::string(100'000, 'x')).empty());
+    CHECK(recognising(bytes + std::string(100, '\0')).empty());
+  }
+}
+
+TEST_CASE("a file whose extension lies is read as what it is, with a note") {
+  const ScratchFolder folder;
+  for (const AcceptedFile& file : accepted_files::all()) {
+    const std::vector<FileFormat> formats = recognising(file.bytes);
+    if (formats.size() != 1) {
+      continue;
+    }
+    const std::string other = file.extension == ".ply" ? "mesh.stl" : "mesh.ply";
+    CAPTURE(file.name, other);
+    const auto path = folder.write(other, file.bytes);
+    const auto right_path = folder.write("right" + file.extension, file.bytes);
+    const MeshDocument document = trismooth::read_mesh(path);
+    const MeshDocument right = trismooth::read_mesh(right_path);
+    CHECK(document.format == formats.front());
+    CHECK(document.points == right.points);
+    REQUIRE(document.notes.size() == right.notes.size() + 1);
+    const std::string title(title_of(formats.front()));
+    CHECK(document.notes.back() == "the file is " + title + " by its content, not " +
+                                       (other == "mesh.ply" ? "PLY" : "STL") + " as its name says: it is read as that");
+  }
+}
+
+TEST_CASE("a file of a name that names no format is read where its content shows it") {
+  const ScratchFolder folder;
+  for (const std::string name : {"mesh", "mesh.txt", "mesh.", ".off", "mesh.exo"}) {
+    CAPTURE(name);
+    const MeshDocument document = trismooth::read_mesh(folder.write(name, off_bytes));
+    CHECK(document.format == FileFormat::off);
+    CHECK(document.notes ==
+          std::vector<std::string>{"the name of the file names no format; it is OFF by its content and read as that"});
+  }
+}
+
+TEST_CASE("a format that is told is that of files whose name says none, and of no others") {
+  const std::string headless = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  CHECK(choose_format("mesh.dat", headless, FileFormat::off).format == FileFormat::off);
+  CHECK(choose_format("mesh.ply", "ply\n", FileFormat::off).format == FileFormat::ply);
+  const FormatChoice choice = choose_format("mesh", off_bytes, FileFormat::vtk);
+  CHECK(choice.format == FileFormat::off);
+  CHECK(choice.note == "the file is OFF by its content, not legacy VTK as was told: it is read as that");
+}
+
+TEST_CASE("what no format recognises is left to the format of the extension, whose reader says what is wrong") {
+  const ScratchFolder folder;
+  const auto path = folder.write("mesh.ply", "no mesh\n");
+  CHECK(says(message_of<ReadError>([&] { trismooth::read_mesh(path); }), "mesh.ply:1: is not a PLY file"));
+  // OBJ shows nothing: its files are not taken from it.
+  CHECK(choose_format("mesh.obj", off_bytes, std::nullopt).format == FileFormat::obj);
+}
+
+TEST_CASE("an unknown extension is told with all that are known, and the one that may be meant") {
+  CHECK(refusal("mesh.foo", "?") ==
+        "mesh.foo: the extension '.foo' names no format, and the content does not show one; "
+        "--format NAME tells it; known are " +
+            trismooth::titled_format_list());
+  CHECK(says(refusal("mesh.offf", "?"), "the extension '.offf' names no format (did you mean '.off'?)"));
+  CHECK(says(refusal("mesh", "?"), "mesh: has no extension that names a format"));
+  CHECK(says(trismooth::titled_format_list(), "OFF (.off), OBJ (.obj), PLY (.ply), STL (.stl), legacy VTK (.vtk)"));
+  const std::string message = message_of<WriteError>([] { output_format("out.foo"); });
+  CHECK(message == "out.foo: the extension '.foo' names no format; known are " + trismooth::titled_format_list());
+}
+
+TEST_CASE("formats that are known and not read are named, with a way to a file that is") {
+  const std::string refused = refusal("plate.EXO", "?");
+  CHECK(refused ==
+        "plate.EXO: is Exodus II, which is not read; 'meshio convert in.exo out.vtu' makes a file that is; "
+        "known are " +
+            trismooth::titled_format_list());
+  CHECK(says(refusal("plate.cdb", "?"), "plate.cdb: is an Ansys archive (CDB), which is not read; known are OFF"));
+  const std::map<std::string, std::string> by_content{
+      {"\x89HDF\r\n\x1a\n....", "is HDF5"},
+      {"CDF\x02....", "is NetCDF"},
+      {"<?xml version=\"1.0\"?><Xdmf Version=\"3.0\">", "is XDMF"},
+      {"    -1\n  2411\n         1", "is I-DEAS universal (UNV)"},
+      {"(0 \"GAMBIT to Fluent File\")\n", "is Ansys Fluent"},
+      {"mesh3d\ndimension\n2\n", "is Netgen"},
+  };
+  for (const auto& [bytes, words] : by_content) {
+    CAPTURE(bytes);
+    CHECK(says(refusal("plate.dat", bytes), words));
+    CHECK(says(refusal("plate.off", bytes), words));
+  }
+  for (const std::string bytes : {"", "CDF", "CDF\x07", "-1 2411\n", "(0 )", "-1\n", "-1"}) {
+    CAPTURE(bytes);
+    CHECK_FALSE(trismooth::recognise_unread_format(bytes));
+  }
+  CHECK(
+      says(message_of<WriteError>([] { output_format("out.cgns"); }), "out.cgns: CGNS is not written; known are OFF"));
+}
+
+TEST_CASE("no extension of a format that is read names one that is not") {
+  for (const FileFormat format : trismooth::all_formats()) {
+    for (const std::string_view extension : extensions_of(format)) {
+      CAPTURE(extension);
+      CHECK_FALSE(trismooth::unread_format_of("mesh" + std::string(extension)));
+    }
+  }
+}
+
+TEST_CASE("the extension of the output decides; of formats that share one the document's is kept") {
+  for (const FileFormat format : trismooth::all_formats()) {
+    for (const std::string_view extension : extensions_of(format)) {
+      CAPTURE(to_string(format), extension);
+      const std::string path = "out" + std::string(extension);
+      CHECK(output_format(path) == trismooth::formats_of(path).front());
+      CHECK(output_format(path, format) == format);
+      CHECK(output_format(path, format, FileFormat::off) == format);
+      CHECK(output_format(path + ".gz", format) == format);
+    }
+  }
+  CHECK(output_format("out.vtk", FileFormat::off) == FileFormat::vtk);
+}
+
+TEST_CASE("a stream is written as was told, or as the document was read") {
+  CHECK(output_format("-", FileFormat::ply) == FileFormat::ply);
+  CHECK(output_format("-", FileFormat::ply, FileFormat::vtk) == FileFormat::vtk);
+  CHECK(output_format("out.foo", FileFormat::ply, FileFormat::vtk) == FileFormat::vtk);
+  CHECK(says(message_of<WriteError>([] { output_format("-"); }), "standard output: nothing says its format"));
+  CHECK_FALSE(message_of<WriteError>([] { output_format("out.foo", FileFormat::ply); }).empty());
+}

@@ -1,0 +1,387 @@
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+
+#include "catch.h"
+#include "mesh_io/text_template.h"
+#include "support/says.h"
+#include "support/scratch_folder.h"
+
+using trismooth::FileFormat;
+using trismooth::find_array;
+using trismooth::MeshDocument;
+using trismooth::NamedSet;
+using trismooth::read_mesh;
+using trismooth::ReadError;
+using trismooth::ValueName;
+using trismooth::what_is_lost;
+using trismooth::write_mesh;
+
+namespace cell_type = trismooth::cell_type;
+
+namespace {
+
+/// A square of two triangles and a node in no element, as a deck of CalculiX.
+const std::string square =
+    "** made by hand\n*HEADING\nMy *model, with commas\n*NODE, NSET=Nall\n1, 0., 0.\n2, 1., 0.\n30, 1., 1.\n4, 0., "
+    "1.D0\n"
+    "*ELEMENT, TYPE=CPS3, ELSET=steel\n1, 1, 2, 30\n*ELEMENT, TYPE=CPE3, ELSET=Copper\n7, 1, 30, 4\n"
+    "*MATERIAL, NAME=m\n*ELASTIC\n210000., .3\n*STEP\n*STATIC\n*END STEP\n";
+
+MeshDocument read(const std::string& text) {
+  const ScratchFolder folder;
+  return read_mesh(folder.write("mesh.inp", text));
+}
+
+std::string written(const MeshDocument& document) {
+  const ScratchFolder folder;
+  write_mesh(folder / "out.inp", document);
+  return bytes_of(folder / "out.inp");
+}
+
+/// The message without the folder of the file.
+std::string failure_of(const std::string& text) {
+  const std::string message = message_of<ReadError>([&] { read(text); });
+  const std::size_t name = message.find("mesh.inp");
+  return name == std::string::npos ? message : message.substr(name);
+}
+
+std::vector<std::int32_t> regions(const MeshDocument& document) {
+  const auto* const array = find_array(document.cell_arrays, "abaqus:elset");
+  if (array == nullptr) {
+    return {};
+  }
+  const auto values = array->as<std::int32_t>();
+  return {values.begin(), values.end()};
+}
+
+std::vector<ValueName> region_names(const MeshDocument& document) {
+  return find_array(document.cell_arrays, "abaqus:elset")->description->value_names;
+}
+
+std::vector<std::int32_t> vertices(const MeshDocument& document, std::size_t cell) {
+  const auto all = document.cells[cell];
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+TEST_CASE("a deck's nodes, elements, sets and names are read in its order") {
+  const MeshDocument document = read(square);
+  CHECK(document.format == FileFormat::inp);
+  CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::triangle, cell_type::triangle});
+  CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3});
+  CHECK(regions(document) == std::vector<std::int32_t>{1, 2});
+  CHECK(region_names(document) == std::vector<ValueName>{{1, 2, "steel"}, {2, 2, "Copper"}});
+  CHECK(document.point_sets == std::vector<NamedSet>{{"Nall", {0, 1, 2, 3}}});
+  CHECK(document.cell_sets.empty());
+  CHECK(document.notes.empty());
+  CHECK(document.most_coordinate_characters == 20);
+}
+
+TEST_CASE("a deck is written back byte by byte, with new numbers where nodes have moved") {
+  for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+    const std::string text = replace_all(square, "\n", line_end);
+    MeshDocument document = read(text);
+    CHECK(written(document) == text);
+    document.points[6] = 0.75;
+    document.points[10] = 1.5;
+    CHECK(written(document) == replace_all(replace_all(text, "30, 1., 1.", "30, 0.75, 1."), "1.D0", "1.5"));
+  }
+}
+
+TEST_CASE("new numbers take 20 characters at most") {
+  MeshDocument document = read(square);
+  document.points[6] = -1.2345678901234567e-5;
+  const std::string text = written(document);
+  CHECK(says(text, "30, -1.2345678901235e-05, 1."));
+  CHECK(text.size() == square.size() + 18);
+}
+
+TEST_CASE("coordinates that a node line leaves out are 0, and stand there once they are not") {
+  MeshDocument document = read("*NODE\n1\n2, 2.\n3, , 3.\n4, 4., , 5.\n5,,,\n6, 1., 2., 3., 0., 0., 1.\n");
+  CHECK(document.points == std::vector<double>{0, 0, 0, 2, 0, 0, 0, 3, 0, 4, 0, 5, 0, 0, 0, 1, 2, 3});
+  for (std::size_t i = 0; i < document.points.size(); ++i) {
+    document.points[i] += 10;
+  }
+  CHECK(written(document) ==
+        "*NODE\n1, 10, 10, 10\n2, 12, 10, 10\n3, 10, 13, 10\n4, 14, 10, 15\n5,10,10,10\n6, 11, 12, 13, 0., 0., 1.\n");
+  MeshDocument one = read("*NODE\n1\n2, 1.\n3, 2.\n");
+  one.points[4] = 0.5;
+  CHECK(written(one) == "*NODE\n1\n2, 1., 0.5\n3, 2.\n");
+}
+
+TEST_CASE("keywords are read whatever their case, blanks and line breaks") {
+  const MeshDocument document = read(
+      "*Node ,\n nset = \"my nodes\"\n 1 ,0,0\n** a comment\n\n\t2, 1 , 0\n3,0,1\n*element,\ntype = s3r , \n"
+      "elset=E 1\n 5,\n1,2,\n3\n*NODE FILE\nU\n*node print, nset=x\nU\n*EL FILE\nS\n");
+  CHECK(document.point_count() == 3);
+  CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(document.point_sets == std::vector<NamedSet>{{"my nodes", {0, 1, 2}}});
+  CHECK(region_names(document).front().name == "E1");
+}
+
+TEST_CASE("elements of all families are cells of their shape") {
+  const std::string nodes = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,.5,0\n6,1,.5\n7,.5,1\n8,0,.5\n9,.5,.5\n";
+  const auto type_of = [&](const std::string& type, int count) {
+    std::string line = "1";
+    for (int i = 1; i <= count; ++i) {
+      line += ", " + std::to_string(i);
+    }
+    CAPTURE(type);
+    const MeshDocument document = read(nodes + "*ELEMENT, TYPE=" + type + "\n" + line + "\n");
+    CHECK(document.notes.empty());
+    return document.cells.types.at(0);
+  };
+  for (const char* type : {"CPS3", "CPE3", "CPE3T", "CPEG3", "CAX3", "CGAX3H", "S3", "S3R", "S3RT", "STRI3", "M3D3",
+                           "DC2D3", "DCAX3", "AC2D3", "ACAX3", "SFM3D3", "R3D3", "cps3", "DS3"}) {
+    CHECK(type_of(type, 3) == cell_type::triangle);
+  }
+  for (const char* type : {"CPS6", "CPS6M", "CPE6MH", "CAX6", "STRI65", "M3D6", "DC2D6", "S6", "AC2D6"}) {
+    CHECK(type_of(type, 6) == cell_type::quadratic_triangle);
+  }
+  for (const char* type : {"CPS4", "CPS4R", "CPE4RH", "CPEG4I", "CAX4RT", "S4", "S4R5", "M3D4R", "DC2D4", "R3D4"}) {
+    CHECK(type_of(type, 4) == cell_type::quad);
+  }
+  for (const char* type : {"CPS8", "CPS8R", "CAX8", "S8R", "S8R5", "M3D8R", "DC2D8"}) {
+    CHECK(type_of(type, 8) == cell_type::quadratic_quad);
+  }
+  CHECK(type_of("S9R5", 9) == cell_type::biquadratic_quad);
+  for (const char* type : {"T2D2", "T3D2H", "B21", "B31", "B33", "B23H", "R2D2", "RAX2", "SAX1", "DC1D2", "SPRINGA"}) {
+    CHECK(type_of(type, 2) == cell_type::line);
+  }
+  for (const char* type : {"T3D3", "B22", "B32", "SAX2", "DC1D3", "PIPE22"}) {
+    CHECK(type_of(type, 3) == cell_type::quadratic_edge);
+  }
+  CHECK(type_of("MASS", 1) == cell_type::vertex);
+  CHECK(type_of("C3D4", 4) == cell_type::tetrahedron);
+  CHECK(type_of("C3D8R", 8) == cell_type::hexahedron);
+  CHECK(type_of("SC6R", 6) == cell_type::wedge);
+}
+
+TEST_CASE("the middle node of a curve stands between its ends in the file, behind them in the document") {
+  const std::string text = "*NODE\n1,0,0\n2,1,0\n3,2,0\n*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n";
+  const MeshDocument document = read(text);
+  CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 2, 1});
+  MeshDocument other = document;
+  other.original = nullptr;
+  CHECK(says(written(other), "*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n"));
+}
+
+TEST_CASE("elements of types that are not known keep their nodes, and a note says so") {
+  const MeshDocument document = read(
+      "*USER ELEMENT, NODES=3, TYPE=U7\n1,2\n*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT, TYPE=XYZ\n1, 1, 2,\n3\n2, 3\n"
+      "*ELEMENT, TYPE=U7\n3, 1, 2, 3\n");
+  CHECK(document.cells.types == std::vector<std::uint8_t>(3, cell_type::poly_vertex));
+  CHECK(document.cells.offsets == std::vector<std::int64_t>{0, 3, 4, 7});
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "'U7', 'XYZ'"));
+}
+
+TEST_CASE("sets are ranges, lists and other sets") {
+  const MeshDocument document =
+      read(square +
+           "*NSET, NSET=a, GENERATE\n1, 40, 1\n2, 30, 2\n*NSET, NSET=b\n4, A,\n 1\n"
+           "*NSET, NSET=c, ELSET=STEEL\n*ELSET, ELSET=d\nsteel, copper\n*ELSET, ELSET=e\n7\n");
+  REQUIRE(document.point_sets.size() == 4);
+  CHECK(document.point_sets[1] == NamedSet{"a", {0, 1, 2, 3, 1, 2, 3}});
+  CHECK(document.point_sets[2] == NamedSet{"b", {3, 0, 0, 1, 2, 3, 1, 2, 3}});
+  CHECK(document.point_sets[3] == NamedSet{"c", {0, 1, 2}});
+  CHECK(document.cell_sets == std::vector<NamedSet>{{"d", {0, 1}}, {"e", {1}}});
+}
+
+TEST_CASE("members that are not there are told of once, and stay in the file") {
+  const std::string text = square + "*NSET, NSET=a\n1, 99, nobody\n";
+  const MeshDocument document = read(text);
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "sets name 2 nodes, elements or other sets that are not there"));
+  CHECK(written(document) == text);
+}
+
+TEST_CASE("sections say what the regions are, before names of elements, before sets that do not overlap") {
+  const std::string mesh =
+      "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT, TYPE=CPS3@\n1,1,2,3\n2,1,3,4\n*ELSET, ELSET=left\n1\n"
+      "*ELSET, ELSET=right\n2\n*ELSET, ELSET=both\n1,2\n";
+  const MeshDocument by_sets = read(fill(mesh, {""}));
+  CHECK(region_names(by_sets) == std::vector<ValueName>{{1, 2, "left"}, {2, 2, "right"}});
+  CHECK(by_sets.cell_sets == std::vector<NamedSet>{{"both", {0, 1}}});
+  const MeshDocument one_name = read(fill(mesh, {", ELSET=all"}));
+  CHECK(region_names(one_name) == std::vector<ValueName>{{1, 2, "left"}, {2, 2, "right"}});
+  const MeshDocument by_sections = read(fill(mesh, {", ELSET=all"}) + "*SOLID SECTION, ELSET=BOTH, MATERIAL=m\n1.\n");
+  CHECK(regions(by_sections) == std::vector<std::int32_t>{1, 1});
+  CHECK(region_names(by_sections) == std::vector<ValueName>{{1, 2, "both"}});
+  CHECK(by_sections.cell_sets.size() == 3);
+  const MeshDocument shells =
+      read(fill(mesh, {""}) + "*Shell Section, elset=Right, material=m\n1.\n*Membrane Section, elset=left\n1.\n");
+  CHECK(regions(shells) == std::vector<std::int32_t>{2, 1});
+}
+
+TEST_CASE("nodes that conditions, loads and constraints name by number are sets, which hold them") {
+  const MeshDocument document = read(square +
+                                     "*BOUNDARY\n1, 1, 2\nNall, 3\n*CLOAD\n30, 2, -5.\n*EQUATION\n2\n4,1,1.,2,"
+                                     "1,-1.\n*MPC\nBEAM, 2, 4\n");
+  CHECK(document.point_sets ==
+        std::vector<NamedSet>{
+            {"Nall", {0, 1, 2, 3}}, {"*BOUNDARY", {0}}, {"*CLOAD", {2}}, {"*EQUATION", {3, 1}}, {"*MPC", {1, 3}}});
+}
+
+TEST_CASE("parts, instances and the assembly have labels and names of their own") {
+  const std::string text =
+      "*Heading\n*Part, name=Plate\n*Node\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*Element, type=CPS3\n1, 1, 2, 3\n"
+      "*Nset, nset=Set-1\n2\n*Elset, elset=Set-1, generate\n1, 1, 1\n*Solid Section, elset=Set-1, material=m\n,\n"
+      "*End Part\n*Part, name=Empty\n*End Part\n*Assembly, name=Assembly\n*Instance, name=Plate-1, part=Plate\n"
+      "2., 0., 0.\n2., 0., 0., 2., 0., 1., 90.\n*End Instance\n*Instance, name=\"Own mesh\", part=Empty\n*Node\n"
+      "1, 5., 5.\n2, 6., 5.\n3, 5., 6.\n*Element, type=CPS3\n1, 1, 2, 3\n*Elset, elset=Set-1\n1\n"
+      "*Solid Section, elset=Set-1, material=m\n,\n*End Instance\n*Node\n1, 9., 9.\n"
+      "*Element, type=CONN2D2\n1, Plate-1.2, 1\n*Nset, nset=ref\n1\n*Nset, nset=_Picked, internal, instance=Plate-1\n"
+      "1, 3\n*Nset, nset=many\nPlate-1.Set-1, Plate-1.3, \"Own mesh\".2\n*End Assembly\n";
+  MeshDocument document = read(text);
+  CHECK(document.notes.empty());
+  CHECK(document.point_count() == 7);
+  CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(vertices(document, 1) == std::vector<std::int32_t>{3, 4, 5});
+  CHECK(vertices(document, 2) == std::vector<std::int32_t>{1, 6});
+  CHECK(region_names(document) == std::vector<ValueName>{{1, 2, "Plate.Set-1"}, {2, 2, "Own mesh.Set-1"}});
+  CHECK(regions(document) == std::vector<std::int32_t>{1, 2, 0});
+  CHECK(document.point_sets ==
+        std::vector<NamedSet>{{"Set-1", {1}}, {"ref", {6}}, {"_Picked", {0, 2}}, {"many", {1, 2, 4}}});
+  CHECK(written(document) == text);
+}
+
+TEST_CASE("included files are read, and stand in the place of their line once their nodes move") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  const std::string main =
+      "*HEADING\r\n*NODE\r\n1, 0., 0.\r\n*Include, input=sub/nodes.dat\r\n9, 3., 3.\r\n*ELEMENT, TYPE=CPS3, "
+      "INPUT=\"the elements.inp\"\r\n*INCLUDE, INPUT=steps.inp\r\n*NSET, NSET=last\r\n9\r\n";
+  const auto path = folder.write("main.inp", main);
+  folder.write("sub/nodes.dat", "\xEF\xBB\xBF** nodes\n2, 1., 0.\n*INCLUDE, INPUT=more.dat\n");
+  folder.write("sub/more.dat", "3, 1., 1.\n4, 0., 1.\n");
+  folder.write("the elements.inp", "1, 1, 2, 3\n2, 1, 3, 4\n");
+  folder.write("steps.inp", "*STEP\n*END STEP\n");
+  MeshDocument document = read_mesh(path);
+  CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 3, 3, 0});
+  CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3});
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "'more.dat'"));
+  CHECK(document.point_sets == std::vector<NamedSet>{{"last", {4}}});
+
+  SECTION("nothing has moved") {
+    write_mesh(folder / "out.inp", document);
+    CHECK(bytes_of(folder / "out.inp") == main);
+  }
+  SECTION("only nodes of the file itself have moved") {
+    document.points[12] = 4;
+    write_mesh(folder / "out.inp", document);
+    CHECK(bytes_of(folder / "out.inp") == replace_all(main, "9, 3.", "9, 4"));
+  }
+  SECTION("nodes of an included file have moved") {
+    document.points[6] = 0.875;
+    write_mesh(folder / "out.inp", document);
+    CHECK(bytes_of(folder / "out.inp") ==
+          replace_all(main, "*Include, input=sub/nodes.dat", "** nodes\n2, 1., 0.\n3, 0.875, 1.\n4, 0., 1."));
+    CHECK(read_mesh(folder / "out.inp").points == document.points);
+  }
+  SECTION("the output is in another folder") {
+    std::filesystem::create_directory(folder / "other");
+    write_mesh(folder / "other/out.inp", document);
+    CHECK(bytes_of(folder / "other/out.inp") ==
+          "*HEADING\r\n*NODE\r\n1, 0., 0.\r\n** nodes\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\r\n9, 3., 3.\r\n*ELEMENT, "
+          "TYPE=CPS3\n1, 1, 2, 3\n2, 1, 3, 4\r\n*STEP\n*END STEP\r\n*NSET, NSET=last\r\n9\r\n");
+    CHECK(read_mesh(folder / "other/out.inp").cells.connectivity == document.cells.connectivity);
+  }
+}
+
+TEST_CASE("files that include themselves, or files that are not there, are refused") {
+  const ScratchFolder folder;
+  folder.write("a.inp", "*NODE\n1, 0.\n*INCLUDE, INPUT=b.inp\n");
+  folder.write("b.inp", "** back\n*INCLUDE, INPUT=a.inp\n");
+  CHECK(
+      says(message_of<ReadError>([&] { read_mesh(folder / "a.inp"); }), "b.inp:2: the file 'a.inp' is included in it"));
+  CHECK(says(failure_of("*NODE\n*INCLUDE, INPUT=none.inp\n"), "mesh.inp:2: the file 'none.inp' that is included here"));
+}
+
+TEST_CASE("what is wrong in an input file is said with its line") {
+  const auto fails = [](const std::string& text, const std::string& words) {
+    CAPTURE(text);
+    CHECK(says(failure_of(text), words));
+  };
+  fails("hello\n", "mesh.inp:1: expected a keyword line of Abaqus");
+  fails("", "is not an Abaqus mesh: it has no *NODE");
+  fails("*HEADING\nx\n", "is not an Abaqus mesh: it has no *NODE");
+  fails("*NODE\nx, 1., 2.\n", "mesh.inp:2: expected a node number, got 'x'");
+  fails("*NODE\n1, 1., 2,5e\n", "mesh.inp:2: node 1: expected a coordinate (a finite number), got '5e'");
+  fails("*NODE\n1, nan, 2.\n", "mesh.inp:2: node 1: expected a coordinate");
+  fails("*NODE\n1, 0.\n\n1, 1.\n", "mesh.inp:4: there is a node 1 before this one");
+  fails(square + "*ELEMENT, TYPE=CPS3\n7, 1, 2, 4\n", "mesh.inp:20: there is an element 7 before this one");
+  fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2, 5\n", "mesh.inp:20: this element refers to node 5, which there is not");
+  fails(square + "*ELEMENT\n8, 1, 2, 4\n", "mesh.inp:19: *ELEMENT states no TYPE");
+  fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2\n9, 1, 2, 4\n",
+        "mesh.inp:20: an element of type 'CPS3' has 3 nodes, "
+        "this one has 2");
+  fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2, 4, 30\n", "mesh.inp:20: an element of type 'CPS3' has 3 nodes, this");
+  fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2,\n*STEP\n", "mesh.inp:21: the element before this line ends without");
+  fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2,", "mesh.inp:20: the last element ends without its last nodes");
+  fails("*NODE\n1,0\n*NGEN\n1, 5, 1\n", "mesh.inp:3: *NGEN makes or moves nodes or elements by a rule");
+  fails("*SYSTEM\n1,1,1\n*NODE\n1,0\n", "mesh.inp:3: the coordinates of these nodes are in a system of their own");
+  fails("*NODE, SYSTEM=C\n1,0\n", "mesh.inp:1: the coordinates of these nodes are in a system of their own (SYSTEM=C)");
+  fails("*NODE\n1,0\n*NSET\n1\n", "mesh.inp:3: *NSET states no name");
+  fails("*NODE\n1,0\n*NSET, NSET=a, INSTANCE=b\n1\n", "mesh.inp:3: there is no instance 'b' before this line");
+}
+
+TEST_CASE("sets of sets that explode are refused") {
+  std::string text = "*NODE\n1,0\n2,1\n*NSET, NSET=s0\n1, 2\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string before = "s" + std::to_string(i - 1);
+    text += "*NSET, NSET=s" + std::to_string(i) + "\n" + before + "," + before + "\n";
+  }
+  CHECK(says(failure_of(text), "its sets of sets have more members"));
+  CHECK(read("*NODE\n1,0\n2,1\n*NSET, NSET=a, GENERATE\n1, 9000000000000000000, 1\n").point_sets[0].members ==
+        std::vector<std::int32_t>{0, 1});
+}
+
+TEST_CASE("a mesh of another format keeps its groups, their names and its sets") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.1};
+  const auto add = [&](std::uint8_t type, const std::vector<std::int32_t>& nodes) {
+    document.cells.append(type, nodes);
+  };
+  add(cell_type::vertex, {2});
+  add(cell_type::line, {0, 1});
+  add(cell_type::triangle, {0, 1, 2});
+  add(cell_type::triangle, {0, 2, 3});
+  add(cell_type::polygon, {0, 1, 2, 3, 1});
+  document.cell_arrays.push_back(trismooth::make_data_array<std::int32_t>("gmsh:physical", 1, {5, 1, 1, 2, 2}));
+  auto description = std::make_shared<trismooth::ArrayDescription>();
+  description->value_names = {{5, 0, "corner"}, {1, 1, "wall"}, {1, 2, "copper part"}, {2, 2, "Wall"}};
+  document.cell_arrays[0].description = description;
+  document.cell_arrays.push_back(trismooth::make_data_array<double>("t", 1, {1, 2, 3, 4, 5}));
+  document.point_sets = {{"inlet", {0, 3}}};
+  CHECK(written(document) ==
+        "*HEADING\nwritten by trismooth\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0.1\n"
+        "*ELEMENT, TYPE=T3D2\n2, 1, 2\n*ELEMENT, TYPE=CPS3\n3, 1, 2, 3\n4, 1, 3, 4\n*ELSET, ELSET=wall\n2\n"
+        "*ELSET, ELSET=copper_part\n3\n*ELSET, ELSET=Wall_1\n4\n*NSET, NSET=corner\n3\n*NSET, NSET=inlet\n1, 4\n");
+  CHECK(what_is_lost(document, FileFormat::inp) ==
+        std::vector<std::string>{
+            "Abaqus holds lines, faces and solids only: 1 cell of type polygon is not written",
+            "Abaqus holds no cell arrays: t is not written",
+            "Abaqus holds names of letters, digits, _ and - only: changed are copper part (as copper_part), Wall (as "
+            "Wall_1)"});
+  const MeshDocument back = read(written(document));
+  CHECK(region_names(back) == std::vector<ValueName>{{1, 1, "wall"}, {2, 2, "copper_part"}, {3, 2, "Wall_1"}});
+}
+
+TEST_CASE("input files are told from others by their first keyword") {
+  const auto is_inp = trismooth::inp_codec.recognises;
+  CHECK(is_inp(square));
+  CHECK(is_inp("\xEF\xBB\xBF\r\n  *heading\r\n"));
+  CHECK_FALSE(is_inp("* something else\n"));
+  CHECK_FALSE(is_inp("10 12 0 0 0\n"));
+  CHECK_FALSE(is_inp(""));
+}

@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/msh/msh_affine_map.h"
+#include "trismooth/mesh_io/msh/msh_element_types.h"
+#include "trismooth/mesh_io/msh/msh_tags.h"
+
+#include "catch.h"
+#include "support/accepted_msh_files.h"
+#include "support/memory_file.h"
+
+using accepted_files::msh::Spelling;
+using trismooth::DataArray;
+using trismooth::MeshDocument;
+using trismooth::msh_codec;
+
+namespace {
+
+MeshDocument read_msh_text(const std::string& bytes) {
+  return msh_codec.read("plate.msh", bytes);
+}
+
+std::string msh_error(const std::string& bytes) {
+  try {
+    read_msh_text(bytes);
+  } catch (const trismooth::ReadError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string written_back(const MeshDocument& document) {
+  const test_support::MemoryFile file;
+  document.original->write(file.path(), document, {}, {});
+  return file.bytes();
+}
+
+std::string written_as_msh(const MeshDocument& document) {
+  const test_support::MemoryFile file;
+  msh_codec.write(file.path(), document);
+  return file.bytes();
+}
+
+std::vector<double> numbers_of(const std::vector<DataArray>& arrays, const std::string& name) {
+  const DataArray* const array = find_array(arrays, name);
+  std::vector<double> numbers;
+  for (std::size_t row = 0; array != nullptr && row < array->rows(); ++row) {
+    numbers.push_back(array->value(row));
+  }
+  return numbers;
+}
+
+std::string replaced_in(std::string text, const std::string& what, const std::string& with) {
+  const std::size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), with);
+}
+
+using Numbers = std::vector<double>;
+
+}  // namespace
+
+TEST_CASE("every version of MSH, as text and binary, gives the same cells, groups and names") {
+  for (const int version : {20, 21, 22, 40, 41}) {
+    for (const bool binary : {false, true}) {
+      for (const bool big : {false, true}) {
+        CAPTURE(version, binary, big);
+        const MeshDocument document = read_msh_text(accepted_files::msh::file(
+            {.version = version, .binary = binary, .big_endian = big, .with_groups = true, .with_data = true}));
+        CHECK(document.points == Numbers{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 0.75, 1.25, 0});
+        CHECK(document.cells.types == std::vector<std::uint8_t>{3, 3, 3, 5, 5, 5, 5});
+        CHECK(document.cells.connectivity ==
+              std::vector<std::int32_t>{0, 1, 1, 2, 2, 3, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4});
+        CHECK(numbers_of(document.cell_arrays, "gmsh:physical") == Numbers{5, 5, 5, 1, 1, 2, 2});
+        CHECK(numbers_of(document.cell_arrays, "gmsh:geometrical") == Numbers{1, 1, 1, 1, 1, 2, 2});
+        CHECK(find_array(document.cell_arrays, "gmsh:physical")->description->value_names ==
+              std::vector<trismooth::ValueName>{{5, 1, "the edge"}, {1, 2, "steel"}, {2, 2, "all"}});
+        REQUIRE(document.cell_sets.size() == 1);
+        CHECK(document.cell_sets[0] == trismooth::NamedSet{"all", {3, 4, 5, 6}});
+        CHECK(numbers_of(document.point_arrays, "heat \"a\"") == Numbers{1, 2, 3, 4, 5});
+        CHECK(find_array(document.point_arrays, "data")->components == 3);
+      }
+    }
+  }
+}
+
+TEST_CASE("parts of a partitioned surface are of that surface, and their numbers are told") {
+  for (const int version : {22, 40, 41}) {
+    const MeshDocument document = read_msh_text(accepted_files::msh::file({.version = version, .partitioned = true}));
+    CAPTURE(version);
+    CHECK(numbers_of(document.cell_arrays, "gmsh:geometrical") == Numbers{1, 1, 1, 1, 1, 2, 2});
+    CHECK(numbers_of(document.cell_arrays, "gmsh:partition").back() == 2);
+  }
+}
+
+TEST_CASE("MSH is written back with the moved coordinates and values of fields, all else is as it was") {
+  const std::string text = accepted_files::msh::file({.with_data = true});
+  MeshDocument document = read_msh_text(text);
+  CHECK(written_back(document) == text);
+  document.points[12] = 0.875;
+  CHECK(written_back(document) == replaced_in(text, "0.75 1.25 0\n", "0.875 1.25 0\n"));
+  CHECK(document.original->keeps_values_of("data"));
+  CHECK_FALSE(document.original->keeps_values_of("stress"));
+  std::vector<double> heat{1, 2, 3, 4, 5.5};
+  *std::ranges::find(document.point_arrays, "heat \"a\"", &DataArray::name) =
+      trismooth::make_data_array("heat \"a\"", 1, heat);
+  CHECK(written_back(document) ==
+        replaced_in(replaced_in(text, "0.75 1.25 0\n", "0.875 1.25 0\n"), "\n5 5\n", "\n5 5.5\n"));
+}
+
+TEST_CASE("parametric coordinates follow their nodes on plane surfaces") {
+  const std::string nodes = "0 0 0 1 10\n1 0 0 1 12\n0 1 0 4 10\n0.5 0.25 0 1.75 11\n";
+  const std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 1 4\n1\n2\n3\n4\n" + nodes +
+                           "$EndNodes\n$Elements\n1 3 1 3\n2 1 2 3\n1 1 2 4\n2 2 3 4\n3 3 1 4\n$EndElements\n";
+  MeshDocument document = read_msh_text(text);
+  document.points[9] = 0.25;
+  CHECK(document.notes.empty());
+  CHECK(written_back(document) == replaced_in(text, "0.5 0.25 0 1.75 11\n", "0.25 0.25 0 1.75 10.5\n"));
+}
+
+TEST_CASE("parametric coordinates of a curved surface are left out where a node of it moves") {
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 1 4\n1\n2\n3\n4\n"
+      "0 0 0 1 10\n1 0 0 1 12\n0 1 0 4 10\n0.5 0.25 0 3 11\n"
+      "$EndNodes\n$Elements\n1 3 1 3\n2 1 2 3\n1 1 2 4\n2 2 3 4\n3 3 1 4\n$EndElements\n";
+  MeshDocument document = read_msh_text(text);
+  CHECK(document.notes.size() == 1);
+  CHECK(written_back(document) == text);
+  document.points[9] = 0.25;
+  CHECK(written_back(document) ==
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n"
+        "0 0 0\n1 0 0\n0 1 0\n0.25 0.25 0\n"
+        "$EndNodes\n$Elements\n1 3 1 3\n2 1 2 3\n1 1 2 4\n2 2 3 4\n3 3 1 4\n$EndElements\n");
+  // The same in every version and encoding: what is left is read as what it was.
+  for (const int version : {22, 40, 41}) {
+    for (const bool binary : {false, true}) {
+      CAPTURE(version, binary);
+      MeshDocument other =
+          read_msh_text(accepted_files::msh::file({.version = version, .binary = binary, .parametric = true}));
+      other.points[12] = 0.5;
+      const MeshDocument again = read_msh_text(written_back(other));
+      CHECK(again.points == other.points);
+      CHECK(again.cells.connectivity == other.cells.connectivity);
+    }
+  }
+}
+
+TEST_CASE("what is wrong in an MSH file is said with its line") {
+  const std::string text = accepted_files::msh::file({});
+  const auto with = [&text](const std::string& what, const std::string& instead) {
+    return msh_error(replaced_in(text, what, instead));
+  };
+  CHECK(with("4.1 0 8", "3 0 8").starts_with("plate.msh:2: expected a version of the format"));
+  CHECK(with("1 1 2\n2 2 3", "1 1 9\n2 2 3").ends_with("the element refers to node 9, which the file does not have"));
+  CHECK(with("\n1\n2\n3\n4\n", "\n1\n2\n3\n2\n").find("is that of another one before it") != std::string::npos);
+  CHECK(with("0.75 1.25 0", "0.75 nan 0").find("expected a coordinate (a finite number), got 'nan'") !=
+        std::string::npos);
+  CHECK(with("$EndNodes", "$EndNods").find("expected $EndNodes, got '$EndNods'") != std::string::npos);
+  CHECK(with("1 1 1 3\n", "1 1 35 3\n").find("elements of type 35 are not supported") != std::string::npos);
+  CHECK(with("$Elements\n3 7", "$Elements\n3 99").find("has room for") != std::string::npos);
+  CHECK(msh_error("hello\n") == "plate.msh:1: is not an MSH file: expected $MeshFormat, got 'hello'");
+}
+
+TEST_CASE("MSH is told by its first line") {
+  CHECK(msh_codec.recognises("\r\n$MeshFormat \r\n"));
+  CHECK(msh_codec.recognises("$Comments\nx\n"));
+  CHECK(msh_codec.recognises("$NOD\n"));
+  CHECK_FALSE(msh_codec.recognises("4 2 1\n"));
+  CHECK_FALSE(msh_codec.recognises(""));
+}
+
+TEST_CASE("a document from elsewhere becomes an MSH file with entities for its groups") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(3, std::vector{0, 1});
+  document.cells.append(5, std::vector{0, 1, 2});
+  document.cells.append(5, std::vector{0, 2, 3});
+  DataArray regions = trismooth::make_data_array("medit:ref", 1, std::vector<std::int32_t>{4, 7, 9});
+  regions.description = std::make_shared<trismooth::ArrayDescription>(
+      trismooth::ArrayDescription{{}, {}, {{4, 1, "wall"}, {9, 2, "steel"}}, {}});
+  document.cell_arrays.push_back(regions);
+  document.cell_sets.push_back({"half", {1}});
+  document.point_arrays.push_back(trismooth::make_data_array("u", 2, std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
+  CHECK(written_as_msh(document) ==
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+        "$PhysicalNames\n3\n1 4 \"wall\"\n2 9 \"steel\"\n2 10 \"half\"\n$EndPhysicalNames\n"
+        "$Entities\n0 1 2 0\n1 0 0 0 1 0 0 1 4 0\n1 0 0 0 1 1 0 2 7 10 0\n2 0 0 0 1 1 0 1 9 0\n$EndEntities\n"
+        "$Nodes\n3 4 1 4\n1 1 0 2\n1\n2\n0 0 0\n1 0 0\n2 1 0 1\n3\n1 1 0\n2 2 0 1\n4\n0 1 0\n$EndNodes\n"
+        "$Elements\n3 3 1 3\n1 1 1 1\n1 1 2\n2 1 2 1\n2 1 2 3\n2 2 2 1\n3 1 3 4\n$EndElements\n"
+        "$NodeData\n1\n\"u\"\n1\n0\n3\n0\n3\n4\n1 1 2 0\n2 3 4 0\n3 5 6 0\n4 7 8 0\n$EndNodeData\n");
+  CHECK(msh_codec.what_is_lost(document) ==
+        std::vector<std::string>{"MSH holds fields of 1, 3 or 9 numbers: u gets a third one, 0"});
+  const MeshDocument again = read_msh_text(written_as_msh(document));
+  CHECK(again.points == document.points);
+  CHECK(again.cells.connectivity == document.cells.connectivity);
+  CHECK(numbers_of(again.cell_arrays, "gmsh:physical") == Numbers{4, 7, 9});
+  CHECK(again.cell_sets == document.cell_sets);
+}
+
+TEST_CASE("tags of any kind are found, and those given twice") {
+  trismooth::MshTags tags;
+  tags.add(std::vector<std::int64_t>{7, 8, 9, 1000000000000, 3, 4});
+  tags.add_run(20, 3);
+  CHECK_FALSE(tags.finish());
+  CHECK(tags.size() == 9);
+  CHECK(tags.find(8) == 1);
+  CHECK(tags.find(1000000000000) == 3);
+  CHECK(tags.find(4) == 5);
+  CHECK(tags.find(22) == 8);
+  for (const std::int64_t missing : {0LL, 5LL, 10LL, 23LL, 999999999999LL, 1000000000001LL}) {
+    CHECK(tags.find(missing) == -1);
+  }
+  trismooth::MshTags twice;
+  twice.add(std::vector<std::int64_t>{5, 6, 7, 2, 6});
+  CHECK(twice.finish() == 4U);
+}
+
+TEST_CASE("elements keep their vertices in VTK's order, and faces without a type of VTK are polygons") {
+  for (std::int64_t number = 1; number <= 140; ++number) {
+    const trismooth::MshElementType& type = trismooth::msh_element_type(number);
+    CAPTURE(number);
+    std::vector<std::uint16_t> order = type.order;
+    std::ranges::sort(order);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      CHECK(order[i] == i);
+    }
+    CHECK((order.empty() || order.size() == type.vertices));
+  }
+  using Order = std::vector<std::uint16_t>;
+  CHECK(trismooth::msh_element_type(20).order == Order{0, 3, 4, 1, 5, 6, 2, 7, 8});
+  CHECK(trismooth::msh_element_type(36).order == Order{0, 1, 2, 3, 4, 5, 6, 7, 9, 8, 11, 10, 12, 13, 15, 14});
+  CHECK(trismooth::msh_number_of(5, 3) == 2);
+  CHECK(trismooth::msh_number_of(7, 4) == 3);
+  CHECK(trismooth::msh_number_of(7, 5) == 0);
+}
+
+TEST_CASE("an affine map is found on planes, not on curved surfaces nor on points of one line") {
+  using trismooth::MshAffineMap;
+  const Numbers plane{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const auto map = MshAffineMap::find(plane, Numbers{0, 5, 2, 5, 0, 6, 2, 6}, 2);
+  REQUIRE(map);
+  CHECK(map->change({0.5, 0, 0}, 0) == Approx(1));
+  CHECK(map->change({0, 0.5, 0}, 1) == Approx(0.5));
+  CHECK_FALSE(MshAffineMap::find(plane, Numbers{0, 5, 2, 5, 0, 6, 3, 6}, 2));
+  CHECK_FALSE(MshAffineMap::find(Numbers{0, 0, 0, 1, 0, 0, 2, 0, 0}, Numbers{0, 0, 1, 0, 2, 0}, 2));
+  CHECK(MshAffineMap::find(Numbers{0, 0, 0, 1, 0, 0, 2, 0, 0}, Numbers{0, 1, 2}, 1));
+}

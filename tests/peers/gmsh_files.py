@@ -1,0 +1,206 @@
+"""Files that Gmsh writes come back from trismooth with nothing lost, and Gmsh opens them with every group in place."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "end_to_end"))
+
+try:
+    import gmsh
+    import gmsh_model
+except (ImportError, OSError) as missing:
+    print(f"skipped: Gmsh for Python is not installed where this runs ({missing})")
+    sys.exit(77)
+
+import number_texts
+import tool
+
+# name -> (extension, options of Gmsh, whether the file is text, whether Gmsh reads the format itself)
+TEXT_DIALECTS = {
+    "msh41": (".msh", {"MshFileVersion": 4.1, "Binary": 0}),
+    "msh40": (".msh", {"MshFileVersion": 4.0, "Binary": 0}),
+    "msh22": (".msh", {"MshFileVersion": 2.2, "Binary": 0}),
+    "medit": (".mesh", {"Binary": 0}),
+    "su2": (".su2", {"Binary": 0}),
+    "inp": (".inp", {"Binary": 0, "SaveGroupsOfNodes": 1}),
+}
+BINARY_DIALECTS = {
+    "msh41_binary": (".msh", {"MshFileVersion": 4.1, "Binary": 1}),
+    "msh22_binary": (".msh", {"MshFileVersion": 2.2, "Binary": 1}),
+}
+# What Gmsh both writes and reads in full.
+MSH = ("msh41", "msh40", "msh22", "msh41_binary", "msh22_binary")
+EVERY_DIALECT = {**TEXT_DIALECTS, **BINARY_DIALECTS}
+
+
+class GmshTest(tool.ToolTest):
+
+    def setUp(self):
+        super().setUp()
+        model = gmsh_model.session()
+        model.__enter__()
+        self.addCleanup(model.__exit__, None, None, None)
+
+    def write_model(self, dialect, **model):
+        extension, options = EVERY_DIALECT[dialect]
+        gmsh_model.build(**model)
+        name = dialect + extension
+        gmsh_model.write(self.path(name), **options)
+        return name
+
+    def smooth(self, name, output=None, *options):
+        output = output or "smoothed" + os.path.splitext(name)[1]
+        return output, self.report("smooth", name, output, *options)
+
+    def hold_everything(self, count):
+        self.write("all.txt", "\n".join(map(str, range(count))))
+        return "--fixed-ids", "all.txt"
+
+
+class WrittenBack(GmshTest):
+
+    def test_nothing_moved_gives_the_same_bytes(self):
+        for dialect in EVERY_DIALECT:
+            # SU2 has no elements of second order.
+            for order in (1, 2) if dialect != "su2" else (1,):
+                with self.subTest(dialect=dialect, order=order):
+                    name = self.write_model(dialect, order=order)
+                    held = self.hold_everything(self.report("quality", name)["input"]["vertices"])
+                    output, report = self.smooth(name, None, *held)
+                    self.assertEqual(report["smoothing"]["moved_vertices"], 0)
+                    self.assertEqual(self.read(output), self.read(name))
+
+    def test_texts_differ_in_the_numbers_of_moved_nodes_alone(self):
+        for dialect in TEXT_DIALECTS:
+            with self.subTest(dialect):
+                name = self.write_model(dialect)
+                output, report = self.smooth(name)
+                changed = number_texts.changed_numbers(self.read(name), self.read(output))
+                moved = report["smoothing"]["moved_vertices"]
+                self.assertGreater(moved, 100)
+                # One number of a node may stay as it is.
+                self.assertLessEqual(len(changed), 2 * moved)
+                self.assertGreaterEqual(len(changed), moved)
+
+    def test_binary_files_keep_their_size(self):
+        for dialect in BINARY_DIALECTS:
+            with self.subTest(dialect):
+                name = self.write_model(dialect)
+                output, _ = self.smooth(name)
+                self.assertEqual(len(self.read(output)), len(self.read(name)))
+                self.assertNotEqual(self.read(output), self.read(name))
+
+    def test_every_dialect_of_one_model_gives_the_same_places(self):
+        # Gmsh writes 16 digits as text, which is not always all of a number.
+        for dialects in (("msh41", "msh40", "msh22"), ("msh41_binary", "msh22_binary")):
+            hashes = {dialect: self.smooth(self.write_model(dialect))[1]["coordinates_hash"] for dialect in dialects}
+            self.assertEqual(len(set(hashes.values())), 1, hashes)
+
+
+class OpenedByGmsh(GmshTest):
+    """Judged by what Gmsh's own reader finds in both files."""
+
+    def open_both(self, name, output):
+        found = []
+        for path in (name, output):
+            gmsh_model.open_file(self.path(path))
+            found.append((gmsh_model.everything_but_points(), gmsh_model.points()))
+        (known, before), (known_after, after) = found
+        self.assertEqual(known_after, known)
+        self.assertEqual(after.keys(), before.keys())
+        return before, after
+
+    def assert_only_inner_nodes_moved(self, name, before, after):
+        gmsh_model.open_file(self.path(name))
+        inner = {int(tag) for _, surface in gmsh.model.getEntities(2) for tag in gmsh.model.mesh.getNodes(2, surface)[0]}
+        moved = {tag for tag in before if before[tag] != after[tag]}
+        self.assertGreater(len(moved), 100)
+        self.assertLessEqual(moved, inner)
+
+    def test_groups_names_elements_and_periods_are_in_place(self):
+        for dialect in MSH:
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    name = self.write_model(dialect, **model)
+                    output, _ = self.smooth(name)
+                    before, after = self.open_both(name, output)
+                    self.assertEqual({name for name, _ in gmsh_model.everything_but_points()["groups"].values()},
+                                     set(gmsh_model.GROUPS.values()))
+                    if model.get("order", 1) == 1:
+                        self.assert_only_inner_nodes_moved(name, before, after)
+
+    def test_partitions_and_ghosts_are_in_place(self):
+        gmsh_model.build()
+        gmsh.option.setNumber("Mesh.PartitionCreateGhostCells", 1)
+        gmsh.model.mesh.partition(3)
+        for dialect in ("msh41", "msh41_binary", "msh22", "msh22_binary"):
+            with self.subTest(dialect):
+                extension, options = EVERY_DIALECT[dialect]
+                gmsh_model.build()
+                gmsh.option.setNumber("Mesh.PartitionCreateGhostCells", 1)
+                gmsh.model.mesh.partition(3)
+                gmsh_model.write(self.path("parts" + extension), **options)
+                output, _ = self.smooth("parts" + extension)
+                before, after = self.open_both("parts" + extension, output)
+                self.assertNotEqual(before, after)
+
+    def test_parametric_nodes_are_where_their_parameters_say(self):
+        for dialect in ("msh41", "msh41_binary"):
+            with self.subTest(dialect):
+                extension, options = EVERY_DIALECT[dialect]
+                gmsh_model.build()
+                # Nodes of setNode() have no parameters: mesh anew.
+                gmsh.model.mesh.clear()
+                gmsh.model.mesh.generate(2)
+                gmsh_model.write(self.path("uv" + extension), SaveParametric=1, **options)
+                output, _ = self.smooth("uv" + extension)
+                gmsh_model.open_file(self.path("uv" + extension))
+                before, places = gmsh_model.parameters(), gmsh_model.points()
+                gmsh_model.open_file(self.path(output))
+                after, moved = gmsh_model.parameters(), gmsh_model.points()
+                self.assertEqual(after.keys(), before.keys())
+                # Gmsh's parameters of a plane surface are its x and y, but for a shift and a turn: lengths agree.
+                tags = [tag for tag in after if moved[tag] != places[tag]]
+                self.assertGreater(len(tags), 50)
+                for tag in tags:
+                    way = [q - p for p, q in zip(places[tag][:2], moved[tag][:2])]
+                    parameters = [q - p for p, q in zip(before[tag], after[tag])]
+                    self.assertAlmostEqual(way[0]**2 + way[1]**2, parameters[0]**2 + parameters[1]**2, delta=1e-12)
+
+    def test_views_are_kept(self):
+        name = self.write_model("msh41")
+        tags = list(map(int, gmsh.model.mesh.getNodes()[0]))
+        view = gmsh.view.add("temperature")
+        gmsh.view.addModelData(view, 0, "channel", "NodeData", tags, [[float(tag)] for tag in tags])
+        gmsh.option.setNumber("PostProcessing.SaveMesh", 0)
+        gmsh.view.write(view, self.path(name), append=True)
+        output, _ = self.smooth(name)
+        self.open_both(name, output)
+        gmsh_model.open_file(self.path(output))
+        _, again, values, _, _ = gmsh.view.getModelData(gmsh.view.getTags()[0], 0)
+        self.assertEqual([(int(tag), value[0]) for tag, value in zip(again, values)], [(tag, float(tag)) for tag in tags])
+
+
+class OtherFormatsBecomeMsh(GmshTest):
+
+    def test_groups_and_names_reach_gmsh(self):
+        # What each format keeps of the groups: those of points are in none but MSH.
+        for dialect, dimensions in {"msh22": (1, 2), "su2": (1,), "inp": (1, 2)}.items():
+            with self.subTest(dialect):
+                name = self.write_model(dialect)
+                expected = {key: cells for key, cells in gmsh_model.group_cells().items() if key[0] in dimensions}
+                if dialect == "inp":
+                    # Gmsh leaves no blanks in them.
+                    expected = {(key[0], key[1].replace(" ", "_")): cells for key, cells in expected.items()}
+                held = self.hold_everything(self.report("quality", name)["input"]["vertices"])
+                self.run_tool("smooth", name, "converted.msh", *held)
+                gmsh_model.open_file(self.path("converted.msh"))
+                found = gmsh_model.group_cells()
+                # An input file has a set for each entity as well.
+                self.assertLessEqual(set(expected), set(found))
+                for key, cells in expected.items():
+                    self.assertEqual(len(found[key]), len(cells), key)
+
+
+if __name__ == "__main__":
+    tool.main()

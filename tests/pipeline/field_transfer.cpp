@@ -1,0 +1,68 @@
+#include "trismooth/pipeline/fields/field_transfer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+
+#include "catch.h"
+#include "support/dice.h"
+#include "support/test_meshes.h"
+
+using trismooth::DataArray;
+using trismooth::interpolated;
+using trismooth::interpolated_value;
+using trismooth::make_data_array;
+using trismooth::MeshPlace;
+using trismooth::Triangle;
+using trismooth::Workers;
+
+namespace field_transfer_test {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST_CASE("a value never leaves the range of the corners, and is theirs at a corner") {
+  test_meshes::Random dice(3);
+  for (int round = 0; round < 10000; ++round) {
+    const std::array<double, 3> corners{dice.between(0, 1), dice.between(0, 1) * 1e-3,
+                                        round % 2 == 0 ? dice.between(0, 1) : 0.1};
+    double u = dice.between(0, 1);
+    double v = dice.between(0, 1) * (1 - u);
+    const double value = interpolated_value(corners, {u, v, 1 - u - v});
+    CHECK(value >= *std::ranges::min_element(corners));
+    CHECK(value <= *std::ranges::max_element(corners));
+    CHECK(interpolated_value({0.1, 0.1, 0.1}, {u, v, 1 - u - v}) == 0.1);
+  }
+  CHECK(interpolated_value({1, 0.1, 3}, {0, 1, 0}) == 0.1);
+  const double largest = std::numeric_limits<double>::max();
+  CHECK(interpolated_value({largest, largest, largest}, {0.4, 0.3, 0.30000000000000004}) == largest);
+}
+
+TEST_CASE("what is no number stays where it is") {
+  CHECK(interpolated_value({nan, 2, 4}, {0, 0.5, 0.5}) == 3);
+  CHECK(std::isnan(interpolated_value({nan, 2, 4}, {0.1, 0.4, 0.5})));
+  CHECK(interpolated_value({infinity, 2, 4}, {0, 0.5, 0.5}) == 3);
+  CHECK(interpolated_value({infinity, 2, 4}, {0.5, 0.5, 0}) == infinity);
+}
+
+TEST_CASE("each component is alone, others keep their bits, and float32 stays float32") {
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}};
+  const std::vector<std::int32_t> vertices{3, 0, 1};
+  const std::vector<MeshPlace> places{{0, {0.5, 0.25, 0.25}}, {1, {0, 0, 1}}, {}};
+  Workers workers(1);
+  const DataArray wind = make_data_array("wind", 2, std::vector<float>{1, 10, 2, 20, 0.1F, 40, 8, 80});
+  const DataArray result = interpolated(wind, triangles, vertices, places, workers);
+  CHECK(result.name == "wind");
+  CHECK(result.type == trismooth::ScalarType::float32);
+  const auto values = result.as<float>();
+  CHECK(std::vector<float>(values.begin(), values.end()) ==
+        std::vector<float>{0.1F, 40, 2, 20, 0.1F, 40, static_cast<float>(1.0 + static_cast<double>(0.1F) / 4), 20});
+  CHECK(wind.as<float>()[0] == 1);
+}
+
+}  // namespace field_transfer_test

@@ -1,0 +1,156 @@
+#include "trismooth/pipeline/moving_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/pipeline.h"
+
+#include "catch.h"
+#include "support/scratch_folder.h"
+#include "support/test_meshes.h"
+
+using trismooth::DataArray;
+using trismooth::Fields;
+using trismooth::InterpolatedField;
+using trismooth::make_data_array;
+using trismooth::MeshDocument;
+using trismooth::PipelineOptions;
+using trismooth::PipelineResult;
+using trismooth::read_mesh;
+using trismooth::run_pipeline;
+using trismooth::write_mesh;
+
+namespace moving_fields_test {
+
+double plane(double x, double y) {
+  return 3 * x - 7 * y + 2;
+}
+
+/// A mesh with a linear field, a vector of two, whole numbers, and a field that no plane is.
+MeshDocument sample() {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(25, 25, 0.4, 5);
+  MeshDocument document;
+  std::vector<double> heat;
+  std::vector<float> wind;
+  std::vector<std::int32_t> id;
+  std::vector<double> wave;
+  for (const auto& [x, y] : mesh.points) {
+    document.points.insert(document.points.end(), {x, y, 0});
+    heat.push_back(plane(x, y));
+    wind.insert(wind.end(), {static_cast<float>(x), static_cast<float>(-y)});
+    id.push_back(static_cast<std::int32_t>(id.size()));
+    wave.push_back(std::sin(20 * x) * std::cos(20 * y));
+  }
+  for (const auto& triangle : mesh.triangles) {
+    document.cells.append(trismooth::cell_type::triangle, triangle);
+  }
+  document.point_arrays = {make_data_array("heat", 1, heat), make_data_array("wind", 2, wind),
+                           make_data_array("id", 1, id), make_data_array("wave", 1, wave)};
+  return document;
+}
+
+struct Run {
+  ScratchFolder folder;
+  PipelineOptions options;
+
+  explicit Run(const std::string& input, const std::string& output) {
+    options.input = folder / input;
+    options.output = folder / output;
+    write_mesh(options.input, sample());
+  }
+  PipelineResult run() const { return run_pipeline(options); }
+  MeshDocument output() const { return read_mesh(*options.output); }
+  MeshDocument input() const { return read_mesh(options.input); }
+};
+
+bool same_values(const DataArray& a, const DataArray& b) {
+  return std::ranges::equal(a.bytes, b.bytes);
+}
+
+void check_linear(const MeshDocument& document) {
+  const DataArray& heat = *find_array(document.point_arrays, "heat");
+  for (std::size_t v = 0; v < document.point_count(); ++v) {
+    CHECK(std::abs(heat.value(v) - plane(document.points[3 * v], document.points[3 * v + 1])) < 1e-13);
+  }
+}
+
+TEST_CASE("a linear field is the same function of the place after the smoothing, in every format that has fields") {
+  for (const char* const name : {"m.vtk", "m.vtu", "m.vtp", "m.ply"}) {
+    if (!is_available(*trismooth::format_of(name))) {
+      continue;
+    }
+    INFO(name);
+    Run run(name, std::string("out-") + name);
+    run.options.fields = Fields::interpolate;
+    const PipelineResult result = run.run();
+    CHECK(result.smoothing->moved_vertices > 300);
+    const std::int64_t moved = result.smoothing->moved_vertices;
+    if (std::string(name) == "m.ply") {
+      CHECK(result.fields.size() == 4);  // PLY has a property for each component
+    } else {
+      CHECK(result.fields == std::vector<InterpolatedField>{{"heat", moved}, {"wind", moved}, {"wave", moved}});
+    }
+    CHECK(result.losses.empty());
+    const MeshDocument before = run.input();
+    const MeshDocument after = run.output();
+    check_linear(after);
+    const DataArray& old_wave = *find_array(before.point_arrays, "wave");
+    const DataArray& wave = *find_array(after.point_arrays, "wave");
+    std::int64_t others = 0;
+    for (std::size_t v = 0; v < after.point_count(); ++v) {
+      const bool stayed = std::equal(&after.points[3 * v], &after.points[3 * v] + 3, &before.points[3 * v]);
+      CHECK((!stayed || wave.value(v) == old_wave.value(v)));
+      others += wave.value(v) != old_wave.value(v) ? 1 : 0;
+    }
+    CHECK(others > moved / 2);
+    CHECK(same_values(*find_array(before.point_arrays, "id"), *find_array(after.point_arrays, "id")));
+  }
+}
+
+TEST_CASE("by default fields stay with their vertices, and names choose some") {
+  Run run("m.vtk", "out.vtk");
+  CHECK(run.run().fields.empty());
+  const MeshDocument before = run.input();
+  for (std::size_t i = 0; i < before.point_arrays.size(); ++i) {
+    CHECK(same_values(before.point_arrays[i], run.output().point_arrays[i]));
+  }
+  run.options.field_arrays = {"h*"};
+  CHECK(run.run().fields.size() == 1);
+  check_linear(run.output());
+  CHECK(same_values(before.point_arrays[3], run.output().point_arrays[3]));
+}
+
+TEST_CASE("the result does not depend on the number of threads, nor on whether the file is converted") {
+  Run run("m.vtk", "out.vtk");
+  run.options.fields = Fields::interpolate;
+  run.options.annotate = true;
+  run.run();
+  const std::string one = bytes_of(*run.options.output);
+  run.options.smoothing.threads = 4;
+  run.run();
+  CHECK(bytes_of(*run.options.output) == one);
+  const MeshDocument kept = run.output();
+  run.options.output = run.folder / "out.ply";
+  run.run();
+  CHECK(same_values(*find_array(run.output().point_arrays, "heat"), *find_array(kept.point_arrays, "heat")));
+}
+
+TEST_CASE("annotations are the same with fields that move") {
+  Run run("m.vtk", "out.vtk");
+  run.options.annotate = true;
+  run.run();
+  const MeshDocument kept = run.output();
+  run.options.fields = Fields::interpolate;
+  run.run();
+  const MeshDocument moved = run.output();
+  CHECK(kept.points == moved.points);
+  for (const char* const name : {"trismooth:fixed", "trismooth:displacement"}) {
+    CHECK(same_values(*find_array(kept.point_arrays, name), *find_array(moved.point_arrays, name)));
+  }
+}
+
+}  // namespace moving_fields_test

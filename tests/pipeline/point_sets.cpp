@@ -1,0 +1,137 @@
+#include "trismooth/pipeline/input/point_sets.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "catch.h"
+#include "support/says.h"
+#include "support/scratch_folder.h"
+
+using trismooth::find_held_sets;
+using trismooth::HeldSets;
+using trismooth::MeshDocument;
+using trismooth::NamedSet;
+using trismooth::Triangle;
+
+namespace {
+
+using Numbers = std::vector<std::int32_t>;
+using Bytes = std::vector<std::uint8_t>;
+
+/// A grid of `side` x `side` points, two triangles a cell; row by row.
+std::vector<Triangle> grid_triangles(std::int32_t side) {
+  std::vector<Triangle> triangles;
+  for (std::int32_t y = 0; y + 1 < side; ++y) {
+    for (std::int32_t x = 0; x + 1 < side; ++x) {
+      const std::int32_t a = y * side + x;
+      triangles.push_back({a, a + 1, a + side + 1});
+      triangles.push_back({a, a + side + 1, a + side});
+    }
+  }
+  return triangles;
+}
+
+MeshDocument with_sets(std::int32_t side, std::vector<NamedSet> sets) {
+  MeshDocument document;
+  document.points.assign(static_cast<std::size_t>(3 * side * side), 0.0);
+  document.point_sets = std::move(sets);
+  return document;
+}
+
+Numbers all_of(std::int32_t count) {
+  Numbers numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("sets of points hold their vertices; one of a whole part holds nothing and is named") {
+  const auto triangles = grid_triangles(4);
+  const MeshDocument document = with_sets(4, {{"Corners", {3, 0, 15, 12, 0}}, {"NALL", all_of(16)}, {"EMPTY", {}}});
+  const HeldSets held = find_held_sets(document, triangles);
+  REQUIRE(held.sets.size() == 3);
+  CHECK(held.sets[0].name == "Corners");
+  CHECK(held.sets[0].vertices == 4);
+  CHECK(held.sets[0].holds);
+  CHECK_FALSE(held.sets[0].is_area);
+  CHECK(held.sets[1].vertices == 16);
+  CHECK(held.sets[1].is_area);
+  CHECK_FALSE(held.sets[1].holds);
+  CHECK(held.sets[2].vertices == 0);
+  CHECK_FALSE(held.sets[2].holds);
+  CHECK(held.flags == Bytes{1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1});
+  REQUIRE(held.notes.size() == 1);
+  CHECK(says(held.notes[0], "'NALL'; --fixed-set NALL holds"));
+}
+
+TEST_CASE("an area is what has all neighbours of a vertex inside the mesh") {
+  const auto triangles = grid_triangles(5);
+  const auto is_area = [&](const Numbers& members) {
+    return find_held_sets(with_sets(5, {{"set", members}}), triangles).sets[0].is_area;
+  };
+  CHECK(is_area({6, 5, 7, 1, 11, 0, 12}));               // a vertex and its six neighbours
+  CHECK_FALSE(is_area({6, 5, 7, 1, 11, 0}));             // one neighbour is missing
+  CHECK_FALSE(is_area({0, 1, 2, 3, 4, 5, 6}));           // two rows of the boundary
+  CHECK_FALSE(is_area({0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));  // the strip along it: all its vertices inside have others
+  CHECK(is_area({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}));
+  CHECK_FALSE(is_area({6, 7, 8, 11, 13, 16, 17, 18}));  // a closed line
+}
+
+TEST_CASE("a vertex on the boundary, or with triangles twice, is not inside") {
+  const MeshDocument document = with_sets(3, {{"fan", {0, 1, 2, 3}}});
+  CHECK(find_held_sets(document, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}).sets[0].is_area);
+  CHECK_FALSE(find_held_sets(document, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}).sets[0].is_area);
+  CHECK_FALSE(find_held_sets(document, std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}, {0, 1, 2}}).sets[0].is_area);
+}
+
+TEST_CASE("sets that are named are taken, areas too, and no other") {
+  const auto triangles = grid_triangles(4);
+  const MeshDocument document = with_sets(4, {{"Corners", {0}}, {"N ALL", all_of(16)}, {"left", {4}}});
+  const auto held = [&](std::vector<std::string> names) { return find_held_sets(document, triangles, names); };
+  CHECK(std::ranges::count(held({"n_all"}).flags, 1) == 16);
+  CHECK(held({"n_all"}).notes.empty());
+  CHECK(std::ranges::count(held({"left", "Corners"}).flags, 1) == 2);
+  CHECK(held({"none"}).flags.empty());
+  CHECK(held({"none"}).sets.size() == 3);
+  CHECK_FALSE(held({"none"}).sets[0].holds);
+  CHECK(message_of<std::invalid_argument>([&] { held({"right"}); }) ==
+        "the file has no point set 'right' to hold; it has: Corners, N ALL, left");
+  CHECK_THROWS_AS(held({"none", "left"}), std::invalid_argument);
+  CHECK(says(message_of<std::invalid_argument>(
+                 [&] { find_held_sets(with_sets(4, {}), triangles, std::vector<std::string>{"left"}); }),
+             "it has: none"));
+  CHECK(find_held_sets(with_sets(4, {}), triangles, std::vector<std::string>{"none"}).sets.empty());
+}
+
+TEST_CASE("many sets of one large fan are judged in the time of their members") {
+  constexpr std::int32_t rim = 60'000;
+  std::vector<Triangle> triangles;
+  for (std::int32_t v = 1; v <= rim; ++v) {
+    triangles.push_back({0, v, v == rim ? 1 : v + 1});
+  }
+  std::vector<NamedSet> sets;
+  for (std::int32_t s = 0; s < 60'000; ++s) {
+    sets.push_back({"s" + std::to_string(s), {0, 1, 2, s}});
+  }
+  sets.push_back({"all", all_of(rim + 1)});
+  MeshDocument document = with_sets(1, std::move(sets));
+  document.points.assign(3 * (rim + 1), 0.0);
+  const HeldSets held = find_held_sets(document, triangles);
+  CHECK(std::ranges::count_if(held.sets, [](const auto& set) { return set.is_area; }) == 1);
+  CHECK(held.sets.back().is_area);
+}
+
+TEST_CASE("cell sets are counted") {
+  MeshDocument document;
+  document.cell_sets = {{"EALL", {2, 1, 0, 1}}, {"none", {}}};
+  const auto sets = trismooth::summarise_cell_sets(document);
+  REQUIRE(sets.size() == 2);
+  CHECK(sets[0].name == "EALL");
+  CHECK(sets[0].cells == 3);
+  CHECK(sets[1].cells == 0);
+}

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "support/accepted_files.h"
+
+namespace accepted_files {
+
+/// Adds files of the formats of coasts and rivers: ADCIRC.
+void add_ocean_files(std::vector<AcceptedFile>& files);
+
+}  // namespace accepted_files
