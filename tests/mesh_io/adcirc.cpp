@@ -7,21 +7,19 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
-#include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::FileFormat;
-using trismooth::find_array;
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
 using trismooth::NamedSet;
-using trismooth::read_mesh;
-using trismooth::ReadError;
 using trismooth::what_is_lost;
-using trismooth::write_mesh;
 
 namespace cell_type = trismooth::cell_type;
 
 namespace {
+
+const TextFormat adcirc(".14");
 
 const std::string head = "a bay\n2 4 ! NE NP\n";
 const std::string nodes = "1 0 0 10.5\n2 1.5 0 -2\n3 1 1 3e0\n4 0 1 0\n";
@@ -32,38 +30,16 @@ const std::string boundaries =
     "1\n";
 const std::string bay = head + nodes + elements + boundaries;
 
-MeshDocument read_grid(const std::string& text, const std::string& name = "mesh.14") {
-  const ScratchFolder folder;
-  return read_mesh(folder.write(name, text));
-}
-
-std::string written_as(const MeshDocument& document, const std::string& name = "out.14") {
-  const ScratchFolder folder;
-  write_mesh(folder / name, document);
-  return bytes_of(folder / name);
-}
-
-std::string grid_failure(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read_grid(text); });
-  const std::size_t name = message.find("mesh.14");
-  return name == std::string::npos ? message : message.substr(name);
-}
-
-std::vector<double> depths_of(const MeshDocument& document) {
-  const auto values = find_array(document.point_arrays, "depth")->as<double>();
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 TEST_CASE("ADCIRC: the grid is read with depths, and boundaries as sets of points") {
-  for (const std::string name : {"mesh.14", "fort.14", "mesh.grd", "MESH.GRD"}) {
-    const MeshDocument document = read_grid(bay, name);
+  for (const char* const extension : {".14", ".grd", ".GRD"}) {
+    const MeshDocument document = TextFormat(extension).read(bay);
     CHECK(document.format == FileFormat::adcirc);
     CHECK(document.points == std::vector<double>{0, 0, 0, 1.5, 0, 0, 1, 1, 0, 0, 1, 0});
     CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::triangle, cell_type::triangle});
     CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3});
-    CHECK(depths_of(document) == std::vector<double>{10.5, -2, 3, 0});
+    CHECK(values_of<double>(document.point_arrays, "depth") == std::vector<double>{10.5, -2, 3, 0});
     CHECK(document.arrays_of_places == std::vector<std::string>{"depth"});
     CHECK(document.point_sets == std::vector<NamedSet>{{"open boundary 1", {0, 1}},
                                                        {"land boundary 1 (type 20)", {1, 2}},
@@ -74,7 +50,7 @@ TEST_CASE("ADCIRC: the grid is read with depths, and boundaries as sets of point
 }
 
 TEST_CASE("ADCIRC: the grid is the same however Fortran's input allows it to be laid out") {
-  const MeshDocument plain = read_grid(bay);
+  const MeshDocument plain = adcirc.read(bay);
   for (const std::string& text :
        {replace_all(bay, "\n", "\r\n"), replace_all(bay, "\n", "\r"), "\n" + bay.substr(6),
         bay.substr(0, bay.size() - 1), replace_all(bay, "4 0 1 0", "4,0,1,0"),
@@ -82,22 +58,22 @@ TEST_CASE("ADCIRC: the grid is the same however Fortran's input allows it to be 
         replace_all(bay, "1.5 0 -2\n", " 0.15D+01 0 -2 behind it\n"), replace_all(bay, "\n3 1 1", "\n\n\t3 1 1"),
         replace_all(bay, "3 4 2.5 1 1", "3,4,2.5,1,1"), replace_all(bay, "1\n2\n2 =", "1 x\n 2 2 2 2\n2 =")}) {
     CAPTURE(text);
-    const MeshDocument document = read_grid(text);
+    const MeshDocument document = adcirc.read(text);
     CHECK(document.points == plain.points);
     CHECK(document.cells.connectivity == plain.cells.connectivity);
-    CHECK(depths_of(document) == depths_of(plain));
+    CHECK(values_of<double>(document.point_arrays, "depth") == values_of<double>(plain.point_arrays, "depth"));
     CHECK(document.point_sets == plain.point_sets);
-    CHECK(written_as(document) == text);
+    CHECK(adcirc.written(document) == text);
   }
 }
 
 TEST_CASE("ADCIRC: nodes are known by their numbers, in any order") {
   const std::string text = "\n1 4\n70 0 0 1\n-2 1 0 1\n4000000 1 1 1\n9 0 1 1\n17 4 9 4000000 -2 70\n1\n1\n1 0\n-2\n";
-  const MeshDocument document = read_grid(text);
+  const MeshDocument document = adcirc.read(text);
   CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::quad});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{3, 2, 1, 0});
   CHECK(document.point_sets == std::vector<NamedSet>{{"open boundary 1", {1}}});
-  CHECK(written_as(document) == text);
+  CHECK(adcirc.written(document) == text);
 }
 
 TEST_CASE("ADCIRC: a grid may end behind its elements or any of its lists of boundaries, or go on with other text") {
@@ -114,23 +90,24 @@ TEST_CASE("ADCIRC: a grid may end behind its elements or any of its lists of bou
                                {"0\n0\n0\n0\n1 2 3 proj", 0, "boundaries"}}) {
     CAPTURE(ending.text);
     const std::string text = head + nodes + elements + ending.text;
-    const MeshDocument document = read_grid(text);
+    const MeshDocument document = adcirc.read(text);
     CHECK(document.cells.size() == 2);
     CHECK(document.point_sets.size() == ending.sets);
     CHECK(document.notes.size() == (ending.note.empty() ? 0U : 1U));
     CHECK((ending.note.empty() || document.notes.front() == "The file goes on after its " + ending.note +
                                                                 "; what stands there is kept in ADCIRC output only."));
-    CHECK(written_as(document) == text);
+    CHECK(adcirc.written(document) == text);
   }
 }
 
 TEST_CASE("ADCIRC: only numbers of what changed are written, also depths") {
-  MeshDocument document = read_grid(replace_all(bay, "1.5 0 -2", " 0.150D+01  0.0   -2.00"));
+  MeshDocument document = adcirc.read(replace_all(bay, "1.5 0 -2", " 0.150D+01  0.0   -2.00"));
   document.points[3] = 1.75;
-  CHECK(written_as(document) == replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.00"));
+  CHECK(adcirc.written(document) == replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.00"));
   REQUIRE(document.original->keeps_values_of("depth"));
   document.point_arrays[0] = make_data_array("depth", 1, std::vector<double>{10.5, -2.5, 3, 1});
-  CHECK(written_as(document) == replace_all(replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.5"), "4 0 1 0", "4 0 1 1"));
+  CHECK(adcirc.written(document) ==
+        replace_all(replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.5"), "4 0 1 0", "4 0 1 1"));
 }
 
 TEST_CASE("ADCIRC: what is wrong is said with its line") {
@@ -182,7 +159,7 @@ TEST_CASE("ADCIRC: what is wrong is said with its line") {
             "mesh.14:15: expected node 2 of 2 of open boundary 1, got the end of the file"},
        }) {
     CAPTURE(fault.text);
-    CHECK_THAT(grid_failure(fault.text), Catch::Matchers::StartsWith(fault.message));
+    CHECK_THAT(adcirc.failure_of(fault.text), Catch::Matchers::StartsWith(fault.message));
   }
 }
 
@@ -197,7 +174,7 @@ TEST_CASE("ADCIRC: a mesh of another format is written with what the grid holds,
   document.cell_arrays = {make_data_array("region", 1, std::vector<std::int32_t>{1, 2, 3})};
   document.point_sets = {
       {"land boundary 1 (type 20)", {1, 2}}, {"open boundary 1", {0, 1}}, {"weir 2 (type 24)", {2, 3}}, {"inlet", {0}}};
-  const std::string written = written_as(document);
+  const std::string written = adcirc.written(document);
   CHECK(written ==
         "grid\n2 4\n1 0 0 10.5\n2 1.5 0 -2\n3 1 1 3\n4 0 1 0\n1 3 1 2 3\n2 3 1 3 4\n"
         "1 = Number of open boundaries\n2 = Total number of open boundary nodes\n"
@@ -210,9 +187,9 @@ TEST_CASE("ADCIRC: a mesh of another format is written with what the grid holds,
             "ADCIRC holds no point arrays: heat is not written", "ADCIRC holds no cell arrays: region is not written",
             "ADCIRC holds boundaries without heights by their names ('open boundary 1', 'land boundary 1 (type 20)'), "
             "no other sets of points: weir 2 (type 24), inlet are not written"});
-  const MeshDocument again = read_grid(written);
+  const MeshDocument again = adcirc.read(written);
   CHECK(again.points == document.points);
-  CHECK(depths_of(again) == std::vector<double>{10.5, -2, 3, 0});
+  CHECK(values_of<double>(again.point_arrays, "depth") == std::vector<double>{10.5, -2, 3, 0});
   CHECK(again.point_sets == std::vector<NamedSet>{document.point_sets[1], document.point_sets[0]});
 }
 
@@ -224,9 +201,10 @@ TEST_CASE("ADCIRC: depths come from elevations with the other sign, and are 0 wh
   CHECK(lost == std::vector<std::string>{
                     "ADCIRC holds a depth for each point: 0 is written, since there is no point array depth",
                     "ADCIRC runs with boundaries: the mesh names none, and none are written"});
-  CHECK(depths_of(read_grid(written_as(document))) == std::vector<double>{0, 0, 0});
+  CHECK(values_of<double>(adcirc.read(adcirc.written(document)).point_arrays, "depth") == std::vector<double>{0, 0, 0});
   document.point_arrays = {make_data_array("elevation", 1, std::vector<double>{-1.5, 0, 2})};
-  CHECK(depths_of(read_grid(written_as(document))) == std::vector<double>{1.5, 0, -2});
+  CHECK(values_of<double>(adcirc.read(adcirc.written(document)).point_arrays, "depth") ==
+        std::vector<double>{1.5, 0, -2});
   CHECK(what_is_lost(document, FileFormat::adcirc).size() == 1);
   document.points[5] = document.points[2] = document.points[8] = 2.5;
   CHECK(what_is_lost(document, FileFormat::adcirc).front() == "ADCIRC holds x and y only: z, 2.5, is not written");

@@ -11,6 +11,7 @@
 #include "mesh_io/text_template.h"
 #include "support/says.h"
 #include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::FileFormat;
 using trismooth::find_array;
@@ -26,39 +27,14 @@ namespace cell_type = trismooth::cell_type;
 
 namespace {
 
+const TextFormat inp(".inp");
+
 /// A square of two triangles and a node in no element, as a deck of CalculiX.
 const std::string square =
     "** made by hand\n*HEADING\nMy *model, with commas\n*NODE, NSET=Nall\n1, 0., 0.\n2, 1., 0.\n30, 1., 1.\n4, 0., "
     "1.D0\n"
     "*ELEMENT, TYPE=CPS3, ELSET=steel\n1, 1, 2, 30\n*ELEMENT, TYPE=CPE3, ELSET=Copper\n7, 1, 30, 4\n"
     "*MATERIAL, NAME=m\n*ELASTIC\n210000., .3\n*STEP\n*STATIC\n*END STEP\n";
-
-MeshDocument read(const std::string& text) {
-  const ScratchFolder folder;
-  return read_mesh(folder.write("mesh.inp", text));
-}
-
-std::string written(const MeshDocument& document) {
-  const ScratchFolder folder;
-  write_mesh(folder / "out.inp", document);
-  return bytes_of(folder / "out.inp");
-}
-
-/// The message without the folder of the file.
-std::string failure_of(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read(text); });
-  const std::size_t name = message.find("mesh.inp");
-  return name == std::string::npos ? message : message.substr(name);
-}
-
-std::vector<std::int32_t> regions(const MeshDocument& document) {
-  const auto* const array = find_array(document.cell_arrays, "abaqus:elset");
-  if (array == nullptr) {
-    return {};
-  }
-  const auto values = array->as<std::int32_t>();
-  return {values.begin(), values.end()};
-}
 
 std::vector<ValueName> region_names(const MeshDocument& document) {
   return find_array(document.cell_arrays, "abaqus:elset")->description->value_names;
@@ -72,12 +48,12 @@ std::vector<std::int32_t> vertices(const MeshDocument& document, std::size_t cel
 }  // namespace
 
 TEST_CASE("a deck's nodes, elements, sets and names are read in its order") {
-  const MeshDocument document = read(square);
+  const MeshDocument document = inp.read(square);
   CHECK(document.format == FileFormat::inp);
   CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
   CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::triangle, cell_type::triangle});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3});
-  CHECK(regions(document) == std::vector<std::int32_t>{1, 2});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{1, 2});
   CHECK(region_names(document) == std::vector<ValueName>{{1, 2, "steel"}, {2, 2, "Copper"}});
   CHECK(document.point_sets == std::vector<NamedSet>{{"Nall", {0, 1, 2, 3}}});
   CHECK(document.cell_sets.empty());
@@ -88,37 +64,37 @@ TEST_CASE("a deck's nodes, elements, sets and names are read in its order") {
 TEST_CASE("a deck is written back byte by byte, with new numbers where nodes have moved") {
   for (const std::string line_end : {"\n", "\r\n", "\r"}) {
     const std::string text = replace_all(square, "\n", line_end);
-    MeshDocument document = read(text);
-    CHECK(written(document) == text);
+    MeshDocument document = inp.read(text);
+    CHECK(inp.written(document) == text);
     document.points[6] = 0.75;
     document.points[10] = 1.5;
-    CHECK(written(document) == replace_all(replace_all(text, "30, 1., 1.", "30, 0.75, 1."), "1.D0", "1.5"));
+    CHECK(inp.written(document) == replace_all(replace_all(text, "30, 1., 1.", "30, 0.75, 1."), "1.D0", "1.5"));
   }
 }
 
 TEST_CASE("new numbers take 20 characters at most") {
-  MeshDocument document = read(square);
+  MeshDocument document = inp.read(square);
   document.points[6] = -1.2345678901234567e-5;
-  const std::string text = written(document);
+  const std::string text = inp.written(document);
   CHECK(says(text, "30, -1.2345678901235e-05, 1."));
   CHECK(text.size() == square.size() + 18);
 }
 
 TEST_CASE("coordinates that a node line leaves out are 0, and stand there once they are not") {
-  MeshDocument document = read("*NODE\n1\n2, 2.\n3, , 3.\n4, 4., , 5.\n5,,,\n6, 1., 2., 3., 0., 0., 1.\n");
+  MeshDocument document = inp.read("*NODE\n1\n2, 2.\n3, , 3.\n4, 4., , 5.\n5,,,\n6, 1., 2., 3., 0., 0., 1.\n");
   CHECK(document.points == std::vector<double>{0, 0, 0, 2, 0, 0, 0, 3, 0, 4, 0, 5, 0, 0, 0, 1, 2, 3});
   for (std::size_t i = 0; i < document.points.size(); ++i) {
     document.points[i] += 10;
   }
-  CHECK(written(document) ==
+  CHECK(inp.written(document) ==
         "*NODE\n1, 10, 10, 10\n2, 12, 10, 10\n3, 10, 13, 10\n4, 14, 10, 15\n5,10,10,10\n6, 11, 12, 13, 0., 0., 1.\n");
-  MeshDocument one = read("*NODE\n1\n2, 1.\n3, 2.\n");
+  MeshDocument one = inp.read("*NODE\n1\n2, 1.\n3, 2.\n");
   one.points[4] = 0.5;
-  CHECK(written(one) == "*NODE\n1\n2, 1., 0.5\n3, 2.\n");
+  CHECK(inp.written(one) == "*NODE\n1\n2, 1., 0.5\n3, 2.\n");
 }
 
 TEST_CASE("keywords are read whatever their case, blanks and line breaks") {
-  const MeshDocument document = read(
+  const MeshDocument document = inp.read(
       "*Node ,\n nset = \"my nodes\"\n 1 ,0,0\n** a comment\n\n\t2, 1 , 0\n3,0,1\n*element,\ntype = s3r , \n"
       "elset=E 1\n 5,\n1,2,\n3\n*NODE FILE\nU\n*node print, nset=x\nU\n*EL FILE\nS\n");
   CHECK(document.point_count() == 3);
@@ -135,7 +111,7 @@ TEST_CASE("elements of all families are cells of their shape") {
       line += ", " + std::to_string(i);
     }
     CAPTURE(type);
-    const MeshDocument document = read(nodes + "*ELEMENT, TYPE=" + type + "\n" + line + "\n");
+    const MeshDocument document = inp.read(nodes + "*ELEMENT, TYPE=" + type + "\n" + line + "\n");
     CHECK(document.notes.empty());
     return document.cells.types.at(0);
   };
@@ -167,15 +143,15 @@ TEST_CASE("elements of all families are cells of their shape") {
 
 TEST_CASE("the middle node of a curve stands between its ends in the file, behind them in the document") {
   const std::string text = "*NODE\n1,0,0\n2,1,0\n3,2,0\n*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n";
-  const MeshDocument document = read(text);
+  const MeshDocument document = inp.read(text);
   CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 2, 1});
   MeshDocument other = document;
   other.original = nullptr;
-  CHECK(says(written(other), "*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n"));
+  CHECK(says(inp.written(other), "*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n"));
 }
 
 TEST_CASE("elements of types that are not known keep their nodes, and a note says so") {
-  const MeshDocument document = read(
+  const MeshDocument document = inp.read(
       "*USER ELEMENT, NODES=3, TYPE=U7\n1,2\n*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT, TYPE=XYZ\n1, 1, 2,\n3\n2, 3\n"
       "*ELEMENT, TYPE=U7\n3, 1, 2, 3\n");
   CHECK(document.cells.types == std::vector<std::uint8_t>(3, cell_type::poly_vertex));
@@ -186,9 +162,9 @@ TEST_CASE("elements of types that are not known keep their nodes, and a note say
 
 TEST_CASE("sets are ranges, lists and other sets") {
   const MeshDocument document =
-      read(square +
-           "*NSET, NSET=a, GENERATE\n1, 40, 1\n2, 30, 2\n*NSET, NSET=b\n4, A,\n 1\n"
-           "*NSET, NSET=c, ELSET=STEEL\n*ELSET, ELSET=d\nsteel, copper\n*ELSET, ELSET=e\n7\n");
+      inp.read(square +
+               "*NSET, NSET=a, GENERATE\n1, 40, 1\n2, 30, 2\n*NSET, NSET=b\n4, A,\n 1\n"
+               "*NSET, NSET=c, ELSET=STEEL\n*ELSET, ELSET=d\nsteel, copper\n*ELSET, ELSET=e\n7\n");
   REQUIRE(document.point_sets.size() == 4);
   CHECK(document.point_sets[1] == NamedSet{"a", {0, 1, 2, 3, 1, 2, 3}});
   CHECK(document.point_sets[2] == NamedSet{"b", {3, 0, 0, 1, 2, 3, 1, 2, 3}});
@@ -198,34 +174,35 @@ TEST_CASE("sets are ranges, lists and other sets") {
 
 TEST_CASE("members that are not there are told of once, and stay in the file") {
   const std::string text = square + "*NSET, NSET=a\n1, 99, nobody\n";
-  const MeshDocument document = read(text);
+  const MeshDocument document = inp.read(text);
   REQUIRE(document.notes.size() == 1);
   CHECK(says(document.notes[0], "sets name 2 nodes, elements or other sets that are not there"));
-  CHECK(written(document) == text);
+  CHECK(inp.written(document) == text);
 }
 
 TEST_CASE("sections say what the regions are, before names of elements, before sets that do not overlap") {
   const std::string mesh =
       "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT, TYPE=CPS3@\n1,1,2,3\n2,1,3,4\n*ELSET, ELSET=left\n1\n"
       "*ELSET, ELSET=right\n2\n*ELSET, ELSET=both\n1,2\n";
-  const MeshDocument by_sets = read(fill(mesh, {""}));
+  const MeshDocument by_sets = inp.read(fill(mesh, {""}));
   CHECK(region_names(by_sets) == std::vector<ValueName>{{1, 2, "left"}, {2, 2, "right"}});
   CHECK(by_sets.cell_sets == std::vector<NamedSet>{{"both", {0, 1}}});
-  const MeshDocument one_name = read(fill(mesh, {", ELSET=all"}));
+  const MeshDocument one_name = inp.read(fill(mesh, {", ELSET=all"}));
   CHECK(region_names(one_name) == std::vector<ValueName>{{1, 2, "left"}, {2, 2, "right"}});
-  const MeshDocument by_sections = read(fill(mesh, {", ELSET=all"}) + "*SOLID SECTION, ELSET=BOTH, MATERIAL=m\n1.\n");
-  CHECK(regions(by_sections) == std::vector<std::int32_t>{1, 1});
+  const MeshDocument by_sections =
+      inp.read(fill(mesh, {", ELSET=all"}) + "*SOLID SECTION, ELSET=BOTH, MATERIAL=m\n1.\n");
+  CHECK(values_of<std::int32_t>(by_sections.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{1, 1});
   CHECK(region_names(by_sections) == std::vector<ValueName>{{1, 2, "both"}});
   CHECK(by_sections.cell_sets.size() == 3);
   const MeshDocument shells =
-      read(fill(mesh, {""}) + "*Shell Section, elset=Right, material=m\n1.\n*Membrane Section, elset=left\n1.\n");
-  CHECK(regions(shells) == std::vector<std::int32_t>{2, 1});
+      inp.read(fill(mesh, {""}) + "*Shell Section, elset=Right, material=m\n1.\n*Membrane Section, elset=left\n1.\n");
+  CHECK(values_of<std::int32_t>(shells.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{2, 1});
 }
 
 TEST_CASE("nodes that conditions, loads and constraints name by number are sets, which hold them") {
-  const MeshDocument document = read(square +
-                                     "*BOUNDARY\n1, 1, 2\nNall, 3\n*CLOAD\n30, 2, -5.\n*EQUATION\n2\n4,1,1.,2,"
-                                     "1,-1.\n*MPC\nBEAM, 2, 4\n");
+  const MeshDocument document = inp.read(square +
+                                         "*BOUNDARY\n1, 1, 2\nNall, 3\n*CLOAD\n30, 2, -5.\n*EQUATION\n2\n4,1,1.,2,"
+                                         "1,-1.\n*MPC\nBEAM, 2, 4\n");
   CHECK(document.point_sets ==
         std::vector<NamedSet>{
             {"Nall", {0, 1, 2, 3}}, {"*BOUNDARY", {0}}, {"*CLOAD", {2}}, {"*EQUATION", {3, 1}}, {"*MPC", {1, 3}}});
@@ -241,17 +218,17 @@ TEST_CASE("parts, instances and the assembly have labels and names of their own"
       "*Solid Section, elset=Set-1, material=m\n,\n*End Instance\n*Node\n1, 9., 9.\n"
       "*Element, type=CONN2D2\n1, Plate-1.2, 1\n*Nset, nset=ref\n1\n*Nset, nset=_Picked, internal, instance=Plate-1\n"
       "1, 3\n*Nset, nset=many\nPlate-1.Set-1, Plate-1.3, \"Own mesh\".2\n*End Assembly\n";
-  MeshDocument document = read(text);
+  MeshDocument document = inp.read(text);
   CHECK(document.notes.empty());
   CHECK(document.point_count() == 7);
   CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 1, 2});
   CHECK(vertices(document, 1) == std::vector<std::int32_t>{3, 4, 5});
   CHECK(vertices(document, 2) == std::vector<std::int32_t>{1, 6});
   CHECK(region_names(document) == std::vector<ValueName>{{1, 2, "Plate.Set-1"}, {2, 2, "Own mesh.Set-1"}});
-  CHECK(regions(document) == std::vector<std::int32_t>{1, 2, 0});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{1, 2, 0});
   CHECK(document.point_sets ==
         std::vector<NamedSet>{{"Set-1", {1}}, {"ref", {6}}, {"_Picked", {0, 2}}, {"many", {1, 2, 4}}});
-  CHECK(written(document) == text);
+  CHECK(inp.written(document) == text);
 }
 
 TEST_CASE("included files are read, and stand in the place of their line once their nodes move") {
@@ -304,13 +281,14 @@ TEST_CASE("files that include themselves, or files that are not there, are refus
   folder.write("b.inp", "** back\n*INCLUDE, INPUT=a.inp\n");
   CHECK(
       says(message_of<ReadError>([&] { read_mesh(folder / "a.inp"); }), "b.inp:2: the file 'a.inp' is included in it"));
-  CHECK(says(failure_of("*NODE\n*INCLUDE, INPUT=none.inp\n"), "mesh.inp:2: the file 'none.inp' that is included here"));
+  CHECK(says(inp.failure_of("*NODE\n*INCLUDE, INPUT=none.inp\n"),
+             "mesh.inp:2: the file 'none.inp' that is included here"));
 }
 
 TEST_CASE("what is wrong in an input file is said with its line") {
   const auto fails = [](const std::string& text, const std::string& words) {
     CAPTURE(text);
-    CHECK(says(failure_of(text), words));
+    CHECK(says(inp.failure_of(text), words));
   };
   fails("hello\n", "mesh.inp:1: expected a keyword line of Abaqus");
   fails("", "is not an Abaqus mesh: it has no *NODE");
@@ -341,8 +319,8 @@ TEST_CASE("sets of sets that explode are refused") {
     const std::string before = "s" + std::to_string(i - 1);
     text += "*NSET, NSET=s" + std::to_string(i) + "\n" + before + "," + before + "\n";
   }
-  CHECK(says(failure_of(text), "its sets of sets have more members"));
-  CHECK(read("*NODE\n1,0\n2,1\n*NSET, NSET=a, GENERATE\n1, 9000000000000000000, 1\n").point_sets[0].members ==
+  CHECK(says(inp.failure_of(text), "its sets of sets have more members"));
+  CHECK(inp.read("*NODE\n1,0\n2,1\n*NSET, NSET=a, GENERATE\n1, 9000000000000000000, 1\n").point_sets[0].members ==
         std::vector<std::int32_t>{0, 1});
 }
 
@@ -363,7 +341,7 @@ TEST_CASE("a mesh of another format keeps its groups, their names and its sets")
   document.cell_arrays[0].description = description;
   document.cell_arrays.push_back(trismooth::make_data_array<double>("t", 1, {1, 2, 3, 4, 5}));
   document.point_sets = {{"inlet", {0, 3}}};
-  CHECK(written(document) ==
+  CHECK(inp.written(document) ==
         "*HEADING\nwritten by trismooth\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0.1\n"
         "*ELEMENT, TYPE=T3D2\n2, 1, 2\n*ELEMENT, TYPE=CPS3\n3, 1, 2, 3\n4, 1, 3, 4\n*ELSET, ELSET=wall\n2\n"
         "*ELSET, ELSET=copper_part\n3\n*ELSET, ELSET=Wall_1\n4\n*NSET, NSET=corner\n3\n*NSET, NSET=inlet\n1, 4\n");
@@ -373,7 +351,7 @@ TEST_CASE("a mesh of another format keeps its groups, their names and its sets")
             "Abaqus holds no cell arrays: t is not written",
             "Abaqus holds names of letters, digits, _ and - only: changed are copper part (as copper_part), Wall (as "
             "Wall_1)"});
-  const MeshDocument back = read(written(document));
+  const MeshDocument back = inp.read(inp.written(document));
   CHECK(region_names(back) == std::vector<ValueName>{{1, 1, "wall"}, {2, 2, "copper_part"}, {3, 2, "Wall_1"}});
 }
 

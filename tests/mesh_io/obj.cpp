@@ -14,6 +14,7 @@
 #include "catch.h"
 #include "mesh_io/text_template.h"
 #include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::DataArray;
 using trismooth::FileFormat;
@@ -28,27 +29,11 @@ namespace cell_type = trismooth::cell_type;
 
 namespace {
 
+const TextFormat obj(".obj");
+
 const std::string house =
     "v 0 0 0\nv 1 0 0.5\nv 1 1 0\nv 0 1 0\nv 0.5 1.75 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 3 5 4\nl 1 2\nl 1 2 3\np 5\np 1 2\n";
 const std::vector<double> house_points{0, 0, 0, 1, 0, 0.5, 1, 1, 0, 0, 1, 0, 0.5, 1.75, 0};
-
-MeshDocument read(const std::string& text) {
-  const ScratchFolder folder;
-  return read_mesh(folder.write("mesh.obj", text));
-}
-
-std::string written(const MeshDocument& document) {
-  const ScratchFolder folder;
-  write_mesh(folder / "out.obj", document);
-  return bytes_of(folder / "out.obj");
-}
-
-/// The message without the folder of the file.
-std::string failure_of(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read(text); });
-  const std::size_t name = message.find("mesh.obj");
-  return name == std::string::npos ? message : message.substr(name);
-}
 
 void check_house(const MeshDocument& document) {
   CHECK(document.format == FileFormat::obj);
@@ -83,12 +68,12 @@ TEST_CASE("OBJ: the mesh is the same however the file is laid out") {
   const std::string line_end = GENERATE("\n", "\r\n", "\r");
   const std::string file = replace_all(text, "\n", line_end);
   CAPTURE(file);
-  const MeshDocument document = read(file);
+  const MeshDocument document = obj.read(file);
   check_house(document);
   CHECK(document.notes.empty());
   CHECK(document.point_arrays.empty());
   CHECK(document.cell_arrays.empty());
-  CHECK(written(document) == file);
+  CHECK(obj.written(document) == file);
 }
 
 TEST_CASE("OBJ: every form of reference means the same vertex") {
@@ -98,23 +83,23 @@ TEST_CASE("OBJ: every form of reference means the same vertex") {
     return "f " + std::to_string(a) + tail + " " + std::to_string(b) + tail + " " + std::to_string(c) + tail + "\n";
   };
   CAPTURE(tail);
-  const MeshDocument document = read(points + face(1, 3, 5) + face(-5, -3, -1) + "v 9 9 9\n" + face(-6, -4, -2));
+  const MeshDocument document = obj.read(points + face(1, 3, 5) + face(-5, -3, -1) + "v 9 9 9\n" + face(-6, -4, -2));
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 2, 4, 0, 2, 4, 0, 2, 4});
 }
 
 TEST_CASE("OBJ: a reference may run ahead of the vertices, but not beyond the last") {
-  CHECK(read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").cells.connectivity == std::vector<std::int32_t>{0, 1, 2});
-  CHECK(failure_of("v 0 0 0\nf 1 2 3\nf 1 4 5\nf 1 2 5\nv 1 0 0\nv 0 1 0\n") ==
+  CHECK(obj.read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").cells.connectivity == std::vector<std::int32_t>{0, 1, 2});
+  CHECK(obj.failure_of("v 0 0 0\nf 1 2 3\nf 1 4 5\nf 1 2 5\nv 1 0 0\nv 0 1 0\n") ==
         "mesh.obj:3: vertex index 5 is out of range: the file has 3 vertices");
 }
 
 TEST_CASE("OBJ: weights and colours of vertices stay in the file with a note") {
   for (const std::string extra : {" 1", " 0.5 0.25 1", " 1 0.5 0.25 1"}) {
     const std::string text = replace_all(house, "v 1 1 0", "v 1 1 0" + extra);
-    const MeshDocument document = read(text);
+    const MeshDocument document = obj.read(text);
     check_house(document);
     CHECK(document.notes == std::vector<std::string>{"Kept in OBJ output only: vertex colours or weights."});
-    CHECK(written(document) == text);
+    CHECK(obj.written(document) == text);
   }
 }
 
@@ -122,58 +107,59 @@ TEST_CASE("OBJ: materials and groups number the cells") {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl Material #25\nf 1 2 3\ng a  b\nl 1 2\nusemtl other # 1\nf 1 2 3\n"
       "usemtl\tMaterial  \\\n #25 \nf 1 2 3\ng\np 1\ng a b\np 1\n";
-  const MeshDocument document = read(text);
+  const MeshDocument document = obj.read(text);
   CHECK(numbers_of(document, "material") == std::vector<std::int32_t>{-1, 0, 0, 1, 0, 0, 0});
   CHECK(numbers_of(document, "group") == std::vector<std::int32_t>{-1, -1, 0, 0, 0, 1, 0});
-  CHECK(written(document) == text);
-  CHECK(numbers_of(read(house + "usemtl late\n"), "material") == std::vector<std::int32_t>(7, -1));
+  CHECK(obj.written(document) == text);
+  CHECK(numbers_of(obj.read(house + "usemtl late\n"), "material") == std::vector<std::int32_t>(7, -1));
 }
 
 TEST_CASE("OBJ: other statements are kept and named") {
   const std::string text =
       "mtllib a b.mtl\no thing # 1\nvt 0 0\nvn nonsense\ns off\n" + house + "vp 1\ncstype bezier \\\n v 7 7 7\nend\n";
-  const MeshDocument document = read(text);
+  const MeshDocument document = obj.read(text);
   check_house(document);
   CHECK(document.notes == std::vector<std::string>{"Kept in OBJ output only: cstype, end, mtllib, o, s, vn, vp, vt."});
-  CHECK(written(document) == text);
+  CHECK(obj.written(document) == text);
 }
 
 TEST_CASE("OBJ: what breaks the rules is refused with its place") {
   const auto replaced = [](const char* from, const char* to) { return replace_all(house, from, to); };
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 nan 0")) ==
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 nan 0")) ==
         "mesh.obj:3: expected a number of a vertex (a finite number), got 'nan'");
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 1e999 0")).find("mesh.obj:3: ") == 0);
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 abc 0")).find("mesh.obj:3: ") == 0);
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 1")) ==
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 1e999 0")).find("mesh.obj:3: ") == 0);
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 abc 0")).find("mesh.obj:3: ") == 0);
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 1")) ==
         "mesh.obj:3: vertex 3: expected 3 coordinates (and a weight, a colour or both), got 2 numbers");
-  CHECK(failure_of(replaced("v 1 1 0", "v")) ==
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v")) ==
         "mesh.obj:3: vertex 3: expected 3 coordinates (and a weight, a colour or both), got 0 numbers");
-  CHECK(failure_of(replaced("v 1 1 0", "v 1")).find("vertex 3: ") != std::string::npos);
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 1 0 1 1")).find("mesh.obj:3: vertex 3: ") == 0);
-  CHECK(failure_of(replaced("v 1 1 0", "v 1 1 0 1 1 1 1 1")).find("mesh.obj:3: vertex 3: ") == 0);
-  CHECK(failure_of(replaced("f 1 2 3\n", "f 1 2\n")) == "mesh.obj:6: expected 3 or more vertices of a face, got 2");
-  CHECK(failure_of(replaced("f 1 2 3\n", "f\n")) == "mesh.obj:6: expected 3 or more vertices of a face, got 0");
-  CHECK(failure_of(replaced("l 1 2\n", "l 1\n")) == "mesh.obj:9: expected 2 or more vertices of a line, got 1");
-  CHECK(failure_of(replaced("p 5\n", "p\n")) == "mesh.obj:11: expected 1 or more vertices of a point, got 0");
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1")).find("vertex 3: ") != std::string::npos);
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 1 0 1 1")).find("mesh.obj:3: vertex 3: ") == 0);
+  CHECK(obj.failure_of(replaced("v 1 1 0", "v 1 1 0 1 1 1 1 1")).find("mesh.obj:3: vertex 3: ") == 0);
+  CHECK(obj.failure_of(replaced("f 1 2 3\n", "f 1 2\n")) == "mesh.obj:6: expected 3 or more vertices of a face, got 2");
+  CHECK(obj.failure_of(replaced("f 1 2 3\n", "f\n")) == "mesh.obj:6: expected 3 or more vertices of a face, got 0");
+  CHECK(obj.failure_of(replaced("l 1 2\n", "l 1\n")) == "mesh.obj:9: expected 2 or more vertices of a line, got 1");
+  CHECK(obj.failure_of(replaced("p 5\n", "p\n")) == "mesh.obj:11: expected 1 or more vertices of a point, got 0");
   for (const char* index : {"0", "-6", "2147483648", "4294967297", "18446744073709551617", "x", "1.0", "/1", ""}) {
     CAPTURE(index);
-    const std::string message = failure_of(replaced("f 1 2 3\n", ("f 1 2 " + std::string(index) + "/1\n").c_str()));
+    const std::string message = obj.failure_of(replaced("f 1 2 3\n", ("f 1 2 " + std::string(index) + "/1\n").c_str()));
     CHECK(message == "mesh.obj:6: expected a vertex index, got '" + std::string(index) +
                          "/1'; 5 vertices stand before this line, counted from 1");
   }
   for (const char* vertex : {"3/x", "3/1/x", "3/1/1/1", "3///", "3/1.5", "3/4294967296000000000000"}) {
     CAPTURE(vertex);
-    CHECK(failure_of(replaced("f 1 2 3\n", ("f 1 2 " + std::string(vertex) + "\n").c_str())) ==
+    CHECK(obj.failure_of(replaced("f 1 2 3\n", ("f 1 2 " + std::string(vertex) + "\n").c_str())) ==
           "mesh.obj:6: expected a vertex as v, v/vt, v//vn or v/vt/vn with whole numbers, got '" + std::string(vertex) +
               "'");
   }
-  CHECK(failure_of(replaced("f 1 2 3\n", "f 1 2 6\n")) ==
+  CHECK(obj.failure_of(replaced("f 1 2 3\n", "f 1 2 6\n")) ==
         "mesh.obj:6: vertex index 6 is out of range: the file has 5 vertices");
-  CHECK(failure_of(replaced("f 1 2 3\n", "f 1 2\n3\n")).find("mesh.obj:6: ") == 0);
-  CHECK(failure_of(replaced("v 1 1 0\n", "v 1 1 0\n 0 1 0\n")) == "mesh.obj:4: expected a statement of OBJ, got '0'");
-  CHECK(failure_of(std::string("\x7f"
-                               "ELF\x02\0\0",
-                               7)) == "mesh.obj:1: expected a statement of OBJ, got '?ELF??\?'");
+  CHECK(obj.failure_of(replaced("f 1 2 3\n", "f 1 2\n3\n")).find("mesh.obj:6: ") == 0);
+  CHECK(obj.failure_of(replaced("v 1 1 0\n", "v 1 1 0\n 0 1 0\n")) ==
+        "mesh.obj:4: expected a statement of OBJ, got '0'");
+  CHECK(obj.failure_of(std::string("\x7f"
+                                   "ELF\x02\0\0",
+                                   7)) == "mesh.obj:1: expected a statement of OBJ, got '?ELF??\?'");
 }
 
 TEST_CASE("OBJ: a file cut off anywhere is refused or states what its lines state") {
@@ -184,7 +170,7 @@ TEST_CASE("OBJ: a file cut off anywhere is refused or states what its lines stat
   for (std::size_t length = 0; length < file.size(); ++length) {
     const std::string cut = file.substr(0, length);
     try {
-      const MeshDocument document = read(cut);
+      const MeshDocument document = obj.read(cut);
       std::istringstream lines(replace_all(replace_all(cut, "\\\n", " "), "\r", ""));
       std::size_t vertices = 0;
       std::size_t cells = 0;
@@ -194,7 +180,7 @@ TEST_CASE("OBJ: a file cut off anywhere is refused or states what its lines stat
       }
       CHECK(document.point_count() == vertices);
       CHECK(document.cells.size() == cells);
-      CHECK(written(document) == cut);
+      CHECK(obj.written(document) == cut);
     } catch (const ReadError&) {
     }
   }
@@ -211,13 +197,13 @@ TEST_CASE("OBJ: random bytes in a file never do harm") {
       file[at] = random() % 2 == 0 ? likely[random() % likely.size()] : static_cast<char>(random());
     }
     try {
-      const MeshDocument document = read(file);
+      const MeshDocument document = obj.read(file);
       REQUIRE(document.cells.offsets.back() == static_cast<std::int64_t>(document.cells.connectivity.size()));
       for (const std::int32_t vertex : document.cells.connectivity) {
         REQUIRE(vertex >= 0);
         REQUIRE(static_cast<std::size_t>(vertex) < document.point_count());
       }
-      REQUIRE(written(document) == file);
+      REQUIRE(obj.written(document) == file);
     } catch (const ReadError&) {
     }
   }
@@ -244,18 +230,18 @@ TEST_CASE("OBJ: writing back changes the coordinates that changed and no other b
     }
     text += "f 1 2 3\n";
 
-    MeshDocument document = read(fill(text, tokens));
+    MeshDocument document = obj.read(fill(text, tokens));
     REQUIRE(document.points == values);
-    REQUIRE(written(document) == fill(text, tokens));
+    REQUIRE(obj.written(document) == fill(text, tokens));
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (random() % 3 == 0) {
         document.points[i] = std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 200) - 100) + 0.1;
         tokens[i] = document.points[i] == values[i] ? tokens[i] : shortest(document.points[i]);
       }
     }
-    const std::string output = written(document);
+    const std::string output = obj.written(document);
     REQUIRE(output == fill(text, tokens));
-    REQUIRE(read(output).points == document.points);
+    REQUIRE(obj.read(output).points == document.points);
   }
 }
 
@@ -276,25 +262,25 @@ TEST_CASE("OBJ: a mesh from elsewhere is written with its exact coordinates and 
   append(cell_type::poly_vertex, {0, 3});
   document.cell_arrays.push_back(make_data_array("material", 1, std::vector<int>(8)));
 
-  const std::string text = written(document);
+  const std::string text = obj.written(document);
   CHECK(text ==
         "v 0.1 0.3333333333333333 -0\nv 1e+300 5e-324 40000000.25\nv 0 1 2\nv 3 4 5\np 1\nf 1 2 3\nl 1 2\nf 4 3 2 1\n"
         "f 1 2 3\nf 3 2 4\nl 2 3 4\nf 1 2 3 4 2\np 1 4\n");
-  CHECK(read(text).points == document.points);
+  CHECK(obj.read(text).points == document.points);
   CHECK(trismooth::what_is_lost(document, FileFormat::obj) ==
         std::vector<std::string>{"OBJ holds no triangle strips: 1 is written as 2 triangles",
                                  "OBJ holds no cell arrays: material is not written"});
 }
 
 TEST_CASE("OBJ: a mesh of nothing is written as a file that can be read") {
-  CHECK(written({}) == "# no vertices\n");
-  CHECK(read(written({})).points.empty());
+  CHECK(obj.written({}) == "# no vertices\n");
+  CHECK(obj.read(obj.written({})).points.empty());
 }
 
 TEST_CASE("OBJ: what OFF holds survives the way there and back") {
   const ScratchFolder folder;
   const std::string faces = house.substr(0, house.find("l 1"));
-  const MeshDocument document = read(faces);
+  const MeshDocument document = obj.read(faces);
   write_mesh(folder / "mesh.off", document);
   const MeshDocument as_off = read_mesh(folder / "mesh.off");
   CHECK(as_off.points == document.points);

@@ -14,41 +14,23 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
-#include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::DataArray;
 using trismooth::FileFormat;
 using trismooth::find_array;
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
-using trismooth::read_mesh;
 using trismooth::ReadError;
-using trismooth::write_mesh;
 
 namespace cell_type = trismooth::cell_type;
 
 namespace {
 
+const TextFormat off(".off");
+
 const std::string house = "OFF\n5 3 0\n0 0 0\n1 0 0.5\n1 1 0\n0 1 0\n0.5 1.75 0\n3 0 1 2\n4 0 1 2 3\n5 0 1 2 4 3\n";
 const std::vector<double> house_points{0, 0, 0, 1, 0, 0.5, 1, 1, 0, 0, 1, 0, 0.5, 1.75, 0};
-
-MeshDocument read(const std::string& text) {
-  const ScratchFolder folder;
-  return read_mesh(folder.write("mesh.off", text));
-}
-
-std::string written(const MeshDocument& document) {
-  const ScratchFolder folder;
-  write_mesh(folder / "out.off", document);
-  return bytes_of(folder / "out.off");
-}
-
-/// The message without the folder of the file.
-std::string failure_of(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read(text); });
-  const std::size_t name = message.find("mesh.off");
-  return name == std::string::npos ? message : message.substr(name);
-}
 
 void check_house(const MeshDocument& document) {
   CHECK(document.format == FileFormat::off);
@@ -58,15 +40,6 @@ void check_house(const MeshDocument& document) {
   CHECK(document.cells.offsets == std::vector<std::int64_t>{0, 3, 7, 12});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 4, 3});
   CHECK(document.field_arrays.empty());
-}
-
-std::vector<double> values_of(const std::vector<DataArray>& arrays, const std::string& name) {
-  const DataArray* const array = find_array(arrays, name);
-  if (array == nullptr) {
-    return {};
-  }
-  const auto values = array->as<double>();
-  return {values.begin(), values.end()};
 }
 
 }  // namespace
@@ -83,12 +56,12 @@ TEST_CASE("OFF: the mesh is the same however the file is laid out") {
   const std::string line_end = GENERATE("\n", "\r\n", "\r");
   const std::string file = replace_all(text, "\n", line_end);
   CAPTURE(file);
-  const MeshDocument document = read(file);
+  const MeshDocument document = off.read(file);
   check_house(document);
   CHECK(document.notes.empty());
   CHECK(document.point_arrays.empty());
   CHECK(document.cell_arrays.empty());
-  CHECK(written(document) == file);
+  CHECK(off.written(document) == file);
 }
 
 TEST_CASE("OFF: the keyword says which numbers follow the coordinates") {
@@ -129,154 +102,160 @@ TEST_CASE("OFF: the keyword says which numbers follow the coordinates") {
   }
   text += house.substr(house.find("3 0 1 2"));
 
-  const MeshDocument document = read(text);
+  const MeshDocument document = off.read(text);
   check_house(document);
-  CHECK(values_of(document.point_arrays, "normals") == normal_values);
-  CHECK(values_of(document.point_arrays, "colours") == colour_values);
-  CHECK(values_of(document.point_arrays, "texture_coordinates") == texture_values);
+  CHECK(values_of<double>(document.point_arrays, "normals") == normal_values);
+  CHECK(values_of<double>(document.point_arrays, "colours") == colour_values);
+  CHECK(values_of<double>(document.point_arrays, "texture_coordinates") == texture_values);
   for (const DataArray& array : document.point_arrays) {
     CHECK(array.rows() == 5);
   }
   CHECK(document.notes.empty());
-  CHECK(written(document) == text);
+  CHECK(off.written(document) == text);
 }
 
 TEST_CASE("OFF: face colours of one kind are a cell array, others stay in the file with a note") {
   const auto with_colours = [](const std::string& first, const std::string& second) {
     return "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " + first + "\n3 2 1 0 " + second + "\n";
   };
-  CHECK(values_of(read(with_colours("7", "8")).cell_arrays, "colours") == std::vector<double>{7, 8});
-  CHECK(values_of(read(with_colours("1 2 3", "4 5 6")).cell_arrays, "colours") ==
+  CHECK(values_of<double>(off.read(with_colours("7", "8")).cell_arrays, "colours") == std::vector<double>{7, 8});
+  CHECK(values_of<double>(off.read(with_colours("1 2 3", "4 5 6")).cell_arrays, "colours") ==
         std::vector<double>{1, 2, 3, 4, 5, 6});
-  const MeshDocument rgba = read(with_colours("0.5 .25 1. 1", "0 0 0 1 # c"));
-  CHECK(values_of(rgba.cell_arrays, "colours") == std::vector<double>{0.5, 0.25, 1, 1, 0, 0, 0, 1});
+  const MeshDocument rgba = off.read(with_colours("0.5 .25 1. 1", "0 0 0 1 # c"));
+  CHECK(values_of<double>(rgba.cell_arrays, "colours") == std::vector<double>{0.5, 0.25, 1, 1, 0, 0, 0, 1});
   CHECK(rgba.notes.empty());
   for (const std::string second : {"", "1", "1 2 3 4"}) {
     const std::string text = with_colours("1 2 3", second);
-    const MeshDocument mixed = read(text);
+    const MeshDocument mixed = off.read(text);
     CHECK(mixed.cells.size() == 2);
     CHECK(mixed.cell_arrays.empty());
     CHECK(mixed.notes.size() == 1);
-    CHECK(written(mixed) == text);
+    CHECK(off.written(mixed) == text);
   }
-  CHECK(failure_of(with_colours("1 2", "")) ==
+  CHECK(off.failure_of(with_colours("1 2", "")) ==
         "mesh.off:6: face 1 of 2: expected 0, 1, 3 or 4 colour numbers after the vertices, got 2");
-  CHECK_FALSE(failure_of(with_colours("", "1 2 3 4 5")).empty());
-  CHECK_FALSE(failure_of(with_colours("", "red")).empty());
+  CHECK_FALSE(off.failure_of(with_colours("", "1 2 3 4 5")).empty());
+  CHECK_FALSE(off.failure_of(with_colours("", "red")).empty());
 }
 
 TEST_CASE("OFF: vertex colours of three and four numbers may be mixed, with a note") {
-  const MeshDocument document = read("COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 1 2 3 4\n0 1 0 1 2 3\n3 0 1 2\n");
+  const MeshDocument document = off.read("COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 1 2 3 4\n0 1 0 1 2 3\n3 0 1 2\n");
   CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0});
   CHECK(document.point_arrays.empty());
   CHECK(document.notes.size() == 1);
 }
 
 TEST_CASE("OFF: a mesh without faces or without anything is a mesh") {
-  CHECK(read("OFF\n0 0 0\n").point_count() == 0);
-  CHECK(read("0 0").cells.size() == 0);
-  CHECK(read("OFF 1 0 0\n0 0 0").point_count() == 1);
+  CHECK(off.read("OFF\n0 0 0\n").point_count() == 0);
+  CHECK(off.read("0 0").cells.size() == 0);
+  CHECK(off.read("OFF 1 0 0\n0 0 0").point_count() == 1);
 }
 
 TEST_CASE("OFF: what breaks the rules is refused with its place") {
   const auto replaced = [](const char* from, const char* to) { return replace_all(house, from, to); };
-  CHECK(failure_of("") == "mesh.off:1: expected the keyword OFF or the number of vertices, got the end of the file");
-  CHECK(failure_of("ply\n") ==
+  CHECK(off.failure_of("") ==
+        "mesh.off:1: expected the keyword OFF or the number of vertices, got the end of the file");
+  CHECK(off.failure_of("ply\n") ==
         "mesh.off:1: is not an OFF file: expected the keyword OFF or the number of vertices, got 'ply'");
-  CHECK(failure_of("OFF\n") == "mesh.off:2: expected the number of vertices, got the end of the file");
-  CHECK(failure_of("OFF\n5\n") == "mesh.off:3: expected the number of faces, got the end of the file");
-  CHECK(failure_of(replaced("OFF", "4OFF")) == "mesh.off:1: unsupported OFF variant '4OFF'");
-  CHECK(failure_of(replaced("OFF", "nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'nOFF'");
-  CHECK(failure_of(replaced("OFF", "STCN4nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'STCN4nOFF'");
-  CHECK(failure_of(replaced("OFF\n", "OFF BINARY ")) ==
+  CHECK(off.failure_of("OFF\n") == "mesh.off:2: expected the number of vertices, got the end of the file");
+  CHECK(off.failure_of("OFF\n5\n") == "mesh.off:3: expected the number of faces, got the end of the file");
+  CHECK(off.failure_of(replaced("OFF", "4OFF")) == "mesh.off:1: unsupported OFF variant '4OFF'");
+  CHECK(off.failure_of(replaced("OFF", "nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'nOFF'");
+  CHECK(off.failure_of(replaced("OFF", "STCN4nOFF\n3")) == "mesh.off:1: unsupported OFF variant 'STCN4nOFF'");
+  CHECK(off.failure_of(replaced("OFF\n", "OFF BINARY ")) ==
         "mesh.off:1: expected the end of the line after BINARY, got '5'");
-  CHECK(failure_of(replaced("5 3 0", "-5 3 0")) ==
+  CHECK(off.failure_of(replaced("5 3 0", "-5 3 0")) ==
         "mesh.off:2: expected the number of vertices from 0 to 2147483647, got '-5'");
-  CHECK(failure_of(replaced("5 3 0", "4294967301 3 0")) ==
+  CHECK(off.failure_of(replaced("5 3 0", "4294967301 3 0")) ==
         "mesh.off:2: expected the number of vertices from 0 to 2147483647, got '4294967301'");
-  CHECK(failure_of(replaced("5 3 0", "5 4294967299 0")) ==
+  CHECK(off.failure_of(replaced("5 3 0", "5 4294967299 0")) ==
         "mesh.off:2: expected the number of faces from 0 to 2147483647, got '4294967299'");
-  CHECK(failure_of(replaced("5 3 0", "2000000000 3 0")).find("declares 2000000000 vertices, but the file has room") !=
+  CHECK(
+      off.failure_of(replaced("5 3 0", "2000000000 3 0")).find("declares 2000000000 vertices, but the file has room") !=
+      std::string::npos);
+  CHECK(off.failure_of(replaced("5 3 0", "5 2000000000 0")).find("declares 2000000000 faces, but the file has room") !=
         std::string::npos);
-  CHECK(failure_of(replaced("5 3 0", "5 2000000000 0")).find("declares 2000000000 faces, but the file has room") !=
-        std::string::npos);
-  CHECK(failure_of(replaced("1 1 0", "1 nan 0")) == "mesh.off:5: expected a coordinate (a finite number), got 'nan'");
-  CHECK(failure_of(replaced("1 1 0", "1 -inf 0")) == "mesh.off:5: expected a coordinate (a finite number), got '-inf'");
-  CHECK(failure_of(replaced("1 1 0", "1 1e999 0")) ==
+  CHECK(off.failure_of(replaced("1 1 0", "1 nan 0")) ==
+        "mesh.off:5: expected a coordinate (a finite number), got 'nan'");
+  CHECK(off.failure_of(replaced("1 1 0", "1 -inf 0")) ==
+        "mesh.off:5: expected a coordinate (a finite number), got '-inf'");
+  CHECK(off.failure_of(replaced("1 1 0", "1 1e999 0")) ==
         "mesh.off:5: expected a coordinate (a finite number), got '1e999'");
-  CHECK(failure_of(replaced("1 1 0", "1 abc 0")) == "mesh.off:5: expected a coordinate (a finite number), got 'abc'");
-  CHECK(failure_of(replaced("1 1 0", "1 1 0 9")) ==
+  CHECK(off.failure_of(replaced("1 1 0", "1 abc 0")) ==
+        "mesh.off:5: expected a coordinate (a finite number), got 'abc'");
+  CHECK(off.failure_of(replaced("1 1 0", "1 1 0 9")) ==
         "mesh.off:5: vertex 3 of 5: OFF has 0, 3 or 4 numbers after the "
         "coordinates, got 1");
-  CHECK(failure_of(replaced("1 1 0", "1 1 0 9 9 9")) ==
+  CHECK(off.failure_of(replaced("1 1 0", "1 1 0 9 9 9")) ==
         "mesh.off:5: vertex 3 of 5: has a colour, but not the vertices before it");
-  CHECK(failure_of(replaced("0 0 0", "0 0 0 1 1 1 1")) ==
+  CHECK(off.failure_of(replaced("0 0 0", "0 0 0 1 1 1 1")) ==
         "mesh.off:4: vertex 2 of 5: has no colour, but the vertices before it");
-  CHECK(failure_of(replaced("OFF", "NOFF") + "# " + std::string(100, 'x'))
+  CHECK(off.failure_of(replaced("OFF", "NOFF") + "# " + std::string(100, 'x'))
             .find("vertex 1 of 5: NOFF has 3, 6 or 7 numbers after the coordinates, got none") != std::string::npos);
-  CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 5")) ==
+  CHECK(off.failure_of(replaced("4 0 1 2 3", "4 0 1 2 5")) ==
         "mesh.off:9: face 2 of 3: expected a vertex index, got '5'; the file has 5 vertices, counted from 0");
-  CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 -1")).find("mesh.off:9: face 2 of 3: ") == 0);
-  CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 4294967297")).find("mesh.off:9: face 2 of 3: ") == 0);
-  CHECK(failure_of(replaced("4 0 1 2 3", "4 0 1 2 1.0")).find("mesh.off:9: face 2 of 3: ") == 0);
+  CHECK(off.failure_of(replaced("4 0 1 2 3", "4 0 1 2 -1")).find("mesh.off:9: face 2 of 3: ") == 0);
+  CHECK(off.failure_of(replaced("4 0 1 2 3", "4 0 1 2 4294967297")).find("mesh.off:9: face 2 of 3: ") == 0);
+  CHECK(off.failure_of(replaced("4 0 1 2 3", "4 0 1 2 1.0")).find("mesh.off:9: face 2 of 3: ") == 0);
   for (const std::string degree : {"2", "1", "0", "-3", "x", "18446744073709551619"}) {
-    CHECK(failure_of(replaced("4 0 1 2 3", (degree + " 0 1").c_str())) ==
+    CHECK(off.failure_of(replaced("4 0 1 2 3", (degree + " 0 1").c_str())) ==
           "mesh.off:9: face 2 of 3: expected its number of vertices, 3 or more, got '" + degree + "'");
   }
-  CHECK(failure_of(replaced("4 0 1 2 3", "1000000000 0 1 2 3")).find("face 2 of 3: declares 1000000000 vertices") !=
+  CHECK(off.failure_of(replaced("4 0 1 2 3", "1000000000 0 1 2 3")).find("face 2 of 3: declares 1000000000 vertices") !=
         std::string::npos);
-  CHECK(failure_of(house.substr(0, house.find("5 0 1"))) == "mesh.off:9: expected 3 faces, got 2");
-  CHECK(failure_of("OFF 3 0 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n") == "mesh.off:3: expected 3 vertices, got 2");
-  CHECK(failure_of(replaced("0.5 1.75 0\n3 0 1 2", "")).find("mesh.off:") == 0);
+  CHECK(off.failure_of(house.substr(0, house.find("5 0 1"))) == "mesh.off:9: expected 3 faces, got 2");
+  CHECK(off.failure_of("OFF 3 0 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n") ==
+        "mesh.off:3: expected 3 vertices, got 2");
+  CHECK(off.failure_of(replaced("0.5 1.75 0\n3 0 1 2", "")).find("mesh.off:") == 0);
 }
 
 TEST_CASE("OFF: the keyword may be in lower case, and names the same fields") {
   for (const std::string keyword : {"off", "Off", "oFF"}) {
     CAPTURE(keyword);
     const std::string text = replace_all(house, "OFF", keyword.c_str());
-    const MeshDocument document = read(text);
+    const MeshDocument document = off.read(text);
     check_house(document);
-    CHECK(written(document) == text);
+    CHECK(off.written(document) == text);
   }
   const std::string rows = "\n1 0 0\n0 0 0  0 0 1  10 20 30  0.5 0.25\n";
-  const MeshDocument upper = read("STCNOFF" + rows);
-  const MeshDocument lower = read("stcnoff" + rows);
+  const MeshDocument upper = off.read("STCNOFF" + rows);
+  const MeshDocument lower = off.read("stcnoff" + rows);
   REQUIRE(lower.point_arrays.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     CHECK(lower.point_arrays[i].name == upper.point_arrays[i].name);
     CHECK(std::ranges::equal(lower.point_arrays[i].bytes, upper.point_arrays[i].bytes));
   }
-  CHECK(failure_of("4off" + rows) == "mesh.off:1: unsupported OFF variant '4off'");
-  CHECK(failure_of("offset" + rows).find("is not an OFF file") != std::string::npos);
+  CHECK(off.failure_of("4off" + rows) == "mesh.off:1: unsupported OFF variant '4off'");
+  CHECK(off.failure_of("offset" + rows).find("is not an OFF file") != std::string::npos);
 }
 
 TEST_CASE("OFF: colours need not be declared, and declared ones may be of the faces alone") {
   const std::string rows = "3 1 0\n0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n3 0 1 2\n";
-  const MeshDocument undeclared = read("OFF\n" + rows);
+  const MeshDocument undeclared = off.read("OFF\n" + rows);
   REQUIRE(undeclared.point_arrays.size() == 1);
   CHECK(undeclared.point_arrays[0].name == "colours");
   CHECK(std::ranges::equal(undeclared.point_arrays[0].as<double>(), std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   REQUIRE(undeclared.notes.size() == 1);
   CHECK(undeclared.notes[0].find("OFF declares no colours") != std::string::npos);
-  CHECK(written(undeclared) == "OFF\n" + rows);
+  CHECK(off.written(undeclared) == "OFF\n" + rows);
 
   // OpenMesh writes this where only the faces have colours.
   const std::string of_faces = "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7 8 9\n";
-  const MeshDocument document = read(of_faces);
+  const MeshDocument document = off.read(of_faces);
   CHECK(document.point_arrays.empty());
   CHECK(find_array(document.cell_arrays, "colours") != nullptr);
   CHECK(document.notes.empty());
-  CHECK(written(document) == of_faces);
+  CHECK(off.written(document) == of_faces);
 }
 
 TEST_CASE("OFF: more numbers than the counts declare are refused, other text behind the mesh stays") {
-  CHECK(failure_of(house + "3 0 1 2\n") ==
+  CHECK(off.failure_of(house + "3 0 1 2\n") ==
         "mesh.off:11: expected the end of the file after the declared 5 vertices and 3 faces, got '3'");
   const std::string text = house + "{ appearance } \x1a";
-  const MeshDocument document = read(text);
+  const MeshDocument document = off.read(text);
   check_house(document);
   CHECK(document.notes.size() == 1);
-  CHECK(written(document) == text);
+  CHECK(off.written(document) == text);
 }
 
 TEST_CASE("OFF: a file cut off anywhere is refused or whole") {
@@ -284,11 +263,11 @@ TEST_CASE("OFF: a file cut off anywhere is refused or whole") {
       "NCOFF # c\r\n3 2 1\n0 0 0 1 2 3 0 0 1\n10 0 0 1 2 3 0 0 1\n0 1 0 1 2 3 0 0 1\n"
       "3 0 1 2 9 9 9\n3 2 1 0 # end\n";
   const std::string file = GENERATE_COPY(as<std::string>{}, text, house);
-  const MeshDocument whole = read(file);
+  const MeshDocument whole = off.read(file);
   std::size_t accepted = 0;
   for (std::size_t length = 0; length < file.size(); ++length) {
     try {
-      const MeshDocument document = read(file.substr(0, length));
+      const MeshDocument document = off.read(file.substr(0, length));
       ++accepted;
       CHECK(document.points == whole.points);
       CHECK(document.cells.types == whole.cells.types);
@@ -310,13 +289,13 @@ TEST_CASE("OFF: random bytes in a file never do harm") {
       file[at] = random() % 2 == 0 ? likely[random() % likely.size()] : static_cast<char>(random());
     }
     try {
-      const MeshDocument document = read(file);
+      const MeshDocument document = off.read(file);
       REQUIRE(document.cells.offsets.back() == static_cast<std::int64_t>(document.cells.connectivity.size()));
       for (const std::int32_t vertex : document.cells.connectivity) {
         REQUIRE(vertex >= 0);
         REQUIRE(static_cast<std::size_t>(vertex) < document.point_count());
       }
-      REQUIRE(written(document) == file);
+      REQUIRE(off.written(document) == file);
     } catch (const ReadError&) {
     }
   }
@@ -345,18 +324,18 @@ TEST_CASE("OFF: writing back changes the coordinates that changed and no other b
     }
     text += "3 0 1 2\n";
 
-    MeshDocument document = read(fill(text, tokens));
+    MeshDocument document = off.read(fill(text, tokens));
     REQUIRE(document.points == values);
-    REQUIRE(written(document) == fill(text, tokens));
+    REQUIRE(off.written(document) == fill(text, tokens));
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (random() % 3 == 0) {
         document.points[i] = std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 200) - 100) + 0.1;
         tokens[i] = document.points[i] == values[i] ? tokens[i] : shortest(document.points[i]);
       }
     }
-    const std::string output = written(document);
+    const std::string output = off.written(document);
     REQUIRE(output == fill(text, tokens));
-    REQUIRE(read(output).points == document.points);
+    REQUIRE(off.read(output).points == document.points);
   }
 }
 
@@ -380,10 +359,10 @@ TEST_CASE("OFF: a mesh from elsewhere is written with its exact coordinates and 
   document.cell_arrays.push_back(make_data_array("", 1, std::vector<int>(8)));
   document.field_arrays.push_back(make_data_array("TIME", 1, std::vector<double>{1}));
 
-  const std::string text = written(document);
+  const std::string text = off.written(document);
   CHECK(text.find("OFF\n4 5 0\n0.1 0.3333333333333333 -0\n1e+300 5e-324 40000000.25\n") == 0);
   CHECK(text.substr(text.find("3 4 5\n") + 6) == "3 0 1 2\n4 3 2 1 0\n3 0 1 2\n3 2 1 3\n5 0 1 2 3 1\n");
-  const MeshDocument back = read(text);
+  const MeshDocument back = off.read(text);
   CHECK(back.points == document.points);
   CHECK(back.cells.size() == 5);
 

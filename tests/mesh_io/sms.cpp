@@ -8,22 +8,21 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
-#include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::FileFormat;
 using trismooth::find_array;
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
 using trismooth::NamedSet;
-using trismooth::read_mesh;
-using trismooth::ReadError;
 using trismooth::ValueName;
 using trismooth::what_is_lost;
-using trismooth::write_mesh;
 
 namespace cell_type = trismooth::cell_type;
 
 namespace {
+
+const TextFormat sms(".2dm");
 
 const std::string river =
     "MESH2D\nMESHNAME \"a river\"\nNUM_MATERIALS_PER_ELEM 1\n"
@@ -32,50 +31,23 @@ const std::string river =
     "NS 1 2\nNS -3 12\nNS 4 -5 \"the inlet\"\nNS 1 -2\n"
     "GM \"Mesh # one\"\nMAT 7 \"sand # 1\"\nMAT 9 \"none\"\n";
 
-MeshDocument read_2dm(const std::string& text) {
-  const ScratchFolder folder;
-  return read_mesh(folder.write("mesh.2dm", text));
-}
-
-std::string written_2dm(const MeshDocument& document) {
-  const ScratchFolder folder;
-  write_mesh(folder / "out.2dm", document);
-  return bytes_of(folder / "out.2dm");
-}
-
-std::string failure_of_2dm(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read_2dm(text); });
-  const std::size_t name = message.find("mesh.2dm");
-  return name == std::string::npos ? message : message.substr(name);
-}
-
-std::vector<double> elevations_of(const MeshDocument& document) {
-  const auto values = find_array(document.point_arrays, "elevation")->as<double>();
-  return {values.begin(), values.end()};
-}
-
-std::vector<std::int64_t> materials_of(const MeshDocument& document) {
-  const auto values = find_array(document.cell_arrays, "2dm:material")->as<std::int64_t>();
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 TEST_CASE("2dm: nodes, elements, materials and nodestrings are read, other cards are named") {
-  const MeshDocument document = read_2dm(river);
+  const MeshDocument document = sms.read(river);
   CHECK(document.format == FileFormat::sms);
   CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 2, 0, 0, 1, 0});
   CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::triangle, cell_type::quad, cell_type::line});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 4, 0, 1});
-  CHECK(elevations_of(document) == std::vector<double>{-1.5, 2, 3, 4, 5});
+  CHECK(values_of<double>(document.point_arrays, "elevation") == std::vector<double>{-1.5, 2, 3, 4, 5});
   CHECK(document.arrays_of_places == std::vector<std::string>{"elevation"});
-  CHECK(materials_of(document) == std::vector<std::int64_t>{7, 8, 7});
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "2dm:material") == std::vector<std::int64_t>{7, 8, 7});
   CHECK(find_array(document.cell_arrays, "2dm:material")->description->value_names ==
         std::vector<ValueName>{{7, 1, "sand # 1"}, {7, 2, "sand # 1"}});
   CHECK(document.point_sets ==
         std::vector<NamedSet>{{"nodestring 12", {0, 1, 2}}, {"the inlet", {3, 4}}, {"nodestring 3", {0, 1}}});
   CHECK(document.notes == std::vector<std::string>{"Cards that are kept in 2dm output only: 'GM'."});
-  CHECK(written_2dm(document) == river);
+  CHECK(sms.written(document) == river);
 }
 
 TEST_CASE("2dm: nodes along the sides of an element are corners first in a cell, and go back the same way") {
@@ -84,7 +56,7 @@ TEST_CASE("2dm: nodes along the sides of an element are corners first in a cell,
   for (int i = 1; i < 10; ++i) {
     text += "ND " + std::to_string(i) + " " + std::to_string(i) + " 0 0\n";
   }
-  MeshDocument document = read_2dm(text);
+  MeshDocument document = sms.read(text);
   CHECK(document.cells.types == std::vector<std::uint8_t>{cell_type::quadratic_triangle, cell_type::quadratic_quad,
                                                           cell_type::biquadratic_quad, cell_type::quadratic_edge});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 2, 4, 1, 3, 5,           //
@@ -92,11 +64,11 @@ TEST_CASE("2dm: nodes along the sides of an element are corners first in a cell,
                                                                  0, 2, 4, 6, 1, 3, 5, 7, 8,  //
                                                                  0, 2, 1});
   document.original = nullptr;
-  CHECK(written_2dm(document) == text);
+  CHECK(sms.written(document) == text);
 }
 
 TEST_CASE("2dm: the mesh is the same in any order of cards, with any line ends and with comments") {
-  const MeshDocument plain = read_2dm(river);
+  const MeshDocument plain = sms.read(river);
   const std::size_t nodes = river.find("ND 1");
   const std::size_t strings = river.find("NS 1");
   const std::size_t elements = river.find("E3T");
@@ -108,20 +80,20 @@ TEST_CASE("2dm: the mesh is the same in any order of cards, with any line ends a
         replace_all(river, "ND 2 1 0 2", "# ND 9\nND 2 1 0 2 # the second"),
         replace_all(river, "ND 2 1 0", "ND 2 1.D0 +0")}) {
     CAPTURE(text);
-    const MeshDocument document = read_2dm(text);
+    const MeshDocument document = sms.read(text);
     CHECK(document.points == plain.points);
     CHECK(document.cells.connectivity == plain.cells.connectivity);
     CHECK(document.point_sets == plain.point_sets);
-    CHECK(elevations_of(document) == elevations_of(plain));
-    CHECK(written_2dm(document) == text);
+    CHECK(values_of<double>(document.point_arrays, "elevation") == values_of<double>(plain.point_arrays, "elevation"));
+    CHECK(sms.written(document) == text);
   }
 }
 
 TEST_CASE("2dm: only numbers of what changed are written, also elevations") {
-  MeshDocument document = read_2dm(river);
+  MeshDocument document = sms.read(river);
   document.points[9] = 0.75;
   document.point_arrays[0] = make_data_array("elevation", 1, std::vector<double>{-1.25, 2, 3, 4, 5});
-  CHECK(written_2dm(document) == replace_all(replace_all(river, "-1.50000000e+000", "-1.25"), "ND 4 0.5", "ND 4 0.75"));
+  CHECK(sms.written(document) == replace_all(replace_all(river, "-1.50000000e+000", "-1.25"), "ND 4 0.5", "ND 4 0.75"));
 }
 
 TEST_CASE("2dm: what is wrong is said with its line") {
@@ -152,7 +124,7 @@ TEST_CASE("2dm: what is wrong is said with its line") {
         {replace_all(river, "MAT 9 \"none\"", "MAT 9"),
          "mesh.2dm:18: expected the name of a material, got the end of the line"}}) {
     CAPTURE(fault.text);
-    CHECK_THAT(failure_of_2dm(fault.text), Catch::Matchers::StartsWith(fault.message));
+    CHECK_THAT(sms.failure_of(fault.text), Catch::Matchers::StartsWith(fault.message));
   }
 }
 
@@ -168,7 +140,7 @@ TEST_CASE("2dm: a mesh of another format is written with its groups as materials
   materials.description = std::make_shared<const trismooth::ArrayDescription>(names);
   document.cell_arrays = {materials, make_data_array("heat", 1, std::vector<double>{1, 2, 3})};
   document.point_sets = {{"inlet", {0, 1}}, {"nodestring 2", {2}}};
-  CHECK(written_2dm(document) ==
+  CHECK(sms.written(document) ==
         "MESH2D\nNUM_MATERIALS_PER_ELEM 1\nE3T 1 1 2 3 4\nE2L 2 1 2 0\nND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\n"
         "NS 1 -2 1\nNS -3 2\nMAT 4 \"sand and clay\"\n");
   CHECK(what_is_lost(document, FileFormat::sms) ==
@@ -178,9 +150,9 @@ TEST_CASE("2dm: a mesh of another format is written with its groups as materials
             "2dm numbers nodestrings, which have nodes: the names of sets of points, or empty sets, are not written: "
             "inlet"});
   document.point_arrays = {make_data_array("depth", 1, std::vector<double>{1.5, 0, -2})};
-  const MeshDocument again = read_2dm(written_2dm(document));
-  CHECK(elevations_of(again) == std::vector<double>{-1.5, 0, 2});
-  CHECK(materials_of(again) == std::vector<std::int64_t>{4, 0});
+  const MeshDocument again = sms.read(sms.written(document));
+  CHECK(values_of<double>(again.point_arrays, "elevation") == std::vector<double>{-1.5, 0, 2});
+  CHECK(values_of<std::int64_t>(again.cell_arrays, "2dm:material") == std::vector<std::int64_t>{4, 0});
   CHECK(what_is_lost(document, FileFormat::sms).back() == "2dm holds x and y only: z, 1, is not written");
 }
 

@@ -11,20 +11,19 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
-#include "support/scratch_folder.h"
+#include "support/text_format.h"
 
 using trismooth::DataArray;
 using trismooth::FileFormat;
 using trismooth::find_array;
 using trismooth::MeshDocument;
-using trismooth::read_mesh;
-using trismooth::ReadError;
 using trismooth::ValueName;
-using trismooth::write_mesh;
 
 namespace type = trismooth::cell_type;
 
 namespace {
+
+const TextFormat su2(".su2");
 
 /// Two triangles and a quad with markers of their boundary, as Gmsh writes such a mesh.
 const std::string house =
@@ -33,32 +32,6 @@ const std::string house =
     "3 3 5 \n3 5 0 \n";
 
 const std::vector<double> house_points{0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 2.5, 0, 1, 2, 0, 0, 1, 0};
-
-MeshDocument read(const std::string& text) {
-  const ScratchFolder folder;
-  return read_mesh(folder.write("mesh.su2", text));
-}
-
-std::string written(const MeshDocument& document) {
-  const ScratchFolder folder;
-  write_mesh(folder / "out.su2", document);
-  return bytes_of(folder / "out.su2");
-}
-
-std::string failure_of(const std::string& text) {
-  const std::string message = message_of<ReadError>([&] { read(text); });
-  const std::size_t name = message.find("mesh.su2");
-  return name == std::string::npos ? message : message.substr(name);
-}
-
-std::vector<std::int32_t> values_of(const MeshDocument& document, const std::string& name) {
-  const DataArray* const array = find_array(document.cell_arrays, name);
-  if (array == nullptr) {
-    return {};
-  }
-  const auto values = array->as<std::int32_t>();
-  return {values.begin(), values.end()};
-}
 
 std::vector<ValueName> marker_names(const MeshDocument& document) {
   const DataArray* const array = find_array(document.cell_arrays, "su2:marker");
@@ -72,7 +45,8 @@ void check_house(const MeshDocument& document) {
                                                           type::line, type::line, type::line, type::line, type::line});
   CHECK(document.cells.connectivity ==
         std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 5, 3, 2, 4, 0, 1, 1, 2, 2, 4, 4, 3, 3, 5, 5, 0});
-  CHECK(values_of(document, "su2:marker") == std::vector<std::int32_t>{0, 0, 0, 1, 2, 2, 2, 2, 2});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "su2:marker") ==
+        std::vector<std::int32_t>{0, 0, 0, 1, 2, 2, 2, 2, 2});
   CHECK(marker_names(document) == std::vector<ValueName>{{1, 1, "floor"}, {2, 1, "walls"}});
   CHECK(document.cell_arrays.size() == 1);
   CHECK(document.point_arrays.empty());
@@ -98,18 +72,18 @@ TEST_CASE("SU2: the mesh is the same however the file is laid out, and is writte
   const std::string line_end = GENERATE("\n", "\r\n", "\r");
   const std::string file = replace_all(text, "\n", line_end);
   CAPTURE(file);
-  const MeshDocument document = read(file);
+  const MeshDocument document = su2.read(file);
   check_house(document);
   CHECK(document.notes.empty());
-  CHECK((written(document) == file));
+  CHECK((su2.written(document) == file));
 }
 
 TEST_CASE("SU2: numbers of moved points change and nothing else") {
   const std::string text = replace_all(house, "1 1 2\n", "@ @\t2 0.5 % here\n");
-  MeshDocument document = read(fill(text, {"1.", "+1"}));
+  MeshDocument document = su2.read(fill(text, {"1.", "+1"}));
   document.points[6] = 0.1;
   document.points[7] = 1.0 / 3;
-  CHECK(written(document) == fill(text, {"0.1", shortest(1.0 / 3)}));
+  CHECK(su2.written(document) == fill(text, {"0.1", shortest(1.0 / 3)}));
 }
 
 TEST_CASE("SU2: zones are one mesh; points that coincide stay two; markers are known by their names") {
@@ -117,32 +91,33 @@ TEST_CASE("SU2: zones are one mesh; points that coincide stay two; markers are k
       "NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= 3\n0 0\n1 0\n0 1\nNMARK= 2\nMARKER_TAG= interface\nMARKER_ELEMS= 1\n3 0 1\n"
       "MARKER_TAG= @\nMARKER_ELEMS= 2\n3 1 2\n3 2 0\n";
   const std::string text = "NZONE= 2\nIZONE= 1\n" + fill(zone, {"inner"}) + "IZONE= 2\n" + fill(zone, {"outer"});
-  MeshDocument document = read(text);
+  MeshDocument document = su2.read(text);
   CHECK(document.points == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 1, 1, 2, 2, 0, 3, 4, 5, 3, 4, 4, 5, 5, 3});
-  CHECK(values_of(document, "su2:zone") == std::vector<std::int32_t>{1, 1, 1, 1, 2, 2, 2, 2});
-  CHECK(values_of(document, "su2:marker") == std::vector<std::int32_t>{0, 1, 2, 2, 0, 1, 3, 3});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "su2:zone") == std::vector<std::int32_t>{1, 1, 1, 1, 2, 2, 2, 2});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "su2:marker") ==
+        std::vector<std::int32_t>{0, 1, 2, 2, 0, 1, 3, 3});
   CHECK(marker_names(document) == std::vector<ValueName>{{1, 1, "interface"}, {2, 1, "inner"}, {3, 1, "outer"}});
-  CHECK(written(document) == text);
+  CHECK(su2.written(document) == text);
   document.points[9] = 0.25;
   const std::size_t second = text.rfind("\n0 0\n");
-  CHECK(written(document) == text.substr(0, second) + "\n0.25 0\n" + text.substr(second + 5));
+  CHECK(su2.written(document) == text.substr(0, second) + "\n0.25 0\n" + text.substr(second + 5));
 }
 
 TEST_CASE("SU2: halo points are vertex cells") {
   for (const std::string exchange : {"SEND_RECV= 1\n", "SEND_TO=-1\n", ""}) {
     const std::string text = replace_all(
         house, "NMARK= 2\n", "NMARK= 3\nMARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\n" + exchange + "1 4 0\n1 5 0\n");
-    const MeshDocument document = read(text);
+    const MeshDocument document = su2.read(text);
     CHECK(std::ranges::count(document.cells.types, type::vertex) == 2);
     CHECK(marker_names(document) == std::vector<ValueName>{{1, 0, "SEND_RECEIVE"}, {2, 1, "floor"}, {3, 1, "walls"}});
-    CHECK(written(document) == text);
+    CHECK(su2.written(document) == text);
   }
 }
 
 TEST_CASE("SU2: a marker without elements keeps its name") {
   const MeshDocument document =
-      read(replace_all(house, "NMARK= 2\n", "NMARK= 3\nMARKER_TAG= my far field\nMARKER_ELEMS= 0\n"));
+      su2.read(replace_all(house, "NMARK= 2\n", "NMARK= 3\nMARKER_TAG= my far field\nMARKER_ELEMS= 0\n"));
   CHECK(marker_names(document) == std::vector<ValueName>{{1, 1, "my far field"}, {2, 1, "floor"}, {3, 1, "walls"}});
 }
 
@@ -150,29 +125,29 @@ TEST_CASE("SU2: what the file says beside its mesh is noted once, and kept") {
   const std::string text = "AOA_OFFSET= 1.5\n" + house +
                            "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0 0 0\n0 0 0\n1 0 0\nNCHUNK= 2\nFFD_NBOX= 1\nFFD_TAG= a\n"
                            "FFD_CORNER_POINTS= 4\n0 0\n1 0\n1 1\n0 1\nFFD_SURFACE_POINTS= 1\nfloor 0 0.5 0.25 0\n";
-  const MeshDocument document = read(text);
+  const MeshDocument document = su2.read(text);
   check_house(document);
   CHECK(document.notes ==
         std::vector<std::string>{"What the file says beside its mesh is kept in SU2 output only: AOA_OFFSET, periodic "
                                  "boundaries, NCHUNK, free-form deformation boxes."});
-  CHECK(written(document) == text);
+  CHECK(su2.written(document) == text);
 }
 
 TEST_CASE("SU2: faces in space are read with z") {
   const std::string text =
       "NDIME= 3\nNELEM= 1\n5 0 1 2\nNPOIN= 3\n0 0 @\n1 0 0.5\n0 1 0.5\nNMARK= 1\nMARKER_TAG= 7\nMARKER_ELEMS= 1\n5 0 1 "
       "2\n";
-  MeshDocument document = read(fill(text, {"0.5"}));
+  MeshDocument document = su2.read(fill(text, {"0.5"}));
   CHECK(document.points == std::vector<double>{0, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5});
   CHECK(marker_names(document) == std::vector<ValueName>{{1, 2, "7"}});
   document.points[2] = 0.75;
-  CHECK(written(document) == fill(text, {"0.75"}));
+  CHECK(su2.written(document) == fill(text, {"0.75"}));
 }
 
 TEST_CASE("SU2: what breaks the rules is refused with the line and the reason") {
   const auto check = [](const std::string& from, const std::string& to, const std::string& message) {
     CAPTURE(from, to);
-    CHECK(failure_of(replace_all(house, from, to)) == "mesh.su2" + message);
+    CHECK(su2.failure_of(replace_all(house, from, to)) == "mesh.su2" + message);
   };
   check("NDIME= 2", "NDIME= 4", ":1: expected the dimension behind NDIME=, from 2 to 3, got '4'");
   check("NDIME= 2\n", "", ":1: the file has no NDIME=: it is cut off, or no SU2 mesh");
@@ -215,12 +190,12 @@ TEST_CASE("SU2: what breaks the rules is refused with the line and the reason") 
   check("NMARK= 2", "NMARK= 2\nNMARK= 2", ":14: NMARK= stands twice");
   check("NDIME= 2", "NZONE= 2\nNDIME= 2", ": NZONE= declares 2 zones, the file has 1");
   check("NMARK= 2", "IZONE= 1\nNMARK= 2", ":13: IZONE= stands behind sections of a mesh that are in no zone");
-  CHECK(failure_of("") == "mesh.su2: has no NDIME=: it is no SU2 mesh, or is cut off");
+  CHECK(su2.failure_of("") == "mesh.su2: has no NDIME=: it is no SU2 mesh, or is cut off");
   const std::string zone = "IZONE= 1\nNDIME= 2\nNELEM= 0\nNPOIN= 0\nNMARK= 0\n";
-  CHECK(failure_of("NZONE= 1\n" + replace_all(zone, "IZONE= 1", "IZONE= 2")) ==
+  CHECK(su2.failure_of("NZONE= 1\n" + replace_all(zone, "IZONE= 1", "IZONE= 2")) ==
         "mesh.su2:2: zone 2 is none of the 1 that NZONE= declares");
-  CHECK(failure_of(zone + zone) == "mesh.su2:6: zone 1 stands in the file twice");
-  CHECK(failure_of(zone + replace_all(replace_all(zone, "1", "2"), "NDIME= 2", "NDIME= 3")) ==
+  CHECK(su2.failure_of(zone + zone) == "mesh.su2:6: zone 1 stands in the file twice");
+  CHECK(su2.failure_of(zone + replace_all(replace_all(zone, "1", "2"), "NDIME= 2", "NDIME= 3")) ==
         "mesh.su2:6: zone 2 has another dimension (NDIME=) than the zones before it");
 }
 
