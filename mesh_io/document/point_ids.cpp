@@ -4,7 +4,7 @@
 
 namespace trismooth {
 
-PointIds::PointIds(const std::vector<std::int64_t>& ids) : size_(ids.size()), is_consecutive_(true) {
+PointIds::PointIds(const std::vector<std::int64_t>& ids) : size_(ids.size()) {
   if (ids.empty()) {
     return;
   }

@@ -35,7 +35,7 @@ class PointIds {
 
   std::int64_t first_ = 0;  ///< the lowest
   std::size_t size_;
-  bool is_consecutive_;
+  bool is_consecutive_ = true;
   std::vector<std::int32_t> table_;                            ///< by id - first_, -1: none; where few are left out
   std::vector<std::pair<std::int64_t, std::int32_t>> sorted_;  ///< id and point, else
   std::optional<std::size_t> first_repeated_;

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/integer_array.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/document/uniform_cells.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -126,20 +126,11 @@ class FreeFemReader {
 
   void read_cells(const FreeFemCells& kind, std::size_t count) {
     CellList& cells = document_.cells;
-    const std::size_t first_cell = cells.size();
-    const std::size_t first_corner = cells.connectivity.size();
-    shared_resize(cells.connectivity, first_corner + count * kind.vertices, cells.offsets, first_cell + count + 1,
-                  workers_.workers);
-    shared_resize(cells.types, first_cell + count, cell_labels_, first_cell + count, workers_.workers);
-    const auto corners = std::span(cells.connectivity).subspan(first_corner);
-    const auto labels = std::span(cell_labels_).subspan(first_cell);
+    const std::size_t first_cell = append_uniform_cells(cells, kind.type, kind.vertices, count, workers_);
+    shared_resize(cell_labels_, first_cell + count, workers_.workers);
+    const auto corners = std::span(cells.connectivity).last(kind.vertices * count);
+    const auto labels = std::span(cell_labels_).last(count);
     const auto vertices = static_cast<std::int64_t>(vertex_count_);
-    for_file_blocks(workers_, count, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t cell = begin; cell < end; ++cell) {
-        cells.offsets[first_cell + cell + 1] = static_cast<std::int64_t>(first_corner + (cell + 1) * kind.vertices);
-        cells.types[first_cell + cell] = kind.type;
-      }
-    });
     const bool plain = read_plain(count, kind.vertices + 1, [&](PlainNumbers& numbers, std::size_t cell) {
       for (std::int32_t& corner : corners.subspan(cell * kind.vertices, kind.vertices)) {
         if (!numbers.next(corner) || corner < 1 || corner > vertices) {

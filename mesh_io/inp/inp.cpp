@@ -12,7 +12,7 @@
 #include "trismooth/mesh_io/inp/inp_reader.h"
 #include "trismooth/mesh_io/inp/inp_text.h"
 #include "trismooth/mesh_io/text/number_text.h"
-#include "trismooth/mesh_io/text/text_rows_writer.h"
+#include "trismooth/mesh_io/text/text_mesh_writer.h"
 
 namespace trismooth {
 
@@ -111,7 +111,7 @@ void write_element(TextBlock& text, const CellList& cells, std::size_t cell) {
   text.text("\n");
 }
 
-void write_sets(TextRowsWriter& writer, std::string_view keyword, const std::vector<WrittenInpSet>& sets) {
+void write_sets(TextMeshWriter& writer, std::string_view keyword, const std::vector<WrittenInpSet>& sets) {
   constexpr std::size_t most_in_line = 16;
   for (const WrittenInpSet& set : sets) {
     if (set.members.empty()) {
@@ -130,7 +130,7 @@ void write_sets(TextRowsWriter& writer, std::string_view keyword, const std::vec
 
 void write_inp(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const CellList& cells = document.cells;
-  TextRowsWriter writer(path, workers);
+  TextMeshWriter writer(path, workers);
   writer.write_text("*HEADING\nwritten by trismooth\n*NODE\n");
   writer.write_rows(document.point_count(), [&points = document.points](TextBlock& text, std::size_t i) {
     text.number(i + 1);

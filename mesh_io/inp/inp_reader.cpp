@@ -57,7 +57,7 @@ void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<s
                     "place of the line that includes it; the file itself stays as it is");
   }
   if (model.names_other_files) {
-    notes.push_back("names files that hold no mesh (INPUT=, FILE=): output in another folder needs them there");
+    notes.emplace_back("names files that hold no mesh (INPUT=, FILE=): output in another folder needs them there");
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Sets of sets may have far more members than a file has bytes.
 class InpMembers {
  public:
-  InpMembers(InpModel& model, const CellList& cells) : model_(model), cells_(cells), budget_(1 << 20) {
+  InpMembers(InpModel& model, const CellList& cells) : model_(model), cells_(cells) {
     constexpr std::size_t members_a_byte = 16;
     for (const InpSource& source : model.sources) {
       budget_ += members_a_byte * source.bytes.size();
@@ -135,7 +135,7 @@ class InpMembers {
 
   InpModel& model_;
   const CellList& cells_;
-  std::size_t budget_;
+  std::size_t budget_ = std::size_t{1} << 20;  ///< of members, which a file's bytes add to
   std::size_t unknown_ = 0;
 };
 

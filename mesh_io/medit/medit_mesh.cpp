@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/integer_array.h"
+#include "trismooth/mesh_io/document/uniform_cells.h"
 
 namespace trismooth {
 
@@ -43,18 +43,8 @@ void MeditMesh::resize_vertices(std::size_t count) {
 }
 
 std::size_t MeditMesh::append_cells(const MeditKeyword& keyword, std::size_t count) {
-  CellList& cells = document.cells;
-  const std::size_t first = cells.size();
-  const std::size_t first_corner = cells.connectivity.size();
-  shared_resize(cells.connectivity, first_corner + count * keyword.vertices, cells.offsets, first + count + 1,
-                workers_.workers);
-  shared_resize(cells.types, first + count, cell_refs, first + count, workers_.workers);
-  for_file_blocks(workers_, count, sizeof(std::int64_t), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end; ++cell) {
-      cells.offsets[first + cell + 1] = static_cast<std::int64_t>(first_corner + (cell + 1) * keyword.vertices);
-      cells.types[first + cell] = keyword.cell_type;
-    }
-  });
+  const std::size_t first = append_uniform_cells(document.cells, keyword.cell_type, keyword.vertices, count, workers_);
+  shared_resize(cell_refs, first + count, workers_.workers);
   sections_.push_back({keyword.cell_type, first, count});
   return first;
 }

@@ -46,7 +46,8 @@ class TextLines {
   bool is_empty_ = true;  ///< the line, so far
 };
 
-/// Writes a text mesh file. Lists of lines are formatted by all workers; the bytes are the same for every number.
+/// Writes a text mesh file. Lists of rows and lines are formatted by all workers; the bytes are the same for every
+/// number of them.
 class TextMeshWriter {
  public:
   /// Throws WriteError.
@@ -55,17 +56,20 @@ class TextMeshWriter {
   TextMeshWriter(const TextMeshWriter&) = delete;
   TextMeshWriter& operator=(const TextMeshWriter&) = delete;
 
-  /// Calls `format`(lines, i) for i = 0 to `count` - 1, on any worker, which appends whole lines, or none, to `lines`.
-  /// Throws WriteError.
+  /// Text as it is. Throws WriteError.
+  void write_text(std::string_view text) { writer_.write(text); }
+
+  /// Calls `format`(text, i) for i = 0 to `count` - 1, on any worker, which appends row i to `text` (TextBlock&) as the
+  /// format wants it. Throws WriteError.
+  template <class Format>
+  void write_rows(std::size_t count, const Format& format) {
+    write_blocks<TextBlock>(count, format);
+  }
+
+  /// The same with `format`(lines, i), which appends whole lines, or none, to `lines` (TextLines&). Throws WriteError.
   template <class Format>
   void write_lines(std::size_t count, const Format& format) {
-    constexpr std::size_t line_bytes = 64;
-    blocks_.write_rows(count, line_bytes, [&format](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
-      TextLines lines(bytes);
-      for (std::size_t i = begin; i < end; ++i) {
-        format(lines, i);
-      }
-    });
+    write_blocks<TextLines>(count, format);
   }
 
   /// One line. Throws WriteError.
@@ -81,6 +85,17 @@ class TextMeshWriter {
   void close() { writer_.close(); }
 
  private:
+  template <class Text, class Format>
+  void write_blocks(std::size_t count, const Format& format) {
+    constexpr std::size_t row_bytes = 64;
+    blocks_.write_rows(count, row_bytes, [&format](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
+      Text text(bytes);
+      for (std::size_t i = begin; i < end; ++i) {
+        format(text, i);
+      }
+    });
+  }
+
   BufferedWriter writer_;
   OrderedBlocks blocks_;
 };
