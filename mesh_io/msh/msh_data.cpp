@@ -65,13 +65,12 @@ class MshDataReader {
 
   bool read_plain_rows() {
     const std::size_t components = section_.components;
-    const MshTagKind kind = input_.header().binary ? MshTagKind::int32 : MshTagKind::text;
     return rows_.read({section_.rows, 1 + components, sizeof(std::int32_t) + components * sizeof(double)},
                       [&](auto& numbers, std::size_t first, std::size_t last) {
                         bool plain = true;
                         for (std::size_t row = first; row < last && plain; ++row) {
                           std::int64_t tag = 0;
-                          plain = next_tag(numbers, kind, tag);
+                          plain = next_tag(numbers, MshTagKind::int32, tag);
                           const std::int32_t place = plain ? place_of(tag) : -1;
                           of_rows[row] = place;
                           for (std::size_t i = 0; i < components && plain; ++i) {

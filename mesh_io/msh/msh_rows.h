@@ -66,14 +66,13 @@ class MshRows {
   PlainRows plain_;
 };
 
-/// How a tag is written.
-enum class MshTagKind : std::uint8_t { text, int32, uint32, int64 };
+/// The type whose numbers from 0 on are tags; a tag in a binary file is one of them.
+enum class MshTagKind : std::uint8_t { int32, uint32, int64 };
 
 inline MshTagKind tag_kind_of(const MshHeader& header) {
-  return !header.binary           ? MshTagKind::text
-         : header.version < 41    ? MshTagKind::int32
-         : header.size_bytes == 4 ? MshTagKind::uint32
-                                  : MshTagKind::int64;
+  return header.version < 41                       ? MshTagKind::int32
+         : header.binary && header.size_bytes == 4 ? MshTagKind::uint32
+                                                   : MshTagKind::int64;
 }
 
 /// Bytes of a tag in a binary file.
@@ -81,7 +80,7 @@ constexpr std::size_t tag_bytes(MshTagKind kind) {
   return kind == MshTagKind::int64 ? 8 : 4;
 }
 
-/// The next tag of PlainNumbers or BinaryNumbers; false where it cannot be read or is negative.
+/// The next tag of PlainNumbers or BinaryNumbers; false where it cannot be read or is none.
 template <class Numbers>
 bool next_tag(Numbers& numbers, MshTagKind kind, std::int64_t& tag) {
   const auto next_as = [&](auto value) {

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_affine_map.h"
@@ -12,6 +14,7 @@
 #include "catch.h"
 #include "support/accepted_msh_files.h"
 #include "support/memory_file.h"
+#include "support/readings.h"
 
 using accepted_files::msh::Spelling;
 using trismooth::DataArray;
@@ -163,6 +166,33 @@ TEST_CASE("what is wrong in an MSH file is said with its line") {
   CHECK(with("1 1 1 3\n", "1 1 35 3\n").find("elements of type 35 are not supported") != std::string::npos);
   CHECK(with("$Elements\n3 7", "$Elements\n3 99").find("has room for") != std::string::npos);
   CHECK(msh_error("hello\n") == "plate.msh:1: is not an MSH file: expected $MeshFormat, got 'hello'");
+}
+
+TEST_CASE("tags beyond what a version holds are refused, and said to be so by readers in parts of any size") {
+  trismooth::Workers alone(1);
+  const auto reading = [&alone](const std::string& bytes, std::size_t part_bytes) {
+    return test_support::reading_of(msh_codec, bytes, trismooth::FileWorkers(alone, part_bytes));
+  };
+  const std::string range = " from 0 to 2147483647, got '4294967296'";
+  for (const int version : {10, 20, 22, 40}) {
+    const std::string text = accepted_files::msh::file({.version = version, .with_data = version >= 20});
+    const auto with = [&text](const std::string& what) {
+      // 2 in the lowest bits: what a narrow tag would be.
+      return replaced_in(text, what, "\n4294967296" + what.substr(2));
+    };
+    for (const std::string& damaged : {with("\n2 2 0 0\n"), with(version == 40 ? "\n4 1 2 5\n" : "\n4 2 ")}) {
+      INFO(damaged);
+      const std::string refusal = reading(damaged, trismooth::FileWorkers::serial);
+      CHECK(refusal.find("the tag of a") != std::string::npos);
+      CHECK(refusal.ends_with(range));
+      for (const std::size_t part_bytes : {std::size_t{1}, std::size_t{40}, trismooth::FileWorkers::whole}) {
+        CHECK(reading(damaged, part_bytes) == refusal);
+      }
+    }
+  }
+  const std::string text = accepted_files::msh::file({.version = 41});
+  const std::string wide = replaced_in(text, "\n1\n2\n3\n4\n", "\n1\n4294967296\n3\n4\n");
+  CHECK(reading(wide, 1).find("refers to node 2, which the file does not have") != std::string::npos);
 }
 
 TEST_CASE("MSH is told by its first line") {
