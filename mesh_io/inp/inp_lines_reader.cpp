@@ -106,8 +106,11 @@ void InpLinesReader::start_block(const InpKeyword& keyword) {
   } else if (keyword.name == "MPC") {
     start_held(keyword, Block::constraint);
   } else if (keyword.name == "USERELEMENT") {
-    const auto nodes = parse_integer(keyword.value_of("NODES"));
-    if (nodes && *nodes > 0 && *nodes < 1000) {
+    if (const std::string_view value = keyword.value_of("NODES"); !value.empty()) {
+      const auto nodes = parse_integer(value);
+      if (!nodes || *nodes <= 0) {
+        fail_at(line, "expected the number of nodes of a user element (NODES=...), got " + trismooth::quoted(value));
+      }
       user_types_[inp_key(keyword.value_of("TYPE"))] = {cell_type::poly_vertex, static_cast<std::size_t>(*nodes)};
     }
   } else if (keyword.name.ends_with("SECTION") && !keyword.value_of("ELSET").empty()) {

@@ -299,6 +299,8 @@ TEST_CASE("what is wrong in an input file is said with its line") {
   fails("*NODE\n1, 0.\n\n1, 1.\n", "mesh.inp:4: there is a node 1 before this one");
   fails(square + "*ELEMENT, TYPE=CPS3\n7, 1, 2, 4\n", "mesh.inp:20: there is an element 7 before this one");
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2, 5\n", "mesh.inp:20: this element refers to node 5, which there is not");
+  fails("*USER ELEMENT, NODES=3x, TYPE=U1\n", "mesh.inp:1: expected the number of nodes of a user element (NODES=...)");
+  fails("*USER ELEMENT, NODES=0, TYPE=U1\n", "mesh.inp:1: expected the number of nodes of a user element");
   fails(square + "*ELEMENT\n8, 1, 2, 4\n", "mesh.inp:19: *ELEMENT states no TYPE");
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2\n9, 1, 2, 4\n",
         "mesh.inp:20: an element of type 'CPS3' has 3 nodes, "
