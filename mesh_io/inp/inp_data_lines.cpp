@@ -163,6 +163,9 @@ void InpLinesReader::read_element(std::string_view line) {
     return;
   }
   is_in_element_ = false;
+  if (model_.references.size() == model_.element_begins.back()) {
+    fail_at(line, "expected the nodes of an element, got its number alone");
+  }
   model_.element_begins.push_back(model_.references.size());
   if (set_lines_ != nullptr) {
     set_lines_->back().behind = static_cast<std::int32_t>(model_.element_count());

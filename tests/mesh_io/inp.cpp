@@ -305,6 +305,7 @@ TEST_CASE("what is wrong in an input file is said with its line") {
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2\n9, 1, 2, 4\n",
         "mesh.inp:20: an element of type 'CPS3' has 3 nodes, "
         "this one has 2");
+  fails(square + "*ELEMENT, TYPE=XYZ\n8\n", "mesh.inp:20: expected the nodes of an element, got its number alone");
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2, 4, 30\n", "mesh.inp:20: an element of type 'CPS3' has 3 nodes, this");
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2,\n*STEP\n", "mesh.inp:21: the element before this line ends without");
   fails(square + "*ELEMENT, TYPE=CPS3\n8, 1, 2,", "mesh.inp:20: the last element ends without its last nodes");
