@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and the interface of flat arrays with libFuzzer (Clang, preset asan).
 #
-#   scripts/fuzz.sh [--seconds N] [--no-build] [TARGET...]
+#   scripts/fuzz.sh [--seconds N | --seconds-of-all N] [--no-build] [TARGET...]
 #
-# Runs each target for N seconds (default 600), as many at a time as there are processors. Targets: off obj ply stl vtk
-# vtu vtp flat_arrays; all without arguments. What has been found worth keeping stays in build/fuzz/TARGET/corpus, where
-# the next run goes on from. Exit status 1 where an input was found that breaks a promise.
+# Runs each target for N seconds (default 600), or all of them for N seconds of one processor; as many at a time as there
+# are processors. Targets are the formats, by the names that --format takes, and flat_arrays; all without arguments.
+# What has been found worth keeping stays in build/fuzz/TARGET/corpus, where the next run goes on from. Exit status 1
+# where an input was found that breaks a promise.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 seconds=600
+seconds_of_all=
 builds=true
 targets=()
 while (($# > 0)); do
@@ -19,19 +21,19 @@ while (($# > 0)); do
       seconds=${2:?--seconds needs a number}
       shift
       ;;
+    --seconds-of-all)
+      seconds_of_all=${2:?--seconds-of-all needs a number}
+      shift
+      ;;
     --no-build) builds=false ;;
     -*)
-      sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
+      sed -n '2,10s/^# \{0,1\}//p' "$0" >&2
       exit 2
       ;;
     *) targets+=("$1") ;;
   esac
   shift
 done
-if ((${#targets[@]} == 0)); then
-  targets=(off obj ply stl vtk vtu vtp flat_arrays)
-fi
-
 build=$project/build/asan
 programs=$build/tests/fuzz
 data=$project/tests/fuzz
@@ -43,9 +45,19 @@ export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=16${ASAN_OPTIONS:+:
 
 if $builds; then
   (cd "$project" && cmake --preset asan >/dev/null)
-  cmake --build "$build" --target fuzz_seeds "${targets[@]/#/fuzz_}"
+  if ((${#targets[@]} == 0)); then
+    cmake --build "$build" --target fuzz
+  else
+    cmake --build "$build" --target fuzz_seeds "${targets[@]/#/fuzz_}"
+  fi
 fi
-"$programs/fuzz_seeds" "$work/seeds"
+mapfile -t all_targets < <("$programs/fuzz_seeds" "$work/seeds")
+if ((${#targets[@]} == 0)); then
+  targets=("${all_targets[@]}")
+fi
+if [[ -n $seconds_of_all ]]; then
+  seconds=$((seconds_of_all / ${#targets[@]}))
+fi
 
 fuzz() {
   local target=$1 dictionary folders=()

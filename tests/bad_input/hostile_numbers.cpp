@@ -109,6 +109,12 @@ std::optional<std::int64_t> whole_number(std::string_view word) {
   return std::stoll(std::string(word));
 }
 
+/// From 0 on, of those that 64 bits hold.
+bool is_natural_number(std::string_view word) {
+  return word.size() <= std::string_view("9223372036854775807").size() &&
+         word.find_first_not_of("0123456789") == word.npos;
+}
+
 const std::vector<std::string> not_numbers{"nan",   "inf", "-inf", "NaN(0x1)", "1e999", "-1e400", "1,5",
                                            "1.5.2", "--1", "1e",   "0x1p3",    "0x10",  "x"};
 
@@ -139,10 +145,6 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
   if (!outcome.fault.empty() || !outcome.document || role == Role::nothing) {
     return outcome.fault;
   }
-  // Input files of Abaqus number nodes and elements as they like, and commas stand between their numbers.
-  if (file.extension == ".inp") {
-    return {};
-  }
   // The version of a legacy file, of which the part before the first point counts.
   if (file.extension == ".vtk" && place.begin < file.bytes.find('\n')) {
     return {};
@@ -169,7 +171,16 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
     return {};
   }
   // Two numbers, where a file separates numbers by commas.
-  if (word == "1,5" && contains(file.name, "_commas")) {
+  const bool is_inp = file.extension == ".inp";
+  if (word == "1,5" && (is_inp || contains(file.name, "_commas"))) {
+    return {};
+  }
+  // Where a range of Abaqus ends is any number: ranges have gaps.
+  if (is_inp && role == Role::value && same_mesh && is_natural_number(word)) {
+    return {};
+  }
+  // Elements of Abaqus have any numbers from 0 on, no two alike.
+  if (is_inp && role == Role::structure && same_mesh && is_natural_number(word)) {
     return {};
   }
   if (role == Role::structure || (!is_number && role != Role::value)) {

@@ -16,10 +16,10 @@
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
-#include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 
 #include "memory_peak.h"
+#include "support/one_file_codec.h"
 #include "support/sanitized.h"
 
 using trismooth::CellList;
@@ -97,7 +97,7 @@ Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
   listener().heard.clear();
   const MemoryPeak peak;
   try {
-    outcome.document = trismooth::codec_of(accepted_files::format_of(file)).read(path, std::move(bytes));
+    outcome.document = test_support::one_file_codec(accepted_files::format_of(file)).read(path, std::move(bytes));
     outcome.fault = broken_promise(*outcome.document);
   } catch (const trismooth::ReadError& error) {
     outcome.message = error.what();

@@ -3,9 +3,12 @@
 // a last number is whole wherever it is cut. The rules below say which cuts these are; no other is accepted.
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <regex>
 #include <span>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -333,9 +336,192 @@ bool is_whole_freefem(const AcceptedFile& file, std::size_t cut) {
   return cut > file.bytes.find_last_of(" \r\n", last) + (contains(file.name, "negative") ? 2 : 1);
 }
 
-/// Input files of Abaqus are whole after any line, and their last numbers may be cut short.
-bool has_no_end(const AcceptedFile& file) {
-  return format_of(file) == trismooth::FileFormat::inp;
+/// The elements of Triangle's end with their last number, wherever that is cut; comments may follow.
+bool is_whole_triangle(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes;
+  for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
+    const std::size_t end = std::min(text.find_first_of("\r\n\x1C", at), text.size());
+    text.replace(at, end - at, end - at, ' ');
+  }
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  const std::size_t begin = text.find_last_of(" \t\r\n", last) + 1;
+  return cut > begin + (text[begin] == '-' ? 1 : 0);
+}
+
+/// A card of 2dm: its words; names in quotation marks with that at the beginning, and with that at the end where it is
+/// there.
+using SmsCard = std::vector<std::string>;
+
+std::vector<SmsCard> cards_of(std::string text) {
+  std::ranges::replace(text, '\r', '\n');
+  std::istringstream lines(text);
+  std::vector<SmsCard> cards;
+  for (std::string line; std::getline(lines, line);) {
+    SmsCard card;
+    for (std::size_t at = line.find_first_not_of(" \t"); at < line.size() && line[at] != '#';
+         at = line.find_first_not_of(" \t", at)) {
+      const bool is_name = line[at] == '"';
+      const std::size_t end = is_name ? std::min(line.find('"', at + 1), line.size() - 1) + 1
+                                      : std::min(line.find_first_of(" \t#", at), line.size());
+      card.push_back(line.substr(at, end - at));
+      at = end;
+    }
+    if (!card.empty()) {
+      cards.push_back(card);
+    }
+  }
+  return cards;
+}
+
+/// Whether a name in quotation marks has no end.
+bool is_open_name(const std::string& word) {
+  return word[0] == '"' && (word.size() == 1 || word.back() != '"');
+}
+
+/// Whether the text is a number, with Fortran's exponents.
+bool is_number(const std::string& text) {
+  static const std::regex number("[+-]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eEdD][+-]?[0-9]+|[+-][0-9]+)?");
+  return std::regex_match(text, number);
+}
+
+bool is_whole_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789", text[0] == '-' ? 1 : 0) == text.npos && text != "-";
+}
+
+/// 2dm has no end: a text is whole where its last card is, where all nodes that cards name have one, and where no
+/// nodestring waits for its last node. Cards that nobody knows are whole with any letters.
+bool is_whole_sms(const AcceptedFile& file, std::size_t cut) {
+  const std::size_t mark = file.bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const std::vector<SmsCard> cards = cards_of(file.bytes.substr(mark, cut - std::min(cut, mark)));
+  if (cut < mark || cards.empty() || cards.front() != SmsCard{"MESH2D"}) {
+    return false;
+  }
+  std::vector<std::string> nodes;
+  std::vector<std::string> named;
+  bool in_nodestring = false;
+  for (const SmsCard& card : cards) {
+    const std::string& kind = card.front();
+    const std::size_t corners = kind == "E3T" ? 3 : kind == "E2L" ? 2 : 0;
+    if (kind == "ND") {
+      if (card.size() < 5 || !is_number(card[2]) || !is_number(card[3]) || !is_number(card[4])) {
+        return false;
+      }
+      nodes.push_back(card[1]);
+    } else if (corners > 0) {
+      if (card.size() < 2 + corners || (card.size() > 2 + corners && !is_whole_number(card[2 + corners]))) {
+        return false;
+      }
+      named.insert(named.end(), card.begin() + 2, card.begin() + 2 + static_cast<std::ptrdiff_t>(corners));
+    } else if (kind == "NS") {
+      if (is_open_name(card.back())) {
+        return false;
+      }
+      in_nodestring = true;
+      for (std::size_t i = 1; i < card.size() && in_nodestring; ++i) {
+        if (!is_whole_number(card[i])) {
+          return false;
+        }
+        in_nodestring = card[i][0] != '-';
+        named.push_back(card[i].substr(in_nodestring ? 0 : 1));
+      }
+    } else if (kind == "MAT") {
+      if (card.size() < 3 || is_open_name(card[2])) {
+        return false;
+      }
+    } else if (kind.size() > 1 && kind[0] == 'E' && '0' <= kind[1] && kind[1] <= '9') {
+      return false;
+    }
+  }
+  return !in_nodestring && std::ranges::all_of(named, [&nodes](const std::string& node) {
+    return std::ranges::find(nodes, node) != nodes.end();
+  });
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(stream, field, ',');) {
+    const std::size_t begin = std::min(field.find_first_not_of(" \t"), field.size());
+    fields.push_back(field.substr(begin, field.find_last_not_of(" \t") + 1 - begin));
+  }
+  return fields;
+}
+
+/// A keyword line, or several of which all but the last end with a comma.
+struct InpKeywordLine {
+  std::string name;                               ///< in upper case, without blanks
+  std::map<std::string, std::string> parameters;  ///< their names likewise
+
+  explicit InpKeywordLine(const std::string& text) {
+    for (const std::string& field : fields_of(text)) {
+      std::string key = field.substr(0, field.find('='));
+      std::erase(key, ' ');
+      std::ranges::transform(key, key.begin(), [](char c) { return 'a' <= c && c <= 'z' ? char(c - 'a' + 'A') : c; });
+      const std::string value = field.find('=') == field.npos ? "" : field.substr(field.find('=') + 1);
+      if (name.empty()) {
+        name = key;
+      } else {
+        parameters[key] = value.substr(std::min(value.find_first_not_of(' '), value.size()));
+      }
+    }
+  }
+  std::string value_of(const std::string& parameter) const {
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() ? "" : found->second;
+  }
+};
+
+bool is_whole_inp_keyword(const InpKeywordLine& keyword) {
+  if (keyword.name == "*ELEMENT") {
+    return !keyword.value_of("TYPE").empty();
+  }
+  const std::string instance = keyword.value_of("INSTANCE");
+  return (keyword.name != "*NSET" && keyword.name != "*ELSET") ||
+         (!keyword.value_of(keyword.name.substr(1)).empty() && (instance.empty() || instance == "Plate-1"));
+}
+
+/// The last line of what a keyword line is followed by; several where an element goes on behind a comma.
+bool is_whole_inp_data(const InpKeywordLine& keyword, const std::vector<std::string>& fields) {
+  if (keyword.name == "*NODE") {
+    return std::all_of(fields.begin() + 1, fields.end(),
+                       [](const std::string& field) { return field.empty() || is_number(field); });
+  }
+  const auto filled = std::ranges::count_if(fields, [](const std::string& field) { return !field.empty(); });
+  if (keyword.name == "*ELEMENT") {
+    const std::string type = keyword.value_of("TYPE");
+    return filled == 1 + (type == "U1" || type == "T3D2" ? 2 : 3);
+  }
+  return !keyword.parameters.contains("GENERATE") || filled >= 2;
+}
+
+/// Input files of Abaqus have no end: they are whole where their last line is, from the first *NODE on.
+bool is_whole_inp(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes.substr(0, cut);
+  std::ranges::replace(text, '\r', '\n');
+  std::istringstream stream(text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  std::optional<InpKeywordLine> keyword;
+  std::string keyword_text;
+  std::string data;
+  bool has_nodes = false;
+  for (std::string line; std::getline(stream, line);) {
+    line = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+    line.resize(line.find_last_not_of(" \t") + 1);
+    if (line.empty() || line.starts_with("**")) {
+      continue;
+    }
+    const bool goes_on = data.empty() && keyword_text.ends_with(',') && !contains("0123456789+-.*", line.substr(0, 1));
+    if (line[0] == '*' || goes_on) {
+      keyword_text = goes_on ? keyword_text + line : line;
+      keyword.emplace(keyword_text);
+      has_nodes = has_nodes || keyword->name == "*NODE";
+      data.clear();
+    } else {
+      const bool is_in_element = keyword && keyword->name == "*ELEMENT" && data.ends_with(',') &&
+                                 !is_whole_inp_data(*keyword, fields_of(data));
+      data = is_in_element ? data + line : line;
+    }
+  }
+  return has_nodes && is_whole_inp_keyword(*keyword) && (data.empty() || is_whole_inp_data(*keyword, fields_of(data)));
 }
 
 bool is_whole(const AcceptedFile& file, std::size_t cut) {
@@ -350,6 +536,15 @@ bool is_whole(const AcceptedFile& file, std::size_t cut) {
   }
   if (format_of(file) == trismooth::FileFormat::mfem) {
     return is_whole_mfem(file, cut);
+  }
+  if (format_of(file) == trismooth::FileFormat::triangle) {
+    return is_whole_triangle(file, cut);
+  }
+  if (format_of(file) == trismooth::FileFormat::sms) {
+    return is_whole_sms(file, cut);
+  }
+  if (format_of(file) == trismooth::FileFormat::inp) {
+    return is_whole_inp(file, cut);
   }
   return file.extension == ".off"   ? is_whole_off(file, cut)
          : file.extension == ".obj" ? is_whole_obj(file, cut)
@@ -379,6 +574,15 @@ bool arrays_start_as(std::span<const DataArray> part, std::span<const DataArray>
   });
 }
 
+/// Nodes and elements are those of the lines that are there, but the coordinates of the last node, of which any may be
+/// left out. What the sets say is known at the end of the file only.
+std::string_view not_a_beginning_of_inp(const MeshDocument& part, const MeshDocument& whole) {
+  return starts_as(part.points, whole.points, 3) && starts_as(part.cells.connectivity, whole.cells.connectivity) &&
+                 starts_as(part.cells.types, whole.cells.types)
+             ? ""
+             : "is accepted, and not as the beginning of the mesh";
+}
+
 /// The last cell of a file without counts may have lost vertices.
 std::string_view not_a_beginning(const MeshDocument& part, const MeshDocument& whole, bool all_cells) {
   if (all_cells && (part.points != whole.points || part.cells.connectivity != whole.cells.connectivity)) {
@@ -401,18 +605,19 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
     const MeshDocument whole = read(file).document.value();
     // Only these formats can end after some of the cells.
     const bool all_cells = file.extension != ".obj" && !file.name.starts_with("stl_ascii") &&
-                           !file.name.starts_with("medit") && !contains(file.name, "_poly_");
+                           !file.name.starts_with("medit") && !file.name.starts_with("2dm") &&
+                           !contains(file.name, "_poly_");
+    const bool is_inp = format_of(file) == trismooth::FileFormat::inp;
     for (std::size_t cut = 0; cut < file.bytes.size(); cut += stride_of(file)) {
       const std::string place = fmt::format("cut at byte {}", cut);
       const Outcome outcome = read(file, file.bytes.substr(0, cut));
       faults.add_any(file.name, place, outcome.fault);
-      if (has_no_end(file)) {
-        continue;
-      }
       if (outcome.document.has_value() != is_whole(file, cut)) {
         faults.add(file.name, place, outcome.document ? "is accepted" : outcome.message);
       } else if (outcome.document && last_coordinate(file).empty()) {
-        faults.add_any(file.name, place, not_a_beginning(*outcome.document, whole, all_cells));
+        faults.add_any(file.name, place,
+                       is_inp ? not_a_beginning_of_inp(*outcome.document, whole)
+                              : not_a_beginning(*outcome.document, whole, all_cells));
       }
     }
   }

@@ -250,6 +250,9 @@ std::string difference(const MeshDocument& a, const MeshDocument& b, Comparison 
   if (comparison == Comparison::exact && a.point_type != b.point_type) {
     return "points of another type";
   }
+  if (comparison == Comparison::exact && !(a.point_sets == b.point_sets && a.cell_sets == b.cell_sets)) {
+    return "other sets";
+  }
   for (const std::string& found : {difference_of_points(a, b), difference_of_cells(a.cells, b.cells, comparison),
                                    difference_of_arrays(a.point_arrays, b.point_arrays, comparison, "point"),
                                    difference_of_arrays(a.cell_arrays, b.cell_arrays, comparison, "cell"),

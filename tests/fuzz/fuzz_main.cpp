@@ -29,9 +29,9 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   fuzz::HashedChoices choices(seed);
   const std::size_t kind = choices.below(8);
   const std::string input(reinterpret_cast<const char*>(data), size);
-  const std::string changed = target.is_xml && kind < 3    ? fuzz::mutate_xml_array(input, choices, &LLVMFuzzerMutate)
-                              : target.is_text && kind < 5 ? fuzz::mutate_number(input, choices)
-                                                           : input;
+  const std::string changed = target.is_xml() && kind < 3 ? fuzz::mutate_xml_array(input, choices, &LLVMFuzzerMutate)
+                              : target.format && kind < 5 ? fuzz::mutate_number(input, choices)
+                                                          : input;
   if (changed == input || changed.size() > capacity) {
     return LLVMFuzzerMutate(data, size, capacity);
   }

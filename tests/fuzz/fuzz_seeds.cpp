@@ -2,10 +2,12 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "targets.h"
 
-/// fuzz_seeds FOLDER: writes the seeds of every target into a folder of its name in FOLDER.
+/// fuzz_seeds FOLDER: writes the seeds of every target into a folder of its name in FOLDER, and prints these names, a
+/// line each.
 int main(int argc, char** argv) {
   if (argc != 2) {
     std::fputs("usage: fuzz_seeds FOLDER\n", stderr);
@@ -24,6 +26,7 @@ int main(int argc, char** argv) {
           return 1;
         }
       }
+      std::printf("%s\n", std::string(target.name).c_str());
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -21,6 +21,7 @@
 #include "document_checks.h"
 #include "smoothing_checks.h"
 #include "support/memory_file.h"
+#include "support/one_file_codec.h"
 #include "support/readings.h"
 #include "targets.h"
 
@@ -42,7 +43,7 @@ constexpr const char* input_path = "input";
 /// Reads what must be readable, having been written by us.
 MeshDocument read_again(FileFormat format, const std::string& bytes, const std::string& what) {
   try {
-    MeshDocument document = trismooth::codec_of(format).read(input_path, bytes);
+    MeshDocument document = test_support::one_file_codec(format).read(input_path, bytes);
     document.format = format;
     require_guarantees(document);
     return document;
@@ -220,8 +221,9 @@ void check_parts(FileFormat format, const std::string& bytes) {
   using trismooth::FileWorkers;
   const auto reading = [&](std::size_t part_bytes) {
     const FileWorkers workers(alone, part_bytes);
-    return keeps_bytes(format) ? test_support::reading_and_sites_of(trismooth::codec_of(format), bytes, workers)
-                               : test_support::reading_of(trismooth::codec_of(format), bytes, workers);
+    return keeps_bytes(format)
+               ? test_support::reading_and_sites_of(test_support::one_file_codec(format), bytes, workers)
+               : test_support::reading_of(test_support::one_file_codec(format), bytes, workers);
   };
   const std::string serial = reading(FileWorkers::serial);
   for (const std::size_t part_bytes : {std::size_t{1}, 2 + bytes.size() % 61, FileWorkers::whole}) {
@@ -231,17 +233,14 @@ void check_parts(FileFormat format, const std::string& bytes) {
 }
 
 void check_conversion(const MeshDocument& document, FileFormat target) {
-  if (trismooth::codec_of(target).partner_of != nullptr) {
-    return;  // two files: no bytes to read again
-  }
   const std::string what = "as " + std::string(to_string(target));
   const MemoryFile file;
   try {
-    trismooth::codec_of(target).write(file.path(), document);
+    test_support::one_file_codec(target).write(file.path(), document);
   } catch (const WriteError&) {
     return;
   }
-  const bool loses_nothing = trismooth::codec_of(target).what_is_lost(document).empty();
+  const bool loses_nothing = test_support::one_file_codec(target).what_is_lost(document).empty();
   const MeshDocument converted = read_again(target, file.bytes(), "the mesh " + what);
   if (target == FileFormat::stl) {
     require_equal(difference_of_corners(document, converted), what);
@@ -270,7 +269,7 @@ void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   MeshDocument document;
   check_parts(format, bytes);
   try {
-    document = trismooth::codec_of(format).read(input_path, bytes);
+    document = test_support::one_file_codec(format).read(input_path, bytes);
   } catch (const ReadError&) {
     return;
   }

@@ -1,8 +1,7 @@
 #include "targets.h"
 
 #include <algorithm>
-#include <array>
-#include <sstream>
+#include <optional>
 #include <stdexcept>
 
 #include "trismooth/mesh_io/errors.h"
@@ -11,6 +10,7 @@
 #include "document_checks.h"
 #include "support/accepted_files.h"
 #include "support/memory_file.h"
+#include "support/one_file_codec.h"
 #include "support/test_meshes.h"
 
 namespace fuzz {
@@ -20,30 +20,14 @@ using trismooth::MeshDocument;
 
 namespace {
 
-template <FileFormat format>
-constexpr Target reader(std::string_view name, bool is_xml = false) {
-  return {name, [](std::span<const std::uint8_t> input) { run_reader(format, input); }, true, is_xml};
+std::vector<Target> make_targets() {
+  std::vector<Target> targets;
+  for (const FileFormat format : trismooth::all_formats()) {
+    targets.push_back({to_string(format), format});
+  }
+  targets.push_back({"flat_arrays", std::nullopt});
+  return targets;
 }
-
-constexpr auto targets = std::to_array<Target>({
-    reader<FileFormat::off>("off"),
-    reader<FileFormat::obj>("obj"),
-    reader<FileFormat::ply>("ply"),
-    reader<FileFormat::stl>("stl"),
-    reader<FileFormat::vtk>("vtk"),
-    reader<FileFormat::vtu>("vtu", true),
-    reader<FileFormat::vtp>("vtp", true),
-    reader<FileFormat::msh>("msh"),
-    reader<FileFormat::medit>("medit"),
-    reader<FileFormat::su2>("su2"),
-    reader<FileFormat::inp>("inp"),
-    reader<FileFormat::adcirc>("adcirc"),
-    reader<FileFormat::sms>("2dm"),
-    reader<FileFormat::freefem>("freefem"),
-    reader<FileFormat::mfem>("mfem"),
-    reader<FileFormat::triangle>("triangle"),
-    {"flat_arrays", &run_flat_arrays, false, false},
-});
 
 /// The accepted files have one free vertex; this has more.
 std::string grid(FileFormat format) {
@@ -56,7 +40,7 @@ std::string grid(FileFormat format) {
     document.cells.append(trismooth::cell_type::triangle, triangle);
   }
   const test_support::MemoryFile file;
-  trismooth::codec_of(format).write(file.path(), document);
+  test_support::one_file_codec(format).write(file.path(), document);
   return file.bytes();
 }
 
@@ -74,11 +58,21 @@ std::vector<Seed> random_bytes() {
 
 }  // namespace
 
+void Target::run(std::span<const std::uint8_t> input) const {
+  if (format) {
+    run_reader(*format, input);
+  } else {
+    run_flat_arrays(input);
+  }
+}
+
 std::span<const Target> all_targets() {
+  static const std::vector<Target> targets = make_targets();
   return targets;
 }
 
 const Target& find_target(std::string_view name) {
+  const std::span<const Target> targets = all_targets();
   const auto found = std::ranges::find(targets, name, &Target::name);
   if (found == targets.end()) {
     throw std::invalid_argument("no fuzz target is named " + std::string(name));
@@ -87,13 +81,12 @@ const Target& find_target(std::string_view name) {
 }
 
 std::vector<Seed> seeds_of(const Target& target) {
-  const auto format = trismooth::format_named(target.name);
-  if (!format) {
+  if (!target.format) {
     return random_bytes();
   }
-  std::vector<Seed> seeds{{"grid", grid(*format)}};
+  std::vector<Seed> seeds{{"grid", grid(*target.format)}};
   for (const accepted_files::AcceptedFile& file : accepted_files::all()) {
-    if (accepted_files::format_of(file) == *format) {
+    if (accepted_files::format_of(file) == *target.format) {
       seeds.push_back({file.name, file.bytes});
     }
   }

@@ -38,6 +38,14 @@ TEST_CASE("what once broke a promise keeps it now") {
   }
 }
 
+TEST_CASE("a fuzzer is built of every format and of the flat arrays") {
+  std::string names;
+  for (const fuzz::Target& target : fuzz::all_targets()) {
+    names.append(names.empty() ? "" : " ").append(target.name);
+  }
+  CHECK(names == FUZZ_TARGETS);
+}
+
 TEST_CASE("the seeds of every fuzz target keep all promises") {
   for (const fuzz::Target& target : fuzz::all_targets()) {
     const std::vector<fuzz::Seed> seeds = fuzz::seeds_of(target);

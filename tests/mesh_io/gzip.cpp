@@ -121,6 +121,9 @@ TEST_CASE("bytes behind the end are refused") {
 TEST_CASE("compressed meshes are read as they are, and written back to the same bytes, compressed") {
   const ScratchFolder folder;
   for (const accepted_files::AcceptedFile& file : accepted_files::all()) {
+    if (!is_one_file(file)) {
+      continue;
+    }
     CAPTURE(file.name);
     const auto plain_path = folder.write("mesh" + file.extension, file.bytes);
     const auto path = folder.write("mesh" + file.extension + ".gz", compressed(file.bytes));

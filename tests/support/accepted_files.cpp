@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/codec.h"
+
 #include "support/accepted_freefem_files.h"
 #include "support/accepted_inp_files.h"
 #include "support/accepted_medit_files.h"
@@ -17,6 +19,7 @@
 #include "support/accepted_msh_files.h"
 #include "support/accepted_ocean_files.h"
 #include "support/accepted_su2_files.h"
+#include "support/accepted_triangle_files.h"
 #include "support/accepted_vtk_files.h"
 
 namespace accepted_files {
@@ -457,6 +460,7 @@ std::vector<AcceptedFile> make_all() {
   add_freefem(files);
   add_inp(files);
   add_mfem(files);
+  add_triangle(files);
   msh::add(files);
   return files;
 }
@@ -477,6 +481,10 @@ trismooth::FileFormat format_of(const AcceptedFile& file) {
   const auto named = trismooth::format_named(first_word == "legacy" ? "vtk" : first_word);
   const auto formats = trismooth::formats_of("file" + file.extension);
   return named && std::ranges::find(formats, *named) != formats.end() ? *named : formats.at(0);
+}
+
+bool is_one_file(const AcceptedFile& file) {
+  return trismooth::codec_of(format_of(file)).partner_of == nullptr;
 }
 
 const std::vector<AcceptedFile>& all() {

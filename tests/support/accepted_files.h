@@ -21,6 +21,9 @@ struct AcceptedFile {
 /// format, the first that the extension names.
 trismooth::FileFormat format_of(const AcceptedFile& file);
 
+/// Whether it is a file as it is. Where not, it is the two of one mesh in one text: see one_file_codec.h.
+bool is_one_file(const AcceptedFile& file);
+
 /// Every file; no two have the same name. Made once.
 const std::vector<AcceptedFile>& all();
 

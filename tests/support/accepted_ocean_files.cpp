@@ -74,10 +74,70 @@ void add_adcirc(std::vector<AcceptedFile>& files) {
   add("rest", adcirc({}, "0\n0\n0\n0\nmade for a test\n"));
 }
 
+/// How a 2dm file spells the mesh.
+struct SmsSpelling {
+  std::string_view separator = " ";
+  std::string_view row_end = "\n";
+  std::function<int(int)> id = [](int vertex) { return vertex + 1; };
+  std::string exponent = "";
+  bool nodes_first = true;
+  bool materials = true;
+};
+
+std::string sms(const SmsSpelling& spelling, std::string_view rest) {
+  const Mesh all = mesh(false);
+  std::string nodes;
+  std::string elements;
+  const auto add_row = [&](std::string& text, const std::vector<std::string>& words) {
+    text += fmt::format("{}{}", fmt::join(words, spelling.separator), spelling.row_end);
+  };
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const auto& [x, y, z] = all.points[i];
+    add_row(nodes,
+            {"ND", fmt::format("{}", spelling.id(static_cast<int>(i))), fmt::format("{}{}", x, spelling.exponent),
+             fmt::format("{}{}", y, spelling.exponent), fmt::format("{}.5{}", i, spelling.exponent)});
+  }
+  int number = 0;
+  for (const auto& face : all.faces) {
+    std::vector<std::string> words{"E3T", fmt::format("{}", ++number)};
+    for (const int vertex : face) {
+      words.push_back(fmt::format("{}", spelling.id(vertex)));
+    }
+    if (spelling.materials) {
+      words.push_back(number < 3 ? "7" : "-12");
+    }
+    add_row(elements, words);
+  }
+  return (spelling.nodes_first ? nodes + elements : elements + nodes) + std::string(rest);
+}
+
+void add_sms(std::vector<AcceptedFile>& files) {
+  const auto add = [&](const std::string& name, std::string bytes) {
+    files.push_back({"2dm_" + name, ".2dm", std::move(bytes)});
+  };
+  const std::string head = "MESH2D\nMESHNAME \"a square # 1\"\nNUM_MATERIALS_PER_ELEM 1\n";
+  const std::string strings = "NS 1 2\nNS -3 12\nNS 4 -1 \"the inlet\"\n";
+  const std::string plain = head + sms({}, strings + "MAT 7 \"sand # 1\"\n");
+  add("plain", plain);
+  add("elements_first", head + sms({.nodes_first = false}, strings));
+  add("no_materials", "MESH2D\n" + sms({.materials = false}, ""));
+  add("crlf", with_ends(plain, "\r\n"));
+  add("cr", with_ends(plain, "\r"));
+  add("mark", "\xEF\xBB\xBF" + plain);
+  add("comments", "# a mesh\n\nMESH2D # of\n" + sms({.separator = " \t", .row_end = " # a row\n"}, ""));
+  add("exponents", "MESH2D\n" + sms({.exponent = "D+00"}, "NS 1 -3\n"));
+  add("sparse_ids", "MESH2D\n" + sms({.id = [](int vertex) { return 1000 * (9 - vertex); }}, "NS 9000 -7000\n"));
+  add("unordered_ids", "MESH2D\n" + sms({.id = [](int vertex) { return 9 - vertex; }}, "NS 9 -7\n"));
+  add("lines", "MESH2D\n" + sms({}, "E2L 5 1 2 3\nE2L 6 2 3 3\n"));
+  add("other_cards", "MESH2D\nGM \"Mesh\"\n" + sms({}, "BEGPARAMDEF\nTIME 0.5\nENDPARAMDEF\n"));
+  add("no_final_newline", "MESH2D\n" + sms({}, "NS 1 -4"));
+}
+
 }  // namespace
 
 void add_ocean_files(std::vector<AcceptedFile>& files) {
   add_adcirc(files);
+  add_sms(files);
 }
 
 }  // namespace accepted_files

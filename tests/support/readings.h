@@ -26,6 +26,18 @@ inline void append_arrays(std::string& text, std::string_view name, const std::v
     text.append(name).append(" ").append(array.name).append(" ").append(to_string(array.type));
     text.append(" ").append(std::to_string(array.components)).append(":");
     text.append(reinterpret_cast<const char*>(array.bytes.data()), array.bytes.size()).append("\n");
+    if (array.description != nullptr) {
+      for (const trismooth::ValueName& value : array.description->value_names) {
+        text.append(std::to_string(value.value)).append(" of dimension ").append(std::to_string(value.dimension));
+        text.append(" is ").append(value.name).append("\n");
+      }
+    }
+  }
+}
+
+inline void append_sets(std::string& text, std::string_view name, const std::vector<trismooth::NamedSet>& sets) {
+  for (const trismooth::NamedSet& set : sets) {
+    append_values(text, std::string(name).append(" ").append(set.name), set.members);
   }
 }
 
@@ -40,6 +52,8 @@ inline std::string all_of(const trismooth::MeshDocument& document) {
   append_arrays(text, "point array", document.point_arrays);
   append_arrays(text, "cell array", document.cell_arrays);
   append_arrays(text, "field array", document.field_arrays);
+  append_sets(text, "point set", document.point_sets);
+  append_sets(text, "cell set", document.cell_sets);
   for (const auto& sentences : {document.notes, document.losses}) {
     for (const std::string& sentence : sentences) {
       text.append(sentence).append("\n");
