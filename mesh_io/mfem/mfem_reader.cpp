@@ -38,7 +38,7 @@ class MfemReader {
 
   /// Nothing where an element has a vertex that there is not, and elements were read in parts: read one by one, their
   /// lines are known.
-  std::optional<std::pair<MeshDocument, NumberSites>> read() {
+  std::optional<MeshDocument> read() {
     read_version();
     bool ended = false;
     while (!ended && !scanner_.at_end()) {
@@ -57,8 +57,11 @@ class MfemReader {
       fail_index();
     }
     name_mfem_attributes(sets_, attributes_, document_);
-    return std::pair(std::move(document_), std::move(sites_));
+    return std::move(document_);
   }
+
+  /// Where the coordinates are, of what was read.
+  NumberSites take_sites() { return std::move(sites_); }
 
  private:
   void read_version() {
@@ -316,12 +319,14 @@ class MfemReader {
 }  // namespace
 
 MeshDocument read_mfem(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
-  auto read = MfemReader(bytes, path, workers).read();
-  if (!read) {
-    read = MfemReader(bytes, path, FileWorkers(workers.workers, FileWorkers::serial)).read();
+  std::optional<MfemReader> reader(std::in_place, bytes, path, workers);
+  std::optional<MeshDocument> document = reader->read();
+  if (!document) {
+    reader.emplace(bytes, path, FileWorkers(workers.workers, FileWorkers::serial));
+    document = reader->read();
   }
-  read->first.original = make_patched_original(std::move(bytes), std::move(read->second));
-  return std::move(read->first);
+  document->original = make_patched_original(std::move(bytes), reader->take_sites());
+  return std::move(*document);
 }
 
 }  // namespace trismooth
