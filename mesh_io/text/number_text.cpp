@@ -161,7 +161,7 @@ double rounded_to_characters(double value, std::size_t most, NumberForm form) {
   }
   std::array<char, 32> text{};
   const std::size_t length = write_within(value, most, form, text.data());
-  return *parse_fortran_number<double>({text.data(), length});
+  return parse_fortran_number<double>({text.data(), length}).value_or(value);
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view token) {

@@ -213,11 +213,11 @@ class ArrayReader {
         break;
       case VtkLegacyType::Kind::strings:
         read_strings(name, components, count, what);
-        note_skipped(std::move(name), "strings");
+        note_skipped(name, "strings");
         break;
       case VtkLegacyType::Kind::variants:
         input_.skip_variants(count, what);
-        note_skipped(std::move(name), "variants");
+        note_skipped(name, "variants");
         break;
     }
     if (!input_.is_binary()) {
