@@ -328,7 +328,7 @@ class Su2Reader {
     }
     const std::size_t points = type ? su2_points_of(section, dimension_, *type) : 0;
     if (points == 0) {
-      fail_row("expected its type, " + expected_types(section) + ", got " + quoted(token));
+      fail_row("expected its type, " + std::string(expected_types(section)) + ", got " + quoted(token));
     }
     std::array<std::int32_t, 4> vertices{};
     for (std::size_t corner = 0; corner < points; ++corner) {
@@ -353,7 +353,7 @@ class Su2Reader {
     document_.cells.append(static_cast<std::uint8_t>(*type), std::span(vertices).first(points));
   }
 
-  std::string expected_types(Su2Section section) const {
+  std::string_view expected_types(Su2Section section) const {
     if (section == Su2Section::marker && dimension_ == 2) {
       return "3 (a line) or 1 (a point)";
     }

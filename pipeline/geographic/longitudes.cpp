@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -67,14 +68,8 @@ UnwrappedLongitudes unwrap_longitudes(std::span<const double> longitudes, std::s
   UnwrappedLongitudes result{std::vector<std::int32_t>(longitudes.size(), 0), {}};
   const auto jump = [&](std::int32_t a, std::int32_t b) {
     const double difference = longitudes[static_cast<std::size_t>(b)] - longitudes[static_cast<std::size_t>(a)];
-    std::int32_t turns = 0;
-    for (double rest = difference; rest > 180; rest -= 360) {
-      --turns;
-    }
-    for (double rest = difference; rest < -180; rest += 360) {
-      ++turns;
-    }
-    return turns;
+    const auto turns = static_cast<std::int32_t>(std::ceil(std::max(0.0, std::abs(difference) - 180) / 360));
+    return difference > 0 ? -turns : turns;
   };
   const auto jumps = [&](const Triangle& triangle) {
     return jump(triangle[0], triangle[1]) != 0 || jump(triangle[1], triangle[2]) != 0 ||

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include "trismooth/base/exact_arithmetic.h"
 
@@ -16,7 +17,6 @@ namespace trismooth {
 namespace mercator_details {
 
 inline constexpr double degree = 0.017453292519943295;  // in radians
-inline constexpr double ln2 = 0.6931471805599453;
 
 /// sum of z^(2 i) / (2 i + 1) for i < terms, with alternating signs for sign = -1: atanh(z) / z or atan(z) / z.
 inline double odd_series(double square, int terms, double sign) {
@@ -64,7 +64,7 @@ inline double logarithm(double value) {
     mantissa *= 2;
     --exponent;
   }
-  return exponent * ln2 + 2 * small_atanh((mantissa - 1) / (mantissa + 1));
+  return exponent * std::numbers::ln2 + 2 * small_atanh((mantissa - 1) / (mantissa + 1));
 }
 
 /// exp(value) - 1 for |value| up to 1.
@@ -79,9 +79,9 @@ inline double small_expm1(double value) {
 
 /// exp(-value) for value from 0 to 700.
 inline double falling_exponential(double value) {
-  const auto halvings = static_cast<int>(value / ln2 + 0.5);
+  const auto halvings = static_cast<int>(std::lround(value / std::numbers::ln2));
   // ln 2 in two parts, of which the first has few digits: its multiples are exact.
-  constexpr double ln2_high = 0x1.62e42fefap-1;
+  constexpr double ln2_high = 0x1.62e42fefap-1;  // NOLINT(modernize-use-std-numbers): not all of it
   constexpr double ln2_low = 0x1.cf79abc9e3b39p-40;
   const double rest = (value - halvings * ln2_high) - halvings * ln2_low;
   const double power = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - halvings) << 52U);

@@ -34,7 +34,7 @@ struct Candidate {
     if (labels != nullptr) {
       return labels->labels[static_cast<std::size_t>(labels->of_row[row])];
     }
-    const std::string value = value_text(array, row);
+    std::string value = value_text(array, row);
     const std::string name = value_name(array, 2, value);
     if (name.empty()) {
       return value;
