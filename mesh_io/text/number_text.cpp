@@ -27,7 +27,8 @@ bool is_tiny(std::string_view digits) {
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
   const std::size_t first = mantissa.find_first_of("123456789");
   const long place = first < point ? static_cast<long>(point - first) : -static_cast<long>(first - point - 1);
-  return place + exponent < 0;
+  // The sum may be beyond what holds the exponent.
+  return exponent < -place;
 }
 
 template <class T>

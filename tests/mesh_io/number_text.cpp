@@ -74,6 +74,13 @@ TEST_CASE("values beyond the range are infinite, values below it zero") {
   CHECK(parse_number<float>("1e-60") == 0.0F);
   CHECK(parse_number<double>("1e99999999999999999999") == std::numeric_limits<double>::infinity());
   CHECK(parse_number<double>("1e-99999999999999999999") == 0.0);
+  // The exponents that 64 bits just hold, and digits in front of the point and behind it that move them.
+  for (const std::string mantissa : {"1", "123.5", "0.001"}) {
+    for (const std::string exponent : {"9223372036854775807", "9223372036854775806", "9223372036854775808"}) {
+      CHECK(parse_number<double>(mantissa + "e" + exponent) == std::numeric_limits<double>::infinity());
+      CHECK(parse_number<double>(mantissa + "e-" + exponent) == 0.0);
+    }
+  }
   CHECK(parse_number<double>("0.000" + std::string(400, '0') + "1") == 0.0);
   CHECK(parse_number<double>("1" + std::string(400, '0')) == std::numeric_limits<double>::infinity());
 }
