@@ -63,5 +63,6 @@ extern const Codec sms_codec;
 extern const Codec mfem_codec;
 extern const Codec triangle_codec;
 extern const Codec msh_codec;
+extern const Codec nastran_codec;
 
 }  // namespace trismooth

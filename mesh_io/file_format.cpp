@@ -37,6 +37,7 @@ constexpr auto format_names = std::to_array<FormatNames>({
     {FileFormat::freefem, "freefem", "FreeFem", {".msh"}},
     {FileFormat::mfem, "mfem", "MFEM", {".mesh"}},
     {FileFormat::triangle, "triangle", "Triangle", {".node", ".ele"}},
+    {FileFormat::nastran, "nastran", "Nastran", {".bdf", ".nas"}},
 });
 
 constexpr auto ordered_formats = [] {

@@ -27,7 +27,8 @@ enum class FileFormat : std::uint8_t {
   sms,
   freefem,
   mfem,
-  triangle
+  triangle,
+  nastran
 };
 
 /// The format's short name in options, reports and JSON: "off", "obj", ...

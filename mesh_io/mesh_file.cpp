@@ -51,6 +51,8 @@ const Codec& codec_of(FileFormat format) {
       return triangle_codec;
     case FileFormat::msh:
       return msh_codec;
+    case FileFormat::nastran:
+      return nastran_codec;
     case FileFormat::vtu:
     case FileFormat::vtp:
       break;

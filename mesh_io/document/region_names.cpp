@@ -61,6 +61,7 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     "meditref",
     "freefemlabel",
     "nastranref",
+    "nastranpid",
     "tetgenref",
     "netgenindex",
     "su2tag",

@@ -98,8 +98,27 @@ Role role_of(const MeshDocument& whole, const std::vector<Outcome>& trials) {
   return any ? Role::nothing : Role::structure;
 }
 
-std::string replaced(std::string bytes, const Place& place, std::string_view by) {
-  return bytes.replace(place.begin, place.size, by);
+/// The field of 8 or 16 columns in which the place is, in a deck of Nastran; the place itself between commas and tabs,
+/// in comments, and in all other files.
+Place field_of(const AcceptedFile& file, const Place& place) {
+  const std::string_view bytes = file.bytes;
+  const std::size_t begin = bytes.find_last_of("\r\n\xBF", place.begin) + 1;
+  const std::string_view line = bytes.substr(begin, bytes.find_first_of("\r\n", begin) - begin);
+  const std::size_t column = place.begin - begin;
+  if (file.extension != ".bdf" || line.find_first_of(",\t$") != line.npos || column < 8) {
+    return place;
+  }
+  const std::size_t width = contains(line.substr(0, 8), "*") ? 16 : 8;
+  const std::size_t first = 8 + (column - 8) / width * width;
+  return {begin + first, std::min(width, line.size() - first)};
+}
+
+/// In columns, numbers behind the one that is replaced stay where they are.
+std::string replaced(const AcceptedFile& file, const Place& place, std::string_view by) {
+  const Place field = field_of(file, place);
+  std::string text(by);
+  text.resize(field.size > place.size ? std::max(text.size(), field.size) : text.size(), ' ');
+  return std::string(file.bytes).replace(field.begin, field.size, text);
 }
 
 std::optional<std::int64_t> whole_number(std::string_view word) {
@@ -141,7 +160,7 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
   if (file.bytes.compare(place.begin, place.size, word) == 0) {
     return {};
   }
-  const Outcome outcome = read(file, replaced(file.bytes, place, word));
+  const Outcome outcome = read(file, replaced(file, place, word));
   if (!outcome.fault.empty() || !outcome.document || role == Role::nothing) {
     return outcome.fault;
   }
@@ -172,7 +191,16 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
   }
   // Two numbers, where a file separates numbers by commas.
   const bool is_inp = file.extension == ".inp";
-  if (word == "1,5" && (is_inp || contains(file.name, "_commas"))) {
+  const bool is_nastran = file.extension == ".bdf";
+  if (word == "1,5" && (is_inp || is_nastran || contains(file.name, "_commas"))) {
+    return {};
+  }
+  // The system 0 is the one in which all are.
+  if (is_nastran && word == "0" && same_mesh && contains(file.name, "systems")) {
+    return {};
+  }
+  // Longer than its field, it is more than one number.
+  if (is_nastran && word.size() > std::max(field_of(file, place).size, place.size) && outcome.document) {
     return {};
   }
   // Where a range of Abaqus ends is any number: ranges have gaps.
@@ -220,7 +248,7 @@ TEST_CASE("A hostile number in text is refused, or is a value that an array may 
       std::vector<Outcome> trials;
       for (const std::string& other :
            {right ? std::to_string(*right + 1) : "0.5", right ? std::to_string(*right - 1) : "0.625"}) {
-        trials.push_back(read(file, replaced(file.bytes, place, other)));
+        trials.push_back(read(file, replaced(file, place, other)));
       }
       const Role role = role_of(whole, trials);
       ++roles[static_cast<std::size_t>(role)];

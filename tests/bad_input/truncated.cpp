@@ -524,6 +524,113 @@ bool is_whole_inp(const AcceptedFile& file, std::size_t cut) {
   return has_nodes && is_whole_inp_keyword(*keyword) && (data.empty() || is_whole_inp_data(*keyword, fields_of(data)));
 }
 
+/// A card of Nastran with the lines on which it goes on: what its fields say, of which the first is its name.
+struct NastranText {
+  std::vector<std::string> fields;
+  std::string mark;  ///< behind the fields of its last line
+  bool fits = true;  ///< its lines: each begins with the mark of the one before it, where both have one
+};
+
+/// A line as columns: tabs are blanks up to the next multiple of 8, comments are left out.
+std::string columns_of(const std::string& line) {
+  std::string columns;
+  for (const char c : line.substr(0, line.find('$'))) {
+    columns.append(c == '\t' ? 8 - columns.size() % 8 : 1, c == '\t' ? ' ' : c);
+  }
+  return columns;
+}
+
+std::string without_blanks(std::string text) {
+  std::erase(text, ' ');
+  return text;
+}
+
+/// The fields of a line in columns or between commas.
+NastranText nastran_line(const std::string& columns) {
+  NastranText line;
+  if (contains(columns, ",")) {
+    line.fields = fields_of(columns);
+    const std::size_t count = contains(line.fields[0], "*") ? 5 : 9;
+    line.mark = line.fields.size() > count ? line.fields[count] : "";
+    line.fields.resize(count);
+  } else {
+    const std::size_t width = contains(columns.substr(0, 8), "*") ? 16 : 8;
+    std::string padded = columns;
+    padded.resize(std::max<std::size_t>(padded.size(), 80), ' ');
+    line.fields.push_back(without_blanks(padded.substr(0, 8)));
+    for (std::size_t at = 8; at < 72; at += width) {
+      line.fields.push_back(without_blanks(padded.substr(at, width)));
+    }
+    line.mark = without_blanks(padded.substr(72, 8));
+  }
+  std::ranges::transform(line.fields[0], line.fields[0].begin(),
+                         [](char c) { return 'a' <= c && c <= 'z' ? char(c - 'a' + 'A') : c; });
+  return line;
+}
+
+std::vector<NastranText> nastran_cards(std::string text) {
+  std::ranges::replace(text, '\r', '\n');
+  std::istringstream lines(text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  std::vector<NastranText> cards;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string columns = columns_of(line);
+    if (columns.starts_with("BEGIN")) {
+      cards.clear();  // what came before is no card
+    } else if (columns.find_first_not_of(' ') != columns.npos) {
+      NastranText card = nastran_line(columns);
+      if (card.fields[0] == "ENDDATA") {
+        break;
+      }
+      const bool goes_on = card.fields[0].empty() || contains("+*", card.fields[0].substr(0, 1));
+      if (goes_on && !cards.empty()) {
+        const std::string& head = card.fields[0];
+        cards.back().fits = cards.back().mark.size() < 2 || head.size() < 2 || head == cards.back().mark;
+        cards.back().fields.insert(cards.back().fields.end(), card.fields.begin() + 1, card.fields.end());
+        cards.back().mark = card.mark;
+      } else {
+        std::erase(card.fields[0], '*');
+        cards.push_back(std::move(card));
+      }
+    }
+  }
+  return cards;
+}
+
+/// Decks of Nastran have no end: they are whole where their last card is, where all nodes that elements name have a
+/// GRID, and where they have one at all.
+bool is_whole_nastran(const AcceptedFile& file, std::size_t cut) {
+  const std::map<std::string, std::size_t> nodes_of{{"CTRIA3", 3}, {"CTRIAR", 3}, {"CBAR", 2}, {"CONM2", 1}};
+  const auto is_id = [](const std::string& field) { return is_whole_number(field) && field[0] != '-'; };
+  std::vector<std::string> nodes;
+  std::vector<std::string> named;
+  for (const NastranText& card : nastran_cards(file.bytes.substr(0, cut))) {
+    const std::vector<std::string>& fields = card.fields;
+    if (fields[0] == "GRID") {
+      const std::string& z = fields.size() > 5 ? fields[5] : "";
+      for (const std::string& coordinate : {fields[3], fields[4], z}) {
+        if (!coordinate.empty() && !is_number(coordinate)) {
+          return false;
+        }
+      }
+      if (!is_id(fields[1]) || !card.fits || (z.empty() && card.mark.size() > 1)) {
+        return false;
+      }
+      nodes.push_back(fields[1]);
+    } else if (const auto element = nodes_of.find(fields[0]); element != nodes_of.end()) {
+      const std::size_t first = fields[0] == "CONM2" ? 2 : 3;
+      for (std::size_t i = first; i < first + element->second; ++i) {
+        named.push_back(i < fields.size() ? fields[i] : "");
+      }
+      if (!is_id(fields[1])) {
+        return false;
+      }
+    }
+  }
+  return !nodes.empty() && std::ranges::all_of(named, [&nodes](const std::string& node) {
+    return std::ranges::find(nodes, node) != nodes.end();
+  });
+}
+
 bool is_whole(const AcceptedFile& file, std::size_t cut) {
   if (format_of(file) == trismooth::FileFormat::freefem) {
     return is_whole_freefem(file, cut);
@@ -545,6 +652,9 @@ bool is_whole(const AcceptedFile& file, std::size_t cut) {
   }
   if (format_of(file) == trismooth::FileFormat::inp) {
     return is_whole_inp(file, cut);
+  }
+  if (format_of(file) == trismooth::FileFormat::nastran) {
+    return is_whole_nastran(file, cut);
   }
   return file.extension == ".off"   ? is_whole_off(file, cut)
          : file.extension == ".obj" ? is_whole_obj(file, cut)
@@ -576,7 +686,7 @@ bool arrays_start_as(std::span<const DataArray> part, std::span<const DataArray>
 
 /// Nodes and elements are those of the lines that are there, but the coordinates of the last node, of which any may be
 /// left out. What the sets say is known at the end of the file only.
-std::string_view not_a_beginning_of_inp(const MeshDocument& part, const MeshDocument& whole) {
+std::string_view not_a_beginning_of_deck(const MeshDocument& part, const MeshDocument& whole) {
   return starts_as(part.points, whole.points, 3) && starts_as(part.cells.connectivity, whole.cells.connectivity) &&
                  starts_as(part.cells.types, whole.cells.types)
              ? ""
@@ -607,7 +717,8 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
     const bool all_cells = file.extension != ".obj" && !file.name.starts_with("stl_ascii") &&
                            !file.name.starts_with("medit") && !file.name.starts_with("2dm") &&
                            !contains(file.name, "_poly_");
-    const bool is_inp = format_of(file) == trismooth::FileFormat::inp;
+    const bool is_deck =
+        format_of(file) == trismooth::FileFormat::inp || format_of(file) == trismooth::FileFormat::nastran;
     for (std::size_t cut = 0; cut < file.bytes.size(); cut += stride_of(file)) {
       const std::string place = fmt::format("cut at byte {}", cut);
       const Outcome outcome = read(file, file.bytes.substr(0, cut));
@@ -616,8 +727,8 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
         faults.add(file.name, place, outcome.document ? "is accepted" : outcome.message);
       } else if (outcome.document && last_coordinate(file).empty()) {
         faults.add_any(file.name, place,
-                       is_inp ? not_a_beginning_of_inp(*outcome.document, whole)
-                              : not_a_beginning(*outcome.document, whole, all_cells));
+                       is_deck ? not_a_beginning_of_deck(*outcome.document, whole)
+                               : not_a_beginning(*outcome.document, whole, all_cells));
       }
     }
   }

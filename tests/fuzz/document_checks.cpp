@@ -178,6 +178,11 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
                  cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
                  cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26}};
       break;
+    case FileFormat::nastran:
+      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
+                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
+                 cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26, 27}};
+      break;
     case FileFormat::mfem:
       groups = {{cell_type::triangle, cell_type::quad}, {cell_type::line}};
       break;
@@ -199,6 +204,11 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
   if (format == FileFormat::inp) {
     std::ranges::transform(held.points, held.points.begin(),
                            [](double value) { return trismooth::rounded_to_characters(value, 20); });
+  }
+  if (format == FileFormat::nastran) {
+    std::ranges::transform(held.points, held.points.begin(), [](double value) {
+      return trismooth::rounded_to_characters(value, 16, trismooth::NumberForm::nastran);
+    });
   }
   for (const Types& group : groups) {
     for (std::size_t c = 0; c < document.cells.size(); ++c) {

@@ -45,6 +45,8 @@ TEST_CASE("the extensions that the documentation lists name these formats") {
       {".ele", {"triangle"}},
       {".2dm", {"2dm"}},
       {".inp", {"inp"}},
+      {".bdf", {"nastran"}},
+      {".nas", {"nastran"}},
   };
   std::set<std::string> extensions;
   for (const FileFormat format : all_formats()) {

@@ -12,6 +12,7 @@ except (ImportError, OSError) as missing:
     print(f"skipped: Gmsh for Python is not installed where this runs ({missing})")
     sys.exit(77)
 
+import nastran_columns
 import number_texts
 import tool
 
@@ -23,6 +24,11 @@ TEXT_DIALECTS = {
     "medit": (".mesh", {"Binary": 0}),
     "su2": (".su2", {"Binary": 0}),
     "inp": (".inp", {"Binary": 0, "SaveGroupsOfNodes": 1}),
+    "nastran_free": (".bdf", {"BdfFieldFormat": 0}),
+}
+COLUMN_DIALECTS = {
+    "nastran_small": (".bdf", {"BdfFieldFormat": 1}),
+    "nastran_large": (".bdf", {"BdfFieldFormat": 2}),
 }
 BINARY_DIALECTS = {
     "msh41_binary": (".msh", {"MshFileVersion": 4.1, "Binary": 1}),
@@ -30,7 +36,7 @@ BINARY_DIALECTS = {
 }
 # What Gmsh both writes and reads in full.
 MSH = ("msh41", "msh40", "msh22", "msh41_binary", "msh22_binary")
-EVERY_DIALECT = {**TEXT_DIALECTS, **BINARY_DIALECTS}
+EVERY_DIALECT = {**TEXT_DIALECTS, **COLUMN_DIALECTS, **BINARY_DIALECTS}
 
 
 class GmshTest(tool.ToolTest):
@@ -82,6 +88,19 @@ class WrittenBack(GmshTest):
                 self.assertLessEqual(len(changed), 2 * moved)
                 self.assertGreaterEqual(len(changed), moved)
 
+    def test_columns_differ_in_the_numbers_of_moved_nodes_alone(self):
+        for dialect in COLUMN_DIALECTS:
+            for order in (1, 2):
+                with self.subTest(dialect=dialect, order=order):
+                    name = self.write_model(dialect, order=order)
+                    output, report = self.smooth(name)
+                    changed = nastran_columns.changed_numbers(self.read(name), self.read(output))
+                    moved = report["smoothing"]["moved_vertices"]
+                    self.assertGreater(moved, 100)
+                    self.assertGreaterEqual(len(changed), moved)
+                    if order == 1:
+                        self.assertLessEqual(len(changed), 2 * moved)
+
     def test_binary_files_keep_their_size(self):
         for dialect in BINARY_DIALECTS:
             with self.subTest(dialect):
@@ -128,6 +147,18 @@ class OpenedByGmsh(GmshTest):
                                      set(gmsh_model.GROUPS.values()))
                     if model.get("order", 1) == 1:
                         self.assert_only_inner_nodes_moved(name, before, after)
+
+    def test_properties_and_elements_of_nastran_are_in_place(self):
+        for dialect in ("nastran_free", "nastran_small", "nastran_large"):
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    name = self.write_model(dialect, **model)
+                    output, report = self.smooth(name)
+                    before, after = self.open_both(name, output)
+                    moved = sum(before[tag] != after[tag] for tag in before)
+                    self.assertGreater(moved, 100)
+                    if model.get("order", 1) == 1:
+                        self.assertEqual(moved, report["smoothing"]["moved_vertices"])
 
     def test_partitions_and_ghosts_are_in_place(self):
         gmsh_model.build()

@@ -12,6 +12,7 @@ except ImportError as missing:
     print(f"skipped: meshio is not installed where this runs ({missing})")
     sys.exit(77)
 
+import nastran_columns
 import number_texts
 import tool
 
@@ -21,13 +22,18 @@ TEXT_DIALECTS = {
     "gmsh22": (".msh", {"file_format": "gmsh22", "binary": False}),
     "medit": (".mesh", {"file_format": "medit"}),
     "abaqus": (".inp", {"file_format": "abaqus"}),
+    "nastran_free": (".nas", {"file_format": "nastran", "point_format": "free"}),
+}
+COLUMN_DIALECTS = {
+    "nastran_small": (".bdf", {"file_format": "nastran", "point_format": "fixed-small"}),
+    "nastran_large": (".bdf", {"file_format": "nastran", "point_format": "fixed-large"}),
 }
 OTHER_DIALECTS = {
     "gmsh41_binary": (".msh", {"file_format": "gmsh", "binary": True}),
     "gmsh22_binary": (".msh", {"file_format": "gmsh22", "binary": True}),
     "meditb": (".meshb", {"file_format": "medit"}),
 }
-EVERY_DIALECT = {**TEXT_DIALECTS, **OTHER_DIALECTS}
+EVERY_DIALECT = {**TEXT_DIALECTS, **COLUMN_DIALECTS, **OTHER_DIALECTS}
 
 
 def plate(columns=12, rows=9):
@@ -74,6 +80,8 @@ def mesh_for(dialect):
     if kind == "medit":
         return meshio.Mesh(points[:, :2], cells, cell_data={"medit:ref": arrays},
                            point_data={"medit:ref": numpy.arange(len(points)) % 3})
+    if kind == "nastran":
+        return meshio.Mesh(points, cells, cell_data={"nastran:ref": arrays})
     if kind == "abaqus":
         left = numpy.flatnonzero(arrays[1] == 1)
         right = numpy.flatnonzero(arrays[1] == 2)
@@ -132,6 +140,24 @@ class WrittenBack(MeshioTest):
                 self.assertLessEqual(len(changed), 2 * moved)
                 self.assertGreaterEqual(len(changed), moved)
 
+    def test_columns_differ_in_the_numbers_of_moved_points_alone(self):
+        for dialect in COLUMN_DIALECTS:
+            with self.subTest(dialect):
+                name = self.write_mesh(dialect)
+                moved = self.report("smooth", name, "smoothed.bdf")["smoothing"]["moved_vertices"]
+                changed = nastran_columns.changed_numbers(self.read(name), self.read("smoothed.bdf"))
+                self.assertGreater(moved, 50)
+                self.assertLessEqual(len(changed), 2 * moved)
+                self.assertGreaterEqual(len(changed), moved)
+
+    def test_large_fields_of_elements_are_read(self):
+        # meshio writes these, but does not read them.
+        meshio.write(self.path("large.bdf"), mesh_for("nastran_large"), file_format="nastran", cell_format="fixed-large")
+        meshio.write(self.path("small.bdf"), mesh_for("nastran_large"), file_format="nastran")
+        counts = [self.report("quality", name)["input"] for name in ("large.bdf", "small.bdf")]
+        for key in ("vertices", "triangles"):
+            self.assertEqual(counts[0][key], counts[1][key])
+
     def test_meshio_reads_the_same_but_for_moved_points(self):
         for dialect in EVERY_DIALECT:
             with self.subTest(dialect):
@@ -148,7 +174,8 @@ class WrittenBack(MeshioTest):
 class Converted(MeshioTest):
     """From Gmsh's format, which holds everything, into each of the others that meshio reads."""
 
-    TARGETS = {".mesh": "medit:ref", ".meshb": "medit:ref", ".su2": "su2:tag", ".inp": None}
+    TARGETS = {".mesh": "medit:ref", ".meshb": "medit:ref", ".su2": "su2:tag", ".inp": None,
+               ".bdf": "nastran:ref"}
 
     def test_elements_and_their_groups_are_the_same(self):
         name = self.write_mesh("gmsh22")
@@ -161,7 +188,7 @@ class Converted(MeshioTest):
                 cells = mesh.cells_dict
                 self.assertEqual(sorted(map(tuple, cells["triangle"].tolist())), sorted(triangles))
                 self.assertEqual(sorted(map(tuple, cells["line"].tolist())), sorted(lines))
-                if extension in (".mesh", ".meshb"):
+                if extension in (".mesh", ".meshb", ".bdf"):
                     found = mesh.cell_data_dict[array]["triangle"]
                     self.assertEqual(sorted(zip(map(tuple, cells["triangle"].tolist()), found.tolist())),
                                      sorted(zip(triangles, materials)))

@@ -17,6 +17,7 @@
 #include "support/accepted_medit_files.h"
 #include "support/accepted_mfem_files.h"
 #include "support/accepted_msh_files.h"
+#include "support/accepted_nastran_files.h"
 #include "support/accepted_ocean_files.h"
 #include "support/accepted_su2_files.h"
 #include "support/accepted_triangle_files.h"
@@ -461,6 +462,7 @@ std::vector<AcceptedFile> make_all() {
   add_inp(files);
   add_mfem(files);
   add_triangle(files);
+  add_nastran(files);
   msh::add(files);
   return files;
 }
