@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/inp/inp_cells.h"
 #include "trismooth/mesh_io/inp/inp_text.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -12,20 +12,15 @@ namespace trismooth {
 
 namespace {
 
-/// Sets of sets may have far more members than a file has bytes.
 class InpMembers {
  public:
-  InpMembers(InpModel& model, const CellList& cells) : model_(model), cells_(cells) {
-    constexpr std::size_t members_a_byte = 16;
-    for (const InpSource& source : model.sources) {
-      budget_ += members_a_byte * source.bytes.size();
-    }
-  }
+  InpMembers(InpModel& model, const CellList& cells)
+      : model_(model), cells_(cells), budget_(model.sources.front().path, size_of(model)) {}
 
   void find(InpItems InpScope::*kind, const std::vector<InpSetLines>& blocks, std::vector<InpSet>& sets) {
     for (const InpSetLines& block : blocks) {
       std::vector<std::int32_t>& members = sets[block.set].members;
-      spend(static_cast<std::size_t>(block.behind - block.first));
+      budget_.spend(static_cast<std::size_t>(block.behind - block.first));
       for (std::int32_t item = block.first; item < block.behind; ++item) {
         members.push_back(item);
       }
@@ -47,12 +42,12 @@ class InpMembers {
   std::size_t unknown() const { return unknown_; }
 
  private:
-  void spend(std::size_t steps) {
-    if (steps > budget_) {
-      throw ReadError(model_.sources.front().path,
-                      "its sets of sets have more members than a mesh of its size can have");
+  static std::size_t size_of(const InpModel& model) {
+    std::size_t bytes = 0;
+    for (const InpSource& source : model.sources) {
+      bytes += source.bytes.size();
     }
-    budget_ -= steps;
+    return bytes;
   }
 
   void add(std::vector<std::int32_t>& members, std::optional<std::int32_t> item) {
@@ -75,7 +70,7 @@ class InpMembers {
       labels += (model_.scopes[*in].*kind).labels.size();
     }
     if (steps <= labels) {
-      spend(static_cast<std::size_t>(steps) + 1);
+      budget_.spend(static_cast<std::size_t>(steps) + 1);
       for (std::uint64_t i = 0; i <= steps; ++i) {
         const std::int64_t label = range.first + static_cast<std::int64_t>(i) * range.step;
         if (const auto item = find_inp_item(model_, scope, kind, label)) {
@@ -84,7 +79,7 @@ class InpMembers {
       }
       return;
     }
-    spend(labels);
+    budget_.spend(labels);
     for (std::optional<std::size_t> in = scope; in; in = model_.scopes[*in].part) {
       const InpItems& items = model_.scopes[*in].*kind;
       for (std::size_t i = 0; i < items.labels.size(); ++i) {
@@ -101,7 +96,7 @@ class InpMembers {
     if (const auto set = find_inp_set(model_, block.scope, kind, name)) {
       const std::vector<std::int32_t>& others = sets[*set].members;
       if (&others != &members) {
-        spend(others.size());
+        budget_.spend(others.size());
         members.insert(members.end(), others.begin(), others.end());
       }
       return;
@@ -126,7 +121,7 @@ class InpMembers {
     const std::size_t before = members.size();
     for (const std::int32_t cell : model_.element_sets[*element_set].members) {
       const auto vertices = cells_[static_cast<std::size_t>(cell)];
-      spend(vertices.size());
+      budget_.spend(vertices.size());
       members.insert(members.end(), vertices.begin(), vertices.end());
     }
     std::sort(members.begin() + static_cast<std::ptrdiff_t>(before), members.end());
@@ -135,7 +130,7 @@ class InpMembers {
 
   InpModel& model_;
   const CellList& cells_;
-  std::size_t budget_ = std::size_t{1} << 20;  ///< of members, which a file's bytes add to
+  MemberBudget budget_;
   std::size_t unknown_ = 0;
 };
 

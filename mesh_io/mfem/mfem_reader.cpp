@@ -56,7 +56,7 @@ class MfemReader {
       }
       fail_index();
     }
-    name_mfem_attributes(sets_, attributes_, document_);
+    name_mfem_attributes(sets_, attributes_, MemberBudget(scanner_.path(), scanner_.text().size()), document_);
     return std::move(document_);
   }
 

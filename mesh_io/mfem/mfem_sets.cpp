@@ -29,7 +29,7 @@ std::map<Attribute, std::vector<std::int32_t>> cells_of_attributes(const CellLis
 
 }  // namespace
 
-void name_mfem_attributes(std::span<const MfemSet> sets, std::span<const std::int32_t> attributes,
+void name_mfem_attributes(std::span<const MfemSet> sets, std::span<const std::int32_t> attributes, MemberBudget budget,
                           MeshDocument& document) {
   ArrayDescription description;
   std::map<Attribute, bool> has_name;
@@ -45,6 +45,7 @@ void name_mfem_attributes(std::span<const MfemSet> sets, std::span<const std::in
     NamedSet& named = document.cell_sets.emplace_back(NamedSet{set.name, {}});
     for (const std::int64_t attribute : set.attributes) {
       if (const auto members = cells.find({set.dimension, attribute}); members != cells.end()) {
+        budget.spend(members->second.size());
         named.members.insert(named.members.end(), members->second.begin(), members->second.end());
       }
     }

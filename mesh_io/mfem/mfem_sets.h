@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -18,8 +19,8 @@ struct MfemSet {
 
 /// Gives the document the cell array "mfem:attribute", `attributes` for its cells, and names: a set of one attribute
 /// names that attribute, the first such set each; the others become sets of cells. Complexity: n log a for a
-/// attributes, and the members of all sets.
-void name_mfem_attributes(std::span<const MfemSet> sets, std::span<const std::int32_t> attributes,
+/// attributes, and the members of all sets. Throws ReadError where these are beyond the budget.
+void name_mfem_attributes(std::span<const MfemSet> sets, std::span<const std::int32_t> attributes, MemberBudget budget,
                           MeshDocument& document);
 
 }  // namespace trismooth

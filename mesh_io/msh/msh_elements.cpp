@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
 #include "trismooth/mesh_io/msh/msh_repeated_elements.h"
 
@@ -20,7 +21,13 @@ class MshElementReader {
  public:
   MshElementReader(MshInput& input, MshRows& rows, const MshTags& nodes, MshEntities& entities, MeshDocument& document,
                    MshElements& elements)
-      : input_(input), rows_(rows), nodes_(nodes), entities_(entities), cells_(document.cells), elements_(elements) {}
+      : input_(input),
+        rows_(rows),
+        nodes_(nodes),
+        entities_(entities),
+        cells_(document.cells),
+        elements_(elements),
+        budget_(input.path(), input.bytes().size()) {}
 
   void read_blocks() {
     const bool of_4_1 = input_.header().version >= 41;
@@ -185,6 +192,7 @@ class MshElementReader {
       elements_.partition.resize(first + count, entity.partition);
     }
     for (std::size_t i = 1; i < entity.physical.size(); ++i) {
+      budget_.spend(count);
       std::vector<std::int32_t>& members = elements_.further_groups[{dimension, entity.physical[i]}];
       for (std::size_t cell = first; cell < first + count; ++cell) {
         members.push_back(static_cast<std::int32_t>(cell));
@@ -267,6 +275,7 @@ class MshElementReader {
   MshEntities& entities_;
   CellList& cells_;
   MshElements& elements_;
+  MemberBudget budget_;  ///< of groups beside the first
   std::size_t element_count_ = 0;
   std::size_t count_offset_ = 0;
   std::int64_t type_number_ = 0;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +55,7 @@ class MshEntityPlanner {
   void plan_groups() {
     plan_.group_array = groups_.array;
     std::map<int, std::set<std::int32_t>> taken;
+    std::map<int, std::int32_t> lowest_free;  ///< no tag below is
     const auto can_be_tag = [](std::int64_t number) {
       return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
     };
@@ -62,12 +64,14 @@ class MshEntityPlanner {
         taken[group.dimension].insert(static_cast<std::int32_t>(group.number));
       }
     }
-    const auto free_tag = [&taken](int dimension) {
+    const auto free_tag = [&taken, &lowest_free](int dimension) {
       std::set<std::int32_t>& tags = taken[dimension];
       std::int32_t tag = tags.empty() ? 1 : *tags.rbegin() + 1;
       if (tag <= 0 || tag == std::numeric_limits<std::int32_t>::max()) {
-        for (tag = 1; tags.contains(tag); ++tag) {
+        std::int32_t& lowest = lowest_free[dimension];
+        for (lowest = std::max(lowest, 1); tags.contains(lowest); ++lowest) {
         }
+        tag = lowest;
       }
       tags.insert(tag);
       return tag;
@@ -77,6 +81,7 @@ class MshEntityPlanner {
       plan_.renumbers_groups = plan_.renumbers_groups || !keeps;
       plan_.groups.push_back(
           {group.dimension, keeps ? static_cast<std::int32_t>(group.number) : free_tag(group.dimension), group.name});
+      places_of_names_.try_emplace({group.dimension, group.name}, static_cast<std::int32_t>(plan_.groups.size() - 1));
     }
     groups_of_cells_.resize(document_.cell_sets.empty() ? 0 : cells_.size());
     for (const NamedSet& set : document_.cell_sets) {
@@ -99,13 +104,14 @@ class MshEntityPlanner {
   /// A set of a group's name has some of its cells, or all, and others.
   template <class FreeTag>
   std::int32_t place_of_set(const std::string& name, int dimension, const FreeTag& free_tag) {
-    for (std::size_t i = 0; i < plan_.groups.size() && !name.empty(); ++i) {
-      if (plan_.groups[i].dimension == dimension && plan_.groups[i].name == name) {
-        return static_cast<std::int32_t>(i);
+    const auto next = static_cast<std::int32_t>(plan_.groups.size());
+    if (!name.empty()) {
+      if (const auto [named, is_new] = places_of_names_.try_emplace({dimension, name}, next); !is_new) {
+        return named->second;
       }
     }
     plan_.groups.push_back({dimension, free_tag(dimension), name});
-    return static_cast<std::int32_t>(plan_.groups.size() - 1);
+    return next;
   }
 
   void find_geometrical() {
@@ -126,8 +132,9 @@ class MshEntityPlanner {
     if (!groups_of_cells_.empty()) {
       std::vector<std::int32_t>& further = groups_of_cells_[cell];
       std::ranges::sort(further);
+      const std::int32_t first = key.groups.empty() ? -1 : key.groups.front();
       for (const std::int32_t group : further) {
-        if (std::ranges::find(key.groups, group) == key.groups.end()) {
+        if (group != first && (key.groups.empty() || group != key.groups.back())) {
           key.groups.push_back(group);
         }
       }
@@ -210,7 +217,8 @@ class MshEntityPlanner {
   const MeshDocument& document_;
   const CellList& cells_;
   CellGroups groups_;
-  std::vector<std::vector<std::int32_t>> groups_of_cells_;  ///< beside the first one
+  std::vector<std::vector<std::int32_t>> groups_of_cells_;               ///< beside the first one
+  std::map<std::pair<int, std::string>, std::int32_t> places_of_names_;  ///< of groups, by dimension and name
   std::span<const std::int32_t> geometrical_;
   MshEntityPlan plan_;
 };

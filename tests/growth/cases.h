@@ -17,5 +17,8 @@ struct GrowthCase {
 /// Files of every format through the command line.
 std::vector<GrowthCase> file_cases();
 
+/// Files of the formats with groups and names: what they may have many of.
+std::vector<GrowthCase> fem_file_cases();
+
 /// Flat arrays through the library.
 std::vector<GrowthCase> flat_array_cases();

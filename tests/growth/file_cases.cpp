@@ -14,43 +14,13 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkZLibDataCompressor.h>
 
-#include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/cli/command_line.h"
-
 #include "cases.h"
 #include "support/hostile_meshes.h"
+#include "tool_runs.h"
 
 namespace {
 
-using test_meshes::Mesh;
-using Words = std::vector<std::string>;
-
-void run_tool(Words words) {
-  words.insert(words.begin(), {"trismooth", "smooth"});
-  words.insert(words.end(), {"--backend", "cpu", "--threads", "1", "--max-sweeps", "2"});
-  std::vector<const char*> arguments;
-  for (const std::string& word : words) {
-    arguments.push_back(word.c_str());
-  }
-  std::ostringstream out;
-  std::ostringstream err;
-  if (trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(), {out, err}) != 0) {
-    std::fputs(err.str().c_str(), stdout);
-    std::exit(1);
-  }
-}
-
-/// Smooths a file with the bytes make(size), named `input`, to one named `output`.
-GrowthCase file(const std::string& name, int size, const std::string& input, const std::string& output,
-                std::string (*make)(int)) {
-  return {name + ": " + input + " to " + output, size, [=](int count, const ScratchFolder& folder) {
-            const std::string from = folder.write("in." + input, make(count));
-            const std::string to = folder / ("out." + output);
-            return [=] { run_tool({from, to}); };
-          }};
-}
-
-/// The same, with a file that has much to be said of, and everything that says it.
+/// Smooths a file that has much to be said of, and says it everywhere.
 GrowthCase told_of(const std::string& name, int size, const std::string& input, std::string (*make)(int)) {
   return {name + ": " + input + " to reports", size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
@@ -61,37 +31,9 @@ GrowthCase told_of(const std::string& name, int size, const std::string& input, 
           }};
 }
 
-std::string off_of(const Mesh& mesh) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() << " 0\n";
-  for (const auto& point : mesh.points) {
-    text << point.x << ' ' << point.y << " 0\n# a comment\n";
-  }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    text << "3 " << a << ' ' << b << ' ' << c << '\n';
-  }
-  return text.str();
-}
-
-std::string chain_off(int length) {
-  return off_of(hostile_meshes::chain(length));
-}
-
 /// One free vertex opposite of every edge of the boundary.
 std::string star_off(int size) {
-  return off_of(test_meshes::star(size));
-}
-
-/// The chain in another format, as this program writes it.
-GrowthCase chain_in(const std::string& format) {
-  return {"a chain of vertices: " + format + " to " + format, 100, [=](int count, const ScratchFolder& folder) {
-            const std::string off = folder.write("chain.off", chain_off(count));
-            const std::string from = folder / ("in." + format);
-            const std::string to = folder / ("out." + format);
-            write_mesh(from, trismooth::read_mesh(off));
-            return [=] { run_tool({from, to}); };
-          }};
+  return off_text(test_meshes::star(size));
 }
 
 /// Four triangles around a vertex, in the words of a format: made up to by many times something else.
@@ -107,15 +49,6 @@ constexpr std::string_view vtu_points_and_cells =
     "<DataArray type=\"Int32\" Name=\"offsets\">3 6 9 12</DataArray>"
     "<DataArray type=\"UInt8\" Name=\"types\">5 5 5 5</DataArray></Cells></Piece>\n";
 constexpr std::string_view vtu_end = "</UnstructuredGrid></VTKFile>\n";
-
-template <class Part>
-std::string repeated(int count, const Part& part) {
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    text += part(std::to_string(i));
-  }
-  return text;
-}
 
 /// A mesh, and point data to come.
 std::string vtk_head() {
@@ -299,38 +232,38 @@ std::string ply_elements(int count) {
 std::vector<GrowthCase> file_cases() {
   std::vector<GrowthCase> cases;
   for (const char* const format : {"off", "obj", "ply", "stl", "vtk", "vtu", "vtp"}) {
-    cases.push_back(chain_in(format));
+    cases.push_back(chain_in(format, format));
   }
   for (const char* const format : {"ply", "stl", "vtu"}) {
-    cases.push_back(file("a chain of vertices", 100, "off", format, &chain_off));
+    cases.push_back(file_case("a chain of vertices", 100, "off", format, &chain_off_text));
   }
   for (const char* const format : {"vtu", "ply", "stl"}) {
-    cases.push_back(file("arrays of one name", 100, "vtk", format, &vtk_fields_of_one_name));
+    cases.push_back(file_case("arrays of one name", 100, "vtk", format, &vtk_fields_of_one_name));
   }
-  cases.push_back(file("arrays of one name", 100, "vtu", "vtk", &vtu_point_arrays_of_one_name));
-  cases.push_back(file("arrays of one name", 100, "vtu", "vtu", &vtu_point_arrays_of_one_name));
+  cases.push_back(file_case("arrays of one name", 100, "vtu", "vtk", &vtu_point_arrays_of_one_name));
+  cases.push_back(file_case("arrays of one name", 100, "vtu", "vtu", &vtu_point_arrays_of_one_name));
   for (const char* const format : {"vtu", "off"}) {
-    cases.push_back(file("point arrays", 100, "vtk", format, &vtk_distinct_fields));
+    cases.push_back(file_case("point arrays", 100, "vtk", format, &vtk_distinct_fields));
   }
-  cases.push_back(file("point arrays", 100, "vtu", "vtu", &vtu_distinct_point_arrays));
+  cases.push_back(file_case("point arrays", 100, "vtu", "vtu", &vtu_distinct_point_arrays));
   cases.insert(cases.end(), {
-                                file("a fan of one vertex", 300, "off", "off", &star_off),
-                                file("field arrays", 300, "vtu", "vtu", &vtu_fields),
+                                file_case("a fan of one vertex", 300, "off", "off", &star_off),
+                                file_case("field arrays", 300, "vtu", "vtu", &vtu_fields),
                                 told_of("arrays of strings", 100, "vtk", &vtk_strings),
-                                file("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),
-                                file("pieces", 50, "vtu", "vtu", &vtu_pieces),
-                                file("compressed pieces", 30, "vtu", "vtk", &vtu_compressed_pieces),
+                                file_case("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),
+                                file_case("pieces", 50, "vtu", "vtu", &vtu_pieces),
+                                file_case("compressed pieces", 30, "vtu", "vtk", &vtu_compressed_pieces),
                                 told_of("elements that are not known", 300, "vtu", &vtu_unknown_elements),
-                                file("information keys", 300, "vtu", "vtu", &vtu_information_keys),
-                                file("a long comment", 192, "vtu", "off", &vtu_long_comment),
-                                file("cell arrays and unused points", 30, "vtk", "off", &vtk_unused_points),
-                                file("points of one slot", 100, "stl", "off", &stl_of_one_slot),
-                                file("solids", 100, "stl", "vtu", &stl_solids),
-                                file("groups and materials", 100, "obj", "vtu", &obj_groups),
-                                file("properties", 100, "ply", "ply", &ply_properties),
-                                file("properties", 100, "ply", "vtu", &ply_properties),
-                                file("lists", 100, "ply", "vtu", &ply_lists),
-                                file("elements", 100, "ply", "vtu", &ply_elements),
+                                file_case("information keys", 300, "vtu", "vtu", &vtu_information_keys),
+                                file_case("a long comment", 192, "vtu", "off", &vtu_long_comment),
+                                file_case("cell arrays and unused points", 30, "vtk", "off", &vtk_unused_points),
+                                file_case("points of one slot", 100, "stl", "off", &stl_of_one_slot),
+                                file_case("solids", 100, "stl", "vtu", &stl_solids),
+                                file_case("groups and materials", 100, "obj", "vtu", &obj_groups),
+                                file_case("properties", 100, "ply", "ply", &ply_properties),
+                                file_case("properties", 100, "ply", "vtu", &ply_properties),
+                                file_case("lists", 100, "ply", "vtu", &ply_lists),
+                                file_case("elements", 100, "ply", "vtu", &ply_elements),
                             });
   return cases;
 }

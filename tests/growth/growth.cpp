@@ -40,8 +40,10 @@ int main(int argc, char** argv) {
   }
   CALLGRIND_START_INSTRUMENTATION;
   std::vector<GrowthCase> cases = file_cases();
-  for (GrowthCase& flat : flat_array_cases()) {
-    cases.push_back(std::move(flat));
+  for (auto* const more : {&fem_file_cases, &flat_array_cases}) {
+    for (GrowthCase& work : more()) {
+      cases.push_back(std::move(work));
+    }
   }
   for (const GrowthCase& work : cases) {
     if (work.name.find(only) != std::string::npos) {

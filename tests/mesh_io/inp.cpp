@@ -322,7 +322,7 @@ TEST_CASE("sets of sets that explode are refused") {
     const std::string before = "s" + std::to_string(i - 1);
     text += "*NSET, NSET=s" + std::to_string(i) + "\n" + before + "," + before + "\n";
   }
-  CHECK(says(inp.failure_of(text), "its sets of sets have more members"));
+  CHECK(says(inp.failure_of(text), "its sets and groups have more members"));
   CHECK(inp.read("*NODE\n1,0\n2,1\n*NSET, NSET=a, GENERATE\n1, 9000000000000000000, 1\n").point_sets[0].members ==
         std::vector<std::int32_t>{0, 1});
 }
