@@ -85,19 +85,24 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
 }
 
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {
+  if (!is_sanitized) {
+    return 1;
+  }
   // Odd ones, which meet numbers at all their bytes; rows of Medit's may be three numbers.
-  const std::size_t plain = file.name.starts_with("medit") ? 5 : 3;
-  return !is_sanitized ? 1 : !is_vtk_xml(file) ? plain : file.name.find("lzma") == std::string::npos ? 13 : 61;
+  if (!is_vtk_xml(file)) {
+    return file.name.starts_with("medit") ? 5 : 3;
+  }
+  return file.name.find("lzma") == std::string::npos ? 13 : 61;
 }
 
-Outcome read(const accepted_files::AcceptedFile& file, std::string bytes) {
+Outcome read(const accepted_files::AcceptedFile& file, const std::string& bytes) {
   const std::string path = "some folder/" + file.name + file.extension;
   const std::size_t limit = is_vtk_xml(file) ? most_memory_of_xml : most_memory;
   Outcome outcome;
   listener().heard.clear();
   const MemoryPeak peak;
   try {
-    outcome.document = test_support::one_file_codec(accepted_files::format_of(file)).read(path, std::move(bytes));
+    outcome.document = test_support::one_file_codec(accepted_files::format_of(file)).read(path, bytes);
     outcome.fault = broken_promise(*outcome.document);
   } catch (const trismooth::ReadError& error) {
     outcome.message = error.what();
@@ -119,7 +124,7 @@ Outcome read(const accepted_files::AcceptedFile& file) {
 }
 
 Outcome read_and_write(const accepted_files::AcceptedFile& file, std::string bytes) {
-  Outcome outcome = read(file, std::move(bytes));
+  Outcome outcome = read(file, bytes);
   if (outcome.document && outcome.fault.empty()) {
     try {
       written_back(*outcome.document);

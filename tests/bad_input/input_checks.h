@@ -21,7 +21,7 @@ struct Outcome {
 /// prints, and with memory out of proportion to the file.
 Outcome read(const accepted_files::AcceptedFile& file);
 /// The same for a changed copy of the file.
-Outcome read(const accepted_files::AcceptedFile& file, std::string bytes);
+Outcome read(const accepted_files::AcceptedFile& file, const std::string& bytes);
 
 /// The same, and the document must be writable to its own format.
 Outcome read_and_write(const accepted_files::AcceptedFile& file, std::string bytes);

@@ -13,7 +13,6 @@
 #include "support/scratch_folder.h"
 
 using byte_files::contains;
-using trismooth::FileFormat;
 using trismooth::find_array;
 using trismooth::freefem_codec;
 using trismooth::make_data_array;

@@ -83,8 +83,8 @@ TEST_CASE("new numbers take 20 characters at most") {
 TEST_CASE("coordinates that a node line leaves out are 0, and stand there once they are not") {
   MeshDocument document = inp.read("*NODE\n1\n2, 2.\n3, , 3.\n4, 4., , 5.\n5,,,\n6, 1., 2., 3., 0., 0., 1.\n");
   CHECK(document.points == std::vector<double>{0, 0, 0, 2, 0, 0, 0, 3, 0, 4, 0, 5, 0, 0, 0, 1, 2, 3});
-  for (std::size_t i = 0; i < document.points.size(); ++i) {
-    document.points[i] += 10;
+  for (double& coordinate : document.points) {
+    coordinate += 10;
   }
   CHECK(inp.written(document) ==
         "*NODE\n1, 10, 10, 10\n2, 12, 10, 10\n3, 10, 13, 10\n4, 14, 10, 15\n5,10,10,10\n6, 11, 12, 13, 0., 0., 1.\n");

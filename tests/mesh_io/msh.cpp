@@ -16,7 +16,6 @@
 #include "support/memory_file.h"
 #include "support/readings.h"
 
-using accepted_files::msh::Spelling;
 using trismooth::DataArray;
 using trismooth::MeshDocument;
 using trismooth::msh_codec;

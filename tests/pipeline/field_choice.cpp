@@ -11,7 +11,6 @@
 using trismooth::choose_fields;
 using trismooth::FieldChoice;
 using trismooth::Fields;
-using trismooth::FieldWishes;
 using trismooth::make_data_array;
 
 namespace field_choice_test {

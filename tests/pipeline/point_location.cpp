@@ -22,7 +22,6 @@ using trismooth::nearest_place;
 using trismooth::Point2;
 using trismooth::PointLocation;
 using trismooth::Triangle;
-using trismooth::TriangleTree;
 using trismooth::Workers;
 
 namespace point_location_test {

@@ -37,7 +37,7 @@ std::vector<Triangle> grid_triangles(std::int32_t side) {
 
 MeshDocument with_sets(std::int32_t side, std::vector<NamedSet> sets) {
   MeshDocument document;
-  document.points.assign(static_cast<std::size_t>(3 * side * side), 0.0);
+  document.points.assign(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0);
   document.point_sets = std::move(sets);
   return document;
 }

@@ -25,7 +25,6 @@ using trismooth::find_regions;
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
 using trismooth::planar_mesh;
-using trismooth::PlanarMesh;
 using trismooth::RegionReason;
 using trismooth::Regions;
 using trismooth::Triangle;

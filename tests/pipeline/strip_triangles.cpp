@@ -1,6 +1,7 @@
 #include "trismooth/mesh_io/document/strip_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ using Numbers = std::vector<std::int32_t>;
 MeshDocument two_rows(int points) {
   MeshDocument document;
   for (int i = 0; i < points; ++i) {
-    document.points.insert(document.points.end(), {double(i / 2), double(i % 2), 0.0});
+    document.points.insert(document.points.end(), {std::floor(i / 2.0), double(i % 2), 0.0});
   }
   return document;
 }

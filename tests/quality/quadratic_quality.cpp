@@ -10,7 +10,6 @@ using trismooth::Point2;
 using trismooth::quadratic_quality;
 using trismooth::QuadraticTriangle;
 using trismooth::Triangle;
-using trismooth::TriangleView;
 
 TEST_CASE("quadratic triangles are counted, the invalid ones in the orientation of their component") {
   // A square of two triangles with middles, the second listed clockwise.

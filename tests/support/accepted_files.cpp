@@ -166,11 +166,11 @@ void add_binary_off(std::vector<AcceptedFile>& files) {
 std::string obj_faces(const Mesh& all, const std::function<std::string(int)>& word) {
   std::string text;
   for (const std::vector<int>& face : all.faces) {
-    text += "f";
+    text += 'f';
     for (const int vertex : face) {
       text += " " + word(vertex);
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

@@ -323,7 +323,7 @@ std::string with_polygons() {
     for (const int vertex : all.faces[i]) {
       text += fmt::format(" {}", vertex + 1);
     }
-    text += "\n";
+    text += '\n';
   }
   return text + "$EndElements\n";
 }

@@ -24,7 +24,7 @@ struct AdcircSpelling {
   std::string_view separator = " ";
   std::string_view row_end = "\n";
   std::function<int(int)> id = [](int vertex) { return vertex + 1; };
-  std::string exponent = "";
+  std::string exponent;
 };
 
 std::string adcirc(const AdcircSpelling& spelling, std::string_view boundaries) {
@@ -79,7 +79,7 @@ struct SmsSpelling {
   std::string_view separator = " ";
   std::string_view row_end = "\n";
   std::function<int(int)> id = [](int vertex) { return vertex + 1; };
-  std::string exponent = "";
+  std::string exponent;
   bool nodes_first = true;
   bool materials = true;
 };
@@ -104,7 +104,7 @@ std::string sms(const SmsSpelling& spelling, std::string_view rest) {
       words.push_back(fmt::format("{}", spelling.id(vertex)));
     }
     if (spelling.materials) {
-      words.push_back(number < 3 ? "7" : "-12");
+      words.emplace_back(number < 3 ? "7" : "-12");
     }
     add_row(elements, words);
   }
