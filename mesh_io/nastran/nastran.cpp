@@ -14,6 +14,7 @@
 #include "trismooth/mesh_io/nastran/nastran_names.h"
 #include "trismooth/mesh_io/nastran/nastran_original.h"
 #include "trismooth/mesh_io/nastran/nastran_reader.h"
+#include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
