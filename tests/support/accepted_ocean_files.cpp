@@ -24,7 +24,7 @@ struct AdcircSpelling {
   std::string_view separator = " ";
   std::string_view row_end = "\n";
   std::function<int(int)> id = [](int vertex) { return vertex + 1; };
-  std::string exponent;
+  std::string exponent{};
 };
 
 std::string adcirc(const AdcircSpelling& spelling, std::string_view boundaries) {
@@ -79,7 +79,7 @@ struct SmsSpelling {
   std::string_view separator = " ";
   std::string_view row_end = "\n";
   std::function<int(int)> id = [](int vertex) { return vertex + 1; };
-  std::string exponent;
+  std::string exponent{};
   bool nodes_first = true;
   bool materials = true;
 };
