@@ -4,10 +4,12 @@ All is judged by the readers and the geometry beside this file, none of which th
 environment variable TRISMOOTH_EXTRA_MESHES names is tested as well.
 """
 
+import gzip
 import os
 import types
 
 import compare
+import fem_samples
 import mesh_reader
 import planar_geometry
 import sample_meshes
@@ -24,12 +26,12 @@ def mesh_files(folder):
 class SmoothedFile(tool.ToolTest):
     """What holds for every file."""
 
-    def smooth(self, path):
+    def smooth(self, path, read=mesh_reader.read):
         """Smooths a file; checks all that is true of any; returns what more can be asked about."""
         output = self.path("smoothed" + os.path.splitext(path)[1])
         report = self.report("smooth", path, output)
         self.assert_no_temporary_files()
-        before, after = mesh_reader.read(path), mesh_reader.read(output)
+        before, after = read(path), read(output)
         moved = {v for v, (p, q) in enumerate(zip(before.points, after.points)) if p != q}
         self.assertEqual(len(after.points), len(before.points))
         self.assertEqual(after.cells, before.cells)
@@ -101,6 +103,47 @@ class EveryFormat(SmoothedFile):
                 self.write(name, content)
                 hashes[name] = self.report("smooth", name, "out" + os.path.splitext(name)[1])["coordinates_hash"]
         self.assertEqual(len(set(hashes.values())), 1, hashes)
+
+
+class FormatsWithGroups(SmoothedFile):
+    """Files that are read by the pattern that they were made from: all but coordinates is known to be the same."""
+
+    def reader_of(self, sample):
+        def read(path):
+            with open(path, "rb") as file:
+                return sample.read(file.read())
+        return read
+
+    def test_change_nothing_but_the_coordinates_of_moved_vertices(self):
+        for name, sample in fem_samples.every_sample().items():
+            with self.subTest(name):
+                path = self.write("plate" + sample.extension, sample.content())
+                self.assertGreater(len(self.smooth(path, self.reader_of(sample)).moved), 10)
+
+    def test_compressed_ones_are_the_same_inside(self):
+        for name, sample in fem_samples.every_sample().items():
+            with self.subTest(name):
+                self.write("plate" + sample.extension, sample.content())
+                self.run_tool("smooth", "plate" + sample.extension, "plain" + sample.extension)
+                self.write("plate" + sample.extension + ".gz", gzip.compress(sample.content()))
+                self.run_tool("smooth", "plate" + sample.extension + ".gz", "packed" + sample.extension + ".gz")
+                self.assertEqual(gzip.decompress(self.read("packed" + sample.extension + ".gz")),
+                                 self.read("plain" + sample.extension))
+
+    def test_nothing_moved_gives_the_same_bytes(self):
+        self.write("all.txt", "\n".join(map(str, range(81))))
+        for name, sample in fem_samples.every_sample().items():
+            with self.subTest(name):
+                path = self.write("plate" + sample.extension, sample.content())
+                self.run_tool("smooth", path, "same" + sample.extension, "--fixed-ids", "all.txt")
+                self.assertEqual(self.read("same" + sample.extension), sample.content())
+
+    def test_the_two_files_of_triangle(self):
+        sample, elements = fem_samples.triangle()
+        path = self.write("plate.node", sample.content())
+        self.write("plate.ele", elements)
+        self.assertGreater(len(self.smooth(path, self.reader_of(sample)).moved), 10)
+        self.assertEqual(self.read("smoothed.ele"), elements)
 
 
 class ExampleMeshes(SmoothedFile):
