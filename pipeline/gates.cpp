@@ -24,6 +24,8 @@ constexpr std::array<std::pair<std::string_view, double MetricSummary::*>, 5> st
      {"stddev_", &MetricSummary::stddev},
      {"acceptable_", &MetricSummary::acceptable_fraction}}};
 
+constexpr std::string_view invalid_quadratic = "invalid_quadratic";
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
   const std::size_t begin = text.find_first_not_of(blanks);
@@ -31,7 +33,8 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-std::optional<double> find_value(std::string_view name, const QualityReport& report) {
+std::optional<double> find_value(std::string_view name, const QualityReport& report,
+                                 const std::optional<QuadraticQuality>& quadratic) {
   if (name == "triangles") {
     return static_cast<double>(report.triangles);
   }
@@ -40,6 +43,9 @@ std::optional<double> find_value(std::string_view name, const QualityReport& rep
   }
   if (name == "degenerate") {
     return static_cast<double>(report.degenerate);
+  }
+  if (name == invalid_quadratic) {
+    return quadratic ? static_cast<double>(quadratic->invalid) : 0;
   }
   // The extreme angles of the mesh go by the metrics' own names: nobody means min_min_angle by another.
   if (name == info(Metric::min_angle).name) {
@@ -100,7 +106,11 @@ std::string distinct_number(double value, double bound) {
 }  // namespace
 
 std::vector<std::string> gate_names() {
-  std::vector<std::string> names{"triangles", "inverted", "degenerate", std::string(info(Metric::min_angle).name),
+  std::vector<std::string> names{"triangles",
+                                 "inverted",
+                                 "degenerate",
+                                 std::string(invalid_quadratic),
+                                 std::string(info(Metric::min_angle).name),
                                  std::string(info(Metric::max_angle).name)};
   for (const MetricInfo& metric : all_metrics()) {
     for (const auto& [prefix, statistic] : statistics) {
@@ -110,8 +120,9 @@ std::vector<std::string> gate_names() {
   return names;
 }
 
-double gate_value(std::string_view name, const QualityReport& report) {
-  if (const auto value = find_value(name, report)) {
+double gate_value(std::string_view name, const QualityReport& report,
+                  const std::optional<QuadraticQuality>& quadratic) {
+  if (const auto value = find_value(name, report, quadratic)) {
     return *value;
   }
   std::string prefixes;
@@ -119,9 +130,9 @@ double gate_value(std::string_view name, const QualityReport& report) {
     prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
   }
   throw std::invalid_argument(
-      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, min_angle, max_angle, and one of {} "
-                  "before one of {}{}",
-                  name, prefixes, metric_names(), did_you_mean(name, gate_names())));
+      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, {}, min_angle, max_angle, and one "
+                  "of {} before one of {}{}",
+                  name, invalid_quadratic, prefixes, metric_names(), did_you_mean(name, gate_names())));
 }
 
 Gate parse_gate(std::string_view text) {
@@ -143,8 +154,9 @@ Gate parse_gate(std::string_view text) {
   return gate;
 }
 
-GateOutcome check_gate(const Gate& gate, const QualityReport& report) {
-  const double value = gate_value(gate.name, report);
+GateOutcome check_gate(const Gate& gate, const QualityReport& report,
+                       const std::optional<QuadraticQuality>& quadratic) {
+  const double value = gate_value(gate.name, report, quadratic);
   return {gate, value, holds(value, gate.comparison, gate.bound)};
 }
 

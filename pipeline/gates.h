@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "trismooth/base/enum_text.h"
+#include "trismooth/quality/quadratic_quality.h"
 #include "trismooth/quality/quality_report.h"
 
 namespace trismooth {
@@ -41,16 +43,19 @@ struct GateOutcome {
   bool passed = false;
 };
 
-/// Every name that a gate may have: triangles, inverted, degenerate, min_angle and max_angle (the smallest and the
-/// largest angle of the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M (the acceptable
-/// fraction, 0 to 1).
+/// Every name that a gate may have: triangles, inverted, degenerate, invalid_quadratic, min_angle and max_angle (the
+/// smallest and the largest angle of the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M
+/// (the acceptable fraction, 0 to 1).
 std::vector<std::string> gate_names();
 
-/// The value of that name in the report. Throws std::invalid_argument for a name that is not one of gate_names().
-double gate_value(std::string_view name, const QualityReport& report);
+/// The value of that name in the report; invalid_quadratic is that of `quadratic`, and 0 for a mesh without quadratic
+/// triangles. Throws std::invalid_argument for a name that is not one of gate_names().
+double gate_value(std::string_view name, const QualityReport& report,
+                  const std::optional<QuadraticQuality>& quadratic = std::nullopt);
 
 /// Whether the report meets the gate. A value that is not a number meets none.
-GateOutcome check_gate(const Gate& gate, const QualityReport& report);
+GateOutcome check_gate(const Gate& gate, const QualityReport& report,
+                       const std::optional<QuadraticQuality>& quadratic = std::nullopt);
 
 /// "min_shape >= 0.3": the demand.
 std::string gate_text(const Gate& gate);

@@ -113,7 +113,8 @@ struct PipelineTimings {
          guard = 0, check_after = 0, write = 0, total = 0, fields = 0;
 };
 
-/// What a run did and found. Cells and centroids of worst elements are those of the file.
+/// What a run did and found. Cells and centroids of worst elements are those of the file, regions places in
+/// `region_names`.
 struct PipelineResult {
   InputSummary input;
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not

@@ -27,6 +27,7 @@ struct WorstElement {
   double shape = 0;           ///< negative where inverted
   Point2<double> centroid{};  ///< in the view's frame; quality() and run_pipeline() give yours
   bool all_fixed = false;     ///< no smoothing can change it; for who knows the fixed vertices, quality_report does not
+  std::int32_t region = -1;   ///< -1: none; for who knows the regions, quality_report does not
 };
 
 /// The bins of QualityReport::shape_histogram.

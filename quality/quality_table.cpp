@@ -133,22 +133,34 @@ std::string histogram_text(const std::vector<const QualityReport*>& reports) {
 }
 
 /// The worst elements of one report below `title`.
-std::string worst_text(const QualityReport& report, std::string_view title) {
-  TextColumns columns({{0}, {3}, {2}, {2, Align::left}, {2, Align::left}});
-  columns.add_row({"", "element", "shape", "centroid"});
+std::string worst_text(const QualityReport& report, std::span<const std::string> region_names, std::string_view title) {
+  const bool has_regions = !region_names.empty();
+  std::vector<TextColumns::Column> shown{{0}, {3}, {2}, {2, Align::left}, {2, Align::left}};
+  std::vector<std::string> head{"", "element", "shape", "centroid"};
+  if (has_regions) {
+    shown.push_back({2, Align::left});
+    head.emplace_back("region");
+  }
+  TextColumns columns(shown);
+  columns.add_row(std::move(head));
   for (std::size_t rank = 0; rank < report.worst.size(); ++rank) {
     const WorstElement& element = report.worst[rank];
-    columns.add_row({std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
-                     "(" + general_digits(element.centroid.x, 8) + ", " + general_digits(element.centroid.y, 8) + ")",
-                     element.all_fixed ? "all fixed" : ""});
+    std::vector<std::string> row{
+        std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
+        "(" + general_digits(element.centroid.x, 8) + ", " + general_digits(element.centroid.y, 8) + ")"};
+    if (has_regions) {
+      row.push_back(element.region < 0 ? "" : region_names[static_cast<std::size_t>(element.region)]);
+    }
+    row.emplace_back(element.all_fixed ? "all fixed" : "");
+    columns.add_row(std::move(row));
   }
   return columns.text({{0, 3, title}});
 }
 
-std::string worst_text(const std::vector<const QualityReport*>& reports) {
-  std::string text = reports.size() == 1
-                         ? worst_text(*reports[0], "worst")
-                         : worst_text(*reports[0], "worst before") + '\n' + worst_text(*reports[1], "worst after");
+std::string worst_text(const std::vector<const QualityReport*>& reports, std::span<const std::string> region_names) {
+  std::string text = reports.size() == 1 ? worst_text(*reports[0], region_names, "worst")
+                                         : worst_text(*reports[0], region_names, "worst before") + '\n' +
+                                               worst_text(*reports[1], region_names, "worst after");
   const bool any_fixed = std::ranges::any_of(reports, [](const QualityReport* report) {
     return std::ranges::any_of(report->worst, &WorstElement::all_fixed);
   });
@@ -178,7 +190,8 @@ std::string counts_text(const std::vector<const QualityReport*>& reports) {
 
 }  // namespace
 
-std::string format_table(const QualityReport& before, const QualityReport* after) {
+std::string format_table(const QualityReport& before, const QualityReport* after,
+                         std::span<const std::string> region_names) {
   std::vector<const QualityReport*> reports{&before};
   if (after != nullptr) {
     reports.push_back(after);
@@ -190,7 +203,7 @@ std::string format_table(const QualityReport& before, const QualityReport* after
   text += '\n' + (after == nullptr ? metrics_text(before) : metrics_text(before, *after));
   text += '\n' + histogram_text(reports);
   if (!before.worst.empty()) {
-    text += '\n' + worst_text(reports);
+    text += '\n' + worst_text(reports, region_names);
   }
   return text;
 }

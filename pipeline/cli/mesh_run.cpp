@@ -197,7 +197,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
-      "degenerate, triangles, and min_, mean_, max_, stddev_ or acceptable_ before a metric: min_shape. Repeatable",
+      "degenerate, invalid_quadratic, triangles, and min_, mean_, max_, stddev_ or acceptable_ before a metric: "
+      "min_shape. Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
       ->group(option_group::results);
   const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {
@@ -232,7 +233,8 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   const PipelineResult result = run_watched(options, verbosity, environment);
 
   for (const Gate& gate : settings.gates) {
-    record.gates.push_back(check_gate(gate, result.after ? *result.after : result.before));
+    record.gates.push_back(result.after ? check_gate(gate, *result.after, result.quadratic_after)
+                                        : check_gate(gate, result.before, result.quadratic_before));
   }
   // Files first: a reader of the standard output that goes away (head) ends the program.
   const auto lost = std::erase_if(settings.reports, [&](const std::filesystem::path& report) {

@@ -230,25 +230,33 @@ std::string histogram(const PipelineResult& result) {
   return html + shape_histogram_svg(result.before, after_of(result)) + "</figure>\n";
 }
 
-std::string worst_table(std::string_view title, const QualityReport& report) {
+/// Of a mesh of one region, or none, `names` is empty.
+std::string worst_table(std::string_view title, const QualityReport& report, const std::vector<std::string>& names) {
   std::string html = fmt::format(
-      "<div>\n{}<table>\n<thead><tr><th>element</th><th>shape</th><th>centroid</th></tr>"
+      "<div>\n{}<table>\n<thead><tr><th>element</th><th>shape</th><th>centroid</th>{}</tr>"
       "</thead>\n<tbody>\n",
-      title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title));
+      title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title), names.empty() ? "" : "<th>region</th>");
   for (const WorstElement& element : report.worst) {
     html += "<tr>" + html_cell(std::to_string(element.triangle)) +
             html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
             html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
                                   element.all_fixed ? "<small>all corners fixed</small>" : ""),
                       "text") +
+            (names.empty()
+                 ? ""
+                 : html_cell(element.region < 0 ? "" : escape_html(names[static_cast<std::size_t>(element.region)]),
+                             "text")) +
             "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }
 
 std::string worst_tables(const PipelineResult& result) {
-  const std::string tables = result.after ? worst_table("before", result.before) + worst_table("after", *result.after)
-                                          : worst_table("", result.before);
+  const std::vector<std::string> names =
+      result.region_names.size() < 2 ? std::vector<std::string>{} : result.region_names;
+  const std::string tables =
+      result.after ? worst_table("before", result.before, names) + worst_table("after", *result.after, names)
+                   : worst_table("", result.before, names);
   return "<div class=\"two\">\n" + tables + "</div>\n";
 }
 

@@ -130,7 +130,8 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
 }
 
-Json quality_json(const QualityReport& report) {
+/// `names`: of regions.
+Json quality_json(const QualityReport& report, const std::vector<std::string>& names) {
   Json metrics = Json::object();
   for (const MetricInfo& metric : all_metrics()) {
     const MetricSummary& summary = report[metric.metric];
@@ -142,10 +143,12 @@ Json quality_json(const QualityReport& report) {
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {
-    worst.push_back({{"cell", element.triangle},
-                     {"shape", number_json(element.shape)},
-                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
-                     {"all_fixed", element.all_fixed}});
+    worst.push_back(
+        {{"cell", element.triangle},
+         {"shape", number_json(element.shape)},
+         {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
+         {"region", element.region < 0 ? Json(nullptr) : Json(names[static_cast<std::size_t>(element.region)])},
+         {"all_fixed", element.all_fixed}});
   }
   return {{"triangles", report.triangles},
           {"inverted", report.inverted},
@@ -180,7 +183,7 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
                        {"shape", {{"min", number_json(quality.min_shape)}, {"mean", number_json(quality.mean_shape)}}},
                        {"min_angle", {{"min", number_json(quality.min_angle)}}}});
   }
-  Json json = quality_json(report);
+  Json json = quality_json(report, names);
   json["regions"] = std::move(regions);
   json["quadratic"] = quadratic ? Json{{"elements", quadratic->elements},
                                        {"invalid", quadratic->invalid},

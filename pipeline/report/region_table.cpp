@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <vector>
 
@@ -59,7 +60,6 @@ std::vector<std::string> cells_of(const PipelineResult& result, std::size_t regi
           min_angle.after};
 }
 
-/// In plain ASCII, as TextColumns wants it, and not longer than leaves room for the numbers.
 std::string short_name(const std::string& name) {
   constexpr std::size_t most = 10;
   std::string text;
@@ -70,6 +70,14 @@ std::string short_name(const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> short_region_names(const PipelineResult& result) {
+  std::vector<std::string> names;
+  if (result.region_names.size() > 1) {
+    std::ranges::transform(result.region_names, std::back_inserter(names), short_name);
+  }
+  return names;
+}
 
 std::string region_table(const PipelineResult& result, std::size_t most) {
   if (result.region_names.size() < 2) {

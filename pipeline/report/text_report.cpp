@@ -285,10 +285,11 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += fields_line(result);
   }
   const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
-  text += '\n' +
-          (is_summary ? format_summary(result.before, *result.after)
-                      : format_table(result.before, result.after ? &*result.after : nullptr)) +
-          '\n';
+  text +=
+      '\n' +
+      (is_summary ? format_summary(result.before, *result.after)
+                  : format_table(result.before, result.after ? &*result.after : nullptr, short_region_names(result))) +
+      '\n';
   if (result.smoothing) {
     if (const std::string_view why = why_nothing_moved(result); !why.empty()) {
       text += fmt::format("{}\n", why);

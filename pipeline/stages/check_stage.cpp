@@ -16,6 +16,9 @@ QualityReport quality_of(const RunState& run) {
   report.degenerate += run.mesh.repeating_triangles;
   for (WorstElement& element : report.worst) {
     const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.triangle)];
+    if (run.regions.count() > 1) {
+      element.region = run.regions.of_triangle[static_cast<std::size_t>(element.triangle)];
+    }
     element.all_fixed = std::ranges::all_of(corners, [&](std::int32_t v) { return run.found.fixed[v] != 0; });
     element.triangle = run.mesh.cells[static_cast<std::size_t>(element.triangle)];
     element.centroid = run.local.frame.leave(element.centroid);

@@ -58,7 +58,7 @@ class Reports(tool.ToolTest):
         self.assertEqual(len(quality["histogram"]["shape"]), 20)
         self.assertEqual(sum(quality["histogram"]["shape"]) + quality["inverted"], quality["triangles"])
         for element in quality["worst"]:
-            self.assertEqual({*element}, {"cell", "shape", "centroid", "all_fixed"})
+            self.assertEqual({*element}, {"cell", "shape", "centroid", "region", "all_fixed"})
 
     def test_the_json_report_has_the_promised_keys(self):
         report = self.report("smooth", "plate.off", "out.off")

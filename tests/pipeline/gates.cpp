@@ -83,11 +83,17 @@ TEST_CASE("an unknown name is answered with the valid ones") {
     for (const auto& metric : trismooth::all_metrics()) {
       CHECK(message.find(std::string(metric.name)) != std::string::npos);
     }
-    for (const char* part :
-         {"inverted", "degenerate", "triangles", "min_", "mean_", "max_", "stddev_", "acceptable_"}) {
+    for (const char* part : {"inverted", "degenerate", "triangles", "invalid_quadratic", "min_", "mean_", "max_",
+                             "stddev_", "acceptable_"}) {
       CHECK(message.find(part) != std::string::npos);
     }
   }
+}
+
+TEST_CASE("a mesh without quadratic triangles has none that are invalid") {
+  CHECK(check_gate(parse_gate("invalid_quadratic==0"), distinct_report()).passed);
+  CHECK_FALSE(check_gate(parse_gate("invalid_quadratic == 0"), distinct_report(), trismooth::QuadraticQuality{2, 1, -1})
+                  .passed);
 }
 
 TEST_CASE("every name gives the number it says") {
@@ -95,6 +101,7 @@ TEST_CASE("every name gives the number it says") {
   CHECK(gate_value("triangles", report) == 12345678);
   CHECK(gate_value("inverted", report) == 3);
   CHECK(gate_value("degenerate", report) == 4);
+  CHECK(gate_value("invalid_quadratic", report, trismooth::QuadraticQuality{10, 6, 0.5}) == 6);
   for (const auto& metric : trismooth::all_metrics()) {
     const std::string name(metric.name);
     CAPTURE(name);
@@ -114,7 +121,7 @@ TEST_CASE("min_angle and max_angle are the extreme angles of the mesh") {
 
 TEST_CASE("the list of names is complete, without repeats, and every one is taken") {
   const auto names = gate_names();
-  CHECK(names.size() == 5 + 5 * trismooth::metric_count);
+  CHECK(names.size() == 6 + 5 * trismooth::metric_count);
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   for (const std::string& name : names) {
     CAPTURE(name);

@@ -52,6 +52,25 @@ TEST_CASE("the list of the worst elements says which of them no smoothing can ch
   CHECK(count(html_report(sample::options(), result)) == 0);
 }
 
+TEST_CASE("the list of the worst elements names their regions where there are two or more") {
+  trismooth::PipelineResult result = sample::result();
+  result.region_names = {"<steel> core", "air"};
+  result.regions_before = result.regions_after = {{.triangles = 10}, {.triangles = 10}};
+  result.before.worst = {{17, 0.1, {1.5, -2.5}, false, 1}};
+  result.after->worst = {{4, 0.2, {3.25, 4.0}, true, 0}};
+  const std::string page = html_report(sample::options(), result);
+  const std::size_t table = page.find("<h2>Worst elements</h2>");
+  REQUIRE(table != std::string::npos);
+  const std::size_t of_first = page.find("1.5, -2.5", table);
+  CHECK(page.find("<th>region</th>", table) < of_first);
+  CHECK(page.find(">air<", of_first) < page.find("<h3>after</h3>", table));
+  CHECK(page.find(">&lt;steel&gt; core<", page.find("3.25, 4", table)) != std::string::npos);
+  result.region_names = {"air"};
+  result.regions_before = result.regions_after = {};
+  result.before.worst[0].region = result.after->worst[0].region = -1;
+  CHECK(html_report(sample::options(), result).find("<th>region</th>", table) == std::string::npos);
+}
+
 TEST_CASE("the report of a smoothing is well-formed and has all its parts") {
   const Parsed page = parse(html_report(sample::options(), sample::result()));
   REQUIRE(page.error.empty());

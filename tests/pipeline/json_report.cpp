@@ -76,7 +76,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                                    "equiangle_skew"});
     CHECK(keys_of(report[side]["metrics"]["shape"]) == Keys{"min", "mean", "max", "stddev", "acceptable_fraction"});
     CHECK(report[side]["histogram"]["shape"].size() == 20);
-    CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid", "all_fixed"});
+    CHECK(keys_of(report[side]["worst"][0]) == Keys{"cell", "shape", "centroid", "region", "all_fixed"});
   }
   CHECK(keys_of(report["smoothing"]) == Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices",
                                              "reverted_vertices", "device", "backend_note", "reproducible",

@@ -99,7 +99,7 @@ TEST_CASE("the quality of arrays is that of their triangles, and the arrays stay
   CHECK(report[Metric::shape].min == Approx(smallest).epsilon(1e-13));
   CHECK(report[Metric::shape].mean == Approx(sum / static_cast<double>(mesh.triangles.size())).epsilon(1e-13));
   REQUIRE(report.worst.size() == 10);
-  const auto& [worst, shape, centroid, all_fixed] = report.worst.front();
+  const auto& [worst, shape, centroid, all_fixed, region] = report.worst.front();
   CHECK(shape_by_definition(mesh, mesh.triangles[static_cast<std::size_t>(worst)]) == Approx(smallest).epsilon(1e-13));
   CHECK(mesh.points == before);
 }

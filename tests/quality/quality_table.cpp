@@ -206,6 +206,18 @@ TEST_CASE("the worst elements are listed, and which of them no smoothing can cha
   CHECK_FALSE(contains(format_table(before, &after), "centroid"));
 }
 
+TEST_CASE("the worst elements name their regions where names are told") {
+  QualityReport report = strip_report(0.4);
+  report.worst = {{7, 0.5, {1, 2}, true, 1}, {8, 0.75, {3, 4}, false, -1}, {9, 0.8, {5, 6}, false, 0}};
+  const std::vector<std::string> names{"air", "steel"};
+  const std::string table = format_table(report, nullptr, names);
+  CHECK(contains(table, "element    shape  centroid  region\n"));
+  CHECK(contains(table, "7  0.50000  (1, 2)    steel   all fixed\n"));
+  CHECK(contains(table, "8  0.75000  (3, 4)\n"));
+  CHECK(contains(table, "9  0.80000  (5, 6)    air\n"));
+  CHECK_FALSE(contains(format_table(report), "steel"));
+}
+
 TEST_CASE("the summary has the worst value and the mean of shape and angles, and the inverted triangles") {
   QualityReport before = strip_report(2.5);
   QualityReport after = strip_report(0.4);
