@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "trismooth/base/array_layout.h"
+#include "trismooth/base/array_view.h"
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/storage.h"
@@ -75,5 +76,30 @@ SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Constrai
                        const SmoothingOptions& options = {}) = delete;
 template <array_layout::Numbers R>
 SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const SmoothingOptions& options = {}) = delete;
+
+/// Smooths the caller's mesh of quadratic triangles in place, once. `triangles`: six vertex numbers each, from 0: the
+/// corners 0, 1 and 2, then the middles of the sides 01, 12 and 20, as VTK (type 22), Gmsh (type 9), Abaqus (CPS6) and
+/// Nastran (CTRIA6) list them; listed in either direction. `points` has all nodes.
+///
+/// Corners are smoothed as smooth() does it with the triangles of corners. A middle then moves by the mean of what the
+/// ends of its side move: straight sides stay straight, curved ones keep their bend, and a middle whose ends stay keeps
+/// its bits, as on a curved boundary. Where that cannot be the middle stays and the ends of its sides are held: a
+/// middle of two different sides, one that is a corner as well, one of constraints.other_cells, or one that the
+/// constraints name. With options.guard no element that was valid by jacobian_bound() is invalid afterwards
+/// (quadratic_triangle.h, after Johnen, Remacle and Geuzaine): the corners of one that would be go back, with the
+/// middles of their sides.
+///
+/// `constraints` are those of smooth(); `regions` has one number a triangle of six nodes. The result counts corners
+/// (moved_vertices) and says which went back; middles are in no count. Throws as SmoothingPlan does, the points are
+/// untouched then: also std::invalid_argument unless there are six numbers for each triangle, and MeshError for a
+/// middle that is none of the vertices. Complexity: that of smooth(), and linear beside it. The middles and their guard
+/// are done on the host, whoever makes the sweeps, so the bits are the same for all backends.
+///
+/// How valid the elements are is to be had of quadratic_quality() (quadratic_quality.h).
+SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
+                                 const Constraints& constraints, const SmoothingOptions& options = {});
+/// The same without constraints.
+SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
+                                 const SmoothingOptions& options = {});
 
 }  // namespace trismooth

@@ -1,0 +1,97 @@
+#include "trismooth/smoothing/middle_nodes.h"
+
+#include <algorithm>
+
+namespace trismooth {
+
+namespace {
+
+using SideEnds = std::array<std::int32_t, 2>;
+
+/// Calls visit(middle, ends) for the sides of all quadratic triangles.
+template <class Visit>
+void for_each_quadratic_side(std::span<const Triangle> triangles, std::span<const QuadraticTriangle> quadratics,
+                             const Visit& visit) {
+  for (const QuadraticTriangle& element : quadratics) {
+    const Triangle& corners = triangles[static_cast<std::size_t>(element.triangle)];
+    for (std::size_t side = 0; side < 3; ++side) {
+      const auto [low, high] = std::minmax(corners[side], corners[(side + 1) % 3]);
+      visit(static_cast<std::size_t>(element.middles[side]), SideEnds{low, high});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
+                                       std::span<const QuadraticTriangle> quadratics, std::vector<std::uint8_t>& named,
+                                       std::vector<std::uint8_t>& in_other_cell) {
+  std::vector<MiddleNode> following;
+  if (quadratics.empty()) {
+    return following;
+  }
+  enum : std::uint8_t { unknown, follows, stays };
+  constexpr SideEnds no_side{-1, -1};
+  std::vector<std::uint8_t> fates(in_other_cell.size(), unknown);
+  std::vector<SideEnds> sides(in_other_cell.size(), no_side);
+  for (const Triangle& triangle : triangles) {
+    for (const std::int32_t corner : triangle) {
+      fates[static_cast<std::size_t>(corner)] = stays;
+    }
+  }
+  for_each_quadratic_side(triangles, quadratics, [&](std::size_t middle, const SideEnds& ends) {
+    const bool has_other_side = sides[middle] != no_side && sides[middle] != ends;
+    const bool is_held = in_other_cell[middle] != 0 || (!named.empty() && named[middle] != 0);
+    if (fates[middle] == unknown) {
+      fates[middle] = is_held ? stays : follows;
+    } else if (has_other_side) {
+      fates[middle] = stays;
+    }
+    sides[middle] = ends;
+  });
+  for_each_quadratic_side(triangles, quadratics, [&](std::size_t middle, const SideEnds& ends) {
+    if (fates[middle] == stays) {
+      in_other_cell[middle] = 1;
+      std::vector<std::uint8_t>& holding = !named.empty() && named[middle] != 0 ? named : in_other_cell;
+      for (const std::int32_t end : ends) {
+        holding[static_cast<std::size_t>(end)] = 1;
+      }
+    } else if (fates[middle] == follows) {
+      fates[middle] = unknown;  // listed
+      in_other_cell[middle] = 1;
+      following.push_back({static_cast<std::int32_t>(middle), ends});
+    }
+  });
+  return following;
+}
+
+MiddlesOfEnds::MiddlesOfEnds(std::size_t vertex_count, std::span<const MiddleNode> middles) {
+  if (middles.empty()) {
+    return;
+  }
+  starts_.resize(vertex_count + 1, 0);
+  for (const MiddleNode& middle : middles) {
+    for (const std::int32_t end : middle.ends) {
+      ++starts_[static_cast<std::size_t>(end) + 1];
+    }
+  }
+  for (std::size_t v = 1; v < starts_.size(); ++v) {
+    starts_[v] += starts_[v - 1];
+  }
+  around_.resize(static_cast<std::size_t>(starts_.back()));
+  std::vector<std::int64_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::size_t m = 0; m < middles.size(); ++m) {
+    for (const std::int32_t end : middles[m].ends) {
+      around_[static_cast<std::size_t>(next[static_cast<std::size_t>(end)]++)] = static_cast<std::int32_t>(m);
+    }
+  }
+}
+
+std::span<const std::int32_t> MiddlesOfEnds::operator[](std::int32_t vertex) const {
+  const auto v = static_cast<std::size_t>(vertex);
+  return starts_.empty() ? std::span<const std::int32_t>{}
+                         : std::span(around_).subspan(static_cast<std::size_t>(starts_[v]),
+                                                      static_cast<std::size_t>(starts_[v + 1] - starts_[v]));
+}
+
+}  // namespace trismooth
