@@ -100,6 +100,23 @@ std::vector<std::string> describe_lost_sets(std::string_view format, const MeshD
   return sentences;
 }
 
+std::vector<std::string> describe_new_order(std::string_view format, std::span<const std::uint8_t> written_types,
+                                            const CellList& cells) {
+  std::array<std::size_t, 256> places{};
+  for (std::size_t place = 0; place < written_types.size(); ++place) {
+    places[written_types[place]] = place + 1;
+  }
+  std::size_t last = 0;
+  for (const std::uint8_t type : cells.types) {
+    const std::size_t place = places[type];
+    if (place != 0 && place < last) {
+      return {std::string(format) + " lists cells by their type: they are written in another order"};
+    }
+    last = std::max(last, place);
+  }
+  return {};
+}
+
 std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,
                                              std::span<const std::uint8_t> written_types, const CellList& cells) {
   std::array<std::size_t, 256> counts{};

@@ -22,6 +22,11 @@ std::vector<std::string> describe_lost_names(std::string_view format, const Mesh
 /// outlet are not written".
 std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document);
 
+/// The sentence for a format that lists cells by type, in the order of `written_types`, where those of the document
+/// come in another order, at most one: "Medit lists cells by their type: they are written in another order".
+std::vector<std::string> describe_new_order(std::string_view format, std::span<const std::uint8_t> written_types,
+                                            const CellList& cells);
+
 /// The sentence for the cells whose type is not in `written_types`, at most one: "OFF holds faces only: 12 cells of
 /// type line are not written". `holds` says what the format does hold ("faces").
 std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,

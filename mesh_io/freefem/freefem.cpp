@@ -62,6 +62,7 @@ std::vector<std::string> lost_in_freefem(const MeshDocument& document) {
   add(describe_lost_z(freefem_title, document));
   add(describe_unlabelled_arrays(freefem_title, document, find_point_labels(document), find_cell_groups(document)));
   add(describe_lost_sets(freefem_title, document));
+  add(describe_new_order(freefem_title, freefem_types, document.cells));
   return sentences;
 }
 

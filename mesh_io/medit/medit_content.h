@@ -19,16 +19,23 @@ struct MeditContent {
     std::vector<std::size_t> cells;
   };
 
+  /// Numbers of vertices or of cells of a section, from 1.
+  struct Set {
+    const MeditKeyword* keyword;
+    std::vector<std::int64_t> numbers;
+  };
+  /// Where the document is from: cells of a Medit file are in its own order of vertices, of all types.
+  enum class Source : bool { elsewhere, medit };
+
   /// `document` must outlive it.
-  explicit MeditContent(const MeshDocument& document);
+  explicit MeditContent(const MeshDocument& document, Source source = Source::elsewhere);
 
   const MeshDocument& document;
   std::size_t dimension = 2;      ///< 2 where all points have z 0
   std::vector<Section> sections;  ///< those that have cells
   CellGroups groups;              ///< the references of cells
   const DataArray* vertex_refs;   ///< the references of vertices; null: 0
-  std::vector<std::int32_t> corners;
-  std::vector<std::int32_t> required_vertices;
+  std::vector<Set> sets;          ///< those that have numbers: corners, required vertices, ridges, required cells
 
   std::int64_t vertex_ref(std::size_t vertex) const;
   std::int64_t cell_ref(std::size_t cell) const;

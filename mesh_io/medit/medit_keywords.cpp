@@ -120,6 +120,17 @@ const MeditKeyword* find_medit_keyword(std::string_view name) {
   return found == known_keywords.end() ? nullptr : found;
 }
 
+std::uint8_t quadratic_medit_type(std::uint8_t type) {
+  switch (type) {
+    case cell_type::line:
+      return cell_type::quadratic_edge;
+    case cell_type::triangle:
+      return cell_type::quadratic_triangle;
+    default:
+      return cell_type::biquadratic_quad;
+  }
+}
+
 const MeditKeyword* find_medit_keyword(std::int32_t code) {
   const auto* const found = std::ranges::find(known_keywords, code, &MeditKeyword::code);
   return found == known_keywords.end() ? nullptr : found;

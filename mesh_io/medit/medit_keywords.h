@@ -46,6 +46,9 @@ std::span<const MeditKeyword> medit_keywords();
 /// The keyword of that name, in any case of letters; null for those that are not known.
 const MeditKeyword* find_medit_keyword(std::string_view name);
 
+/// The type of cell whose numbers a set of cells takes where the file has none of its own type.
+std::uint8_t quadratic_medit_type(std::uint8_t type);
+
 /// The keyword of that code; null for those that are not known.
 const MeditKeyword* find_medit_keyword(std::int32_t code);
 

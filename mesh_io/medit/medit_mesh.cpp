@@ -13,18 +13,6 @@ namespace {
 
 constexpr std::size_t most_medit_others = 10;
 
-/// The type of cell whose numbers a set takes where the file has none of its own type.
-std::uint8_t quadratic_kind_of(std::uint8_t type) {
-  switch (type) {
-    case cell_type::line:
-      return cell_type::quadratic_edge;
-    case cell_type::triangle:
-      return cell_type::quadratic_triangle;
-    default:
-      return cell_type::biquadratic_quad;
-  }
-}
-
 std::string_view name_of_medit_cells(std::uint8_t type) {
   return type == cell_type::line ? "edges" : type == cell_type::triangle ? "triangles" : "quadrilaterals";
 }
@@ -62,12 +50,13 @@ std::optional<MeditMesh::Section> MeditMesh::cells_of_type(std::uint8_t type) co
 
 std::optional<MeditMesh::WrongNumber> MeditMesh::make_set(const Set& set) {
   NamedSet named{std::string(set.keyword->name), {}};
+  NamedSet cells = named;  // of a set of cells these themselves
   const bool of_cells = set.keyword->role == MeditRole::cell_set;
   Section section{0, 0, document.point_count()};
   if (of_cells) {
     const std::uint8_t type = set.keyword->cell_type;
     const auto found = cells_of_type(type);
-    section = found ? *found : cells_of_type(quadratic_kind_of(type)).value_or(Section{type, 0, 0});
+    section = found ? *found : cells_of_type(quadratic_medit_type(type)).value_or(Section{type, 0, 0});
   }
   for (std::size_t i = 0; i < set.numbers.size(); ++i) {
     const std::int64_t number = set.numbers[i];
@@ -78,12 +67,15 @@ std::optional<MeditMesh::WrongNumber> MeditMesh::make_set(const Set& set) {
       named.members.push_back(static_cast<std::int32_t>(number - 1));
       continue;
     }
-    const auto vertices = document.cells[section.first + static_cast<std::size_t>(number - 1)];
+    const std::size_t cell = section.first + static_cast<std::size_t>(number - 1);
+    cells.members.push_back(static_cast<std::int32_t>(cell));
+    const auto vertices = document.cells[cell];
     named.members.insert(named.members.end(), vertices.begin(), vertices.end());
   }
   if (of_cells) {
     std::ranges::sort(named.members);
     named.members.erase(std::unique(named.members.begin(), named.members.end()), named.members.end());
+    document.cell_sets.push_back(std::move(cells));
   }
   document.point_sets.push_back(std::move(named));
   return std::nullopt;

@@ -30,7 +30,7 @@ class MeditOriginal : public OriginalFile {
     if (!binary || binary == was_binary_) {
       same_->write(path, document, added_point_arrays, added_cell_arrays, workers);
     } else {
-      write_medit(path, document, FileWorkers(workers));
+      write_medit_in_other_encoding(path, document, FileWorkers(workers));
     }
   }
 

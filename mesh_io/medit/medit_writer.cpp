@@ -22,15 +22,6 @@ constexpr int usual_medit_version = 2;
 constexpr int version_of_long_files = 3;
 constexpr int version_of_long_integers = 4;
 
-struct WrittenMeditSet {
-  std::int32_t code;
-  std::span<const std::int32_t> vertices;
-};
-
-std::array<WrittenMeditSet, 2> medit_sets_of(const MeditContent& content) {
-  return {{{medit_code::corners, content.corners}, {medit_code::required_vertices, content.required_vertices}}};
-}
-
 void write_medit_text(const std::filesystem::path& path, const MeditContent& content, const FileWorkers& workers) {
   const MeshDocument& document = content.document;
   TextMeshWriter writer(path, workers);
@@ -62,13 +53,10 @@ void write_medit_text(const std::filesystem::path& path, const MeditContent& con
       lines.number(content.cell_ref(section.cells[i])).end_line();
     });
   }
-  for (const WrittenMeditSet& set : medit_sets_of(content)) {
-    if (!set.vertices.empty()) {
-      write_head(find_medit_keyword(set.code)->name, set.vertices.size());
-      writer.write_lines(set.vertices.size(), [&set](TextLines& lines, std::size_t i) {
-        lines.number(std::int64_t{set.vertices[i]} + 1).end_line();
-      });
-    }
+  for (const MeditContent::Set& set : content.sets) {
+    write_head(set.keyword->name, set.numbers.size());
+    writer.write_lines(set.numbers.size(),
+                       [&set](TextLines& lines, std::size_t i) { lines.number(set.numbers[i]).end_line(); });
   }
   writer.write_line([](TextLines& line) { line.word("End"); });
   writer.close();
@@ -110,12 +98,9 @@ class MeditBinaryWriter {
                    append_integer(bytes, content_.cell_ref(section.cells[i]));
                  });
     }
-    for (const WrittenMeditSet& set : medit_sets_of(content_)) {
-      if (!set.vertices.empty()) {
-        write_rows(set.code, set.vertices.size(), integer_bytes(version_), [&](MemoryBlock& bytes, std::size_t i) {
-          append_integer(bytes, std::int64_t{set.vertices[i]} + 1);
-        });
-      }
+    for (const MeditContent::Set& set : content_.sets) {
+      write_rows(set.keyword->code, set.numbers.size(), integer_bytes(version_),
+                 [&](MemoryBlock& bytes, std::size_t i) { append_integer(bytes, set.numbers[i]); });
     }
     write_bytes([this](MemoryBlock& bytes) {
       append<std::int32_t>(bytes, medit_code::end);
@@ -143,7 +128,10 @@ class MeditBinaryWriter {
     for (const MeditContent::Section& section : content_.sections) {
       bytes += section.cells.size() * cell_bytes(section, version);
     }
-    return bytes + (content_.corners.size() + content_.required_vertices.size()) * integer_bytes(version);
+    for (const MeditContent::Set& set : content_.sets) {
+      bytes += set.numbers.size() * integer_bytes(version);
+    }
+    return bytes;
   }
 
   template <class T, class Value>
@@ -192,13 +180,25 @@ class MeditBinaryWriter {
 
 }  // namespace
 
-void write_medit(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
-  const MeditContent content(document);
+namespace {
+
+void write_medit_content(const std::filesystem::path& path, const MeditContent& content, const FileWorkers& workers) {
   if (names_binary_medit(path).value_or(false)) {
     MeditBinaryWriter(path, content, workers).write();
   } else {
     write_medit_text(path, content, workers);
   }
+}
+
+}  // namespace
+
+void write_medit(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
+  write_medit_content(path, MeditContent(document), workers);
+}
+
+void write_medit_in_other_encoding(const std::filesystem::path& path, const MeshDocument& document,
+                                   const FileWorkers& workers) {
+  write_medit_content(path, MeditContent(document, MeditContent::Source::medit), workers);
 }
 
 }  // namespace trismooth

@@ -199,7 +199,17 @@ TEST_CASE("Medit: a mesh from elsewhere is written with its groups as references
         "Triangles\n2\n1 2 3 3\n1 3 4 4\nCorners\n2\n1\n4\nRequiredVertices\n2\n1\n2\nEnd\n");
   CHECK(what_is_lost(document, FileFormat::medit) ==
         std::vector<std::string>{"Medit holds no cell arrays: temperature is not written",
-                                 "Medit holds no sets of points: inlet is not written"});
+                                 "Medit gets the vertices of RequiredEdges as RequiredVertices",
+                                 "Medit holds no sets of points: inlet is not written",
+                                 "Medit lists cells by their type: they are written in another order"});
+  // Where the document has the edges, too, they are required themselves.
+  document.cell_sets = {{"RequiredEdges", {1}}, {"Ridges", {0}}, {"hot", {2}}};
+  document.point_sets = {{"RequiredEdges", {1, 0}}};
+  CHECK(contains(bytes_written_to(document, "out.mesh"), "1 3 4 4\nRequiredEdges\n1\n1\nEnd\n"));
+  CHECK(what_is_lost(document, FileFormat::medit) ==
+        std::vector<std::string>{"Medit holds no cell arrays: temperature is not written",
+                                 "Medit holds no sets of cells: Ridges, hot are not written",
+                                 "Medit lists cells by their type: they are written in another order"});
 }
 
 TEST_CASE("Medit: z is written where it is not 0, and cells that Medit has not are named") {
@@ -209,8 +219,43 @@ TEST_CASE("Medit: z is written where it is not 0, and cells that Medit has not a
   CHECK(bytes_written_to(document, "out.mesh") ==
         "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0.5 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\nEdges\n1\n1 2 0\n"
         "Triangles\n2\n1 2 3 0\n1 3 4 0\nEnd\n");
-  REQUIRE(what_is_lost(document, FileFormat::medit).size() == 1);
+  REQUIRE(what_is_lost(document, FileFormat::medit).size() == 2);
   CHECK(contains(what_is_lost(document, FileFormat::medit)[0], "1 cell of type polygon is not written"));
+}
+
+TEST_CASE("Medit: a compressed .meshb is binary, whatever it is made of") {
+  const ScratchFolder folder;
+  MeshDocument document = two_triangles_and_a_line();
+  for (const FileFormat format : {FileFormat::off, FileFormat::medit}) {
+    if (format == FileFormat::medit) {
+      document = trismooth::read_mesh(folder.write("in.mesh", medit_plate));
+    }
+    write_mesh(folder / "out.meshb", document);
+    write_mesh(folder / "out.meshb.gz", document);
+    const auto plain = trismooth::read_mesh(folder / "out.meshb");
+    const auto compressed = trismooth::read_mesh(folder / "out.meshb.gz");
+    CHECK(bytes_of(folder / "out.meshb").substr(0, 4) == std::string("\1\0\0\0", 4));
+    CHECK(compressed.points == plain.points);
+    CHECK(compressed.cells.connectivity == plain.cells.connectivity);
+    // As the same encoding it is written back byte by byte.
+    write_mesh(folder / "again.meshb", compressed);
+    CHECK(bytes_of(folder / "again.meshb") == bytes_of(folder / "out.meshb"));
+  }
+}
+
+TEST_CASE("Medit: cells of any type go from one encoding to the other") {
+  const ScratchFolder folder;
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension 2\nVertices\n10\n0 0 0\n3 0 0\n0 3 0\n1 0 0\n2 0 0\n2 1 0\n1 2 0\n0 2 0\n"
+      "0 1 0\n1 1 0\nEdgesP3\n1\n1 2 4 5 1\nTrianglesP3\n1\n1 2 3 4 5 6 7 8 9 10 2\nTriangles\n2\n1 2 3 7\n1 4 9 8\n"
+      "RequiredTriangles\n1\n2\nEnd\n";
+  const MeshDocument document = trismooth::read_mesh(folder.write("in.mesh", text));
+  write_mesh(folder / "out.meshb", document);
+  write_mesh(folder / "back.mesh", trismooth::read_mesh(folder / "out.meshb"));
+  const MeshDocument again = trismooth::read_mesh(folder / "back.mesh");
+  CHECK(again.cells.types == document.cells.types);
+  CHECK(again.cells.connectivity == document.cells.connectivity);
+  CHECK(again.point_sets == document.point_sets);
 }
 
 TEST_CASE("Medit: what is written from its own document as the other encoding is the same mesh") {
@@ -218,6 +263,10 @@ TEST_CASE("Medit: what is written from its own document as the other encoding is
   const MeshDocument document = trismooth::read_mesh(folder.write("in.mesh", medit_plate));
   write_mesh(folder / "out.meshb", document);
   CHECK(bytes_of(folder / "out.meshb").substr(0, 4) == std::string("\1\0\0\0", 4));
+  CHECK(document.cell_sets ==
+        std::vector<NamedSet>{{"Ridges", {1}}, {"RequiredEdges", {0, 1}}, {"RequiredTriangles", {4}}});
+  CHECK(trismooth::read_mesh(folder / "out.meshb").cell_sets == document.cell_sets);
+  CHECK(trismooth::read_mesh(folder / "out.meshb").point_sets == document.point_sets);
   const MeshDocument again = trismooth::read_mesh(folder / "out.meshb");
   CHECK(again.points == document.points);
   CHECK(again.cells.connectivity == document.cells.connectivity);
