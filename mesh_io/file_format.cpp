@@ -32,7 +32,7 @@ constexpr auto format_names = std::to_array<FormatNames>({
     {FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}},
     {FileFormat::su2, "su2", "SU2", {".su2"}},
     {FileFormat::inp, "inp", "Abaqus", {".inp"}},
-    {FileFormat::adcirc, "adcirc", "ADCIRC", {".14", ".grd"}},
+    {FileFormat::adcirc, "adcirc", "ADCIRC", {".14", ".grd", ".gr3"}},
     {FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}},
     {FileFormat::freefem, "freefem", "FreeFem", {".msh"}},
     {FileFormat::mfem, "mfem", "MFEM", {".mesh"}},
@@ -142,7 +142,8 @@ std::string titled_format_list() {
 }
 
 bool has_arrays(FileFormat format) {
-  return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
+  return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp ||
+         format == FileFormat::msh;
 }
 
 bool has_names(FileFormat format) {

@@ -69,7 +69,7 @@ std::string format_list();
 /// "OFF (.off), OBJ (.obj), ...": the available formats with their extensions, for messages.
 std::string titled_format_list();
 
-/// True for the formats that hold named arrays and take annotations (vtk, vtu, vtp), false for those that do not.
+/// True for the formats that hold named arrays and take annotations (vtk, vtu, vtp, msh), false for those that do not.
 bool has_arrays(FileFormat format);
 
 /// True for the formats that hold names of values and sets, or say themselves what they cannot hold of these.

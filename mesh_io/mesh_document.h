@@ -28,7 +28,7 @@ class OriginalFile {
   virtual ~OriginalFile() = default;
 
   /// Writes the file that was read to `path`, with the coordinates of `document` in place of those that differ and
-  /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (formats that have_arrays() only). Where
+  /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (where it takes_added_arrays() only). Where
   /// any is added, annotations of an earlier run (see annotation_names.h) are left out. All else is as it was read.
   /// Throws WriteError. The path is plain: no temporary, no renaming. The bytes are the same for every number of
   /// `workers`.
@@ -39,6 +39,9 @@ class OriginalFile {
   /// Whether write() takes the values of that point array from the document, where they differ from those that were
   /// read; else it writes those that were read. Only arrays of floating point.
   virtual bool keeps_values_of(std::string_view point_array) const;
+
+  /// Whether write() can add arrays.
+  virtual bool takes_added_arrays() const { return false; }
 
   /// The same as write() on this thread alone.
   void write(const std::filesystem::path& path, const MeshDocument& document,
@@ -67,7 +70,10 @@ struct MeshDocument {
   std::vector<LabelArray> cell_labels;  ///< arrays of a text for every cell; the original alone keeps them
   std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
   std::vector<NamedSet> point_sets;     ///< in the file's order: corners of Medit, NSETs of Abaqus, open boundaries
-  std::vector<NamedSet> cell_sets;      ///< in the file's order; they may overlap
+  /// Points that the file tells to be bound though no set of it names them: nodes of points and curves of the geometry,
+  /// periodic ones. They hold where they are inside the mesh. Files of other formats do not get these sets.
+  std::vector<NamedSet> implied_sets;
+  std::vector<NamedSet> cell_sets;  ///< in the file's order; they may overlap
   /// Point arrays that say something of a place, not of a vertex (depths): where vertices move, values follow the mesh.
   std::vector<std::string> arrays_of_places;
   /// Characters that the file gives a coordinate at most; 0: any number. What is stored of one that moves is the

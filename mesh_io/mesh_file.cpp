@@ -196,7 +196,8 @@ bool writes_values_of(const MeshDocument& document, FileFormat target, std::stri
 }
 
 bool takes_added_arrays(const MeshDocument& document, FileFormat target) {
-  return has_arrays(target) || (target == FileFormat::ply && !is_written_back(document, target));
+  return is_written_back(document, target) ? document.original->takes_added_arrays()
+                                           : has_arrays(target) || target == FileFormat::ply;
 }
 
 }  // namespace trismooth

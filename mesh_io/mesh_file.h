@@ -54,7 +54,7 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
                 int threads = 1);
 
 /// True where write_mesh() adds arrays to the document in that format: those that have_arrays(), and PLY, as
-/// properties, unless the document was read from PLY (its bytes are written back then).
+/// properties; but where the document's own file is written back whose original takes none (PLY, MSH of version 1).
 bool takes_added_arrays(const MeshDocument& document, FileFormat target);
 
 /// True where write_mesh() writes the values that the document has of that point array, if the format has it: always,

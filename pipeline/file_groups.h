@@ -5,7 +5,7 @@
 
 namespace trismooth {
 
-/// A set of points that a file names, and what became of it.
+/// A set of points that a file names or implies, and what became of it.
 struct FilePointSet {
   std::string name;
   std::int64_t vertices = 0;  ///< different ones

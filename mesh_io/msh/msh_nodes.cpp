@@ -58,6 +58,7 @@ class MshNodeReader {
       const std::size_t numbers = 4 + block_nodes.parameters;
       const std::size_t tag_bytes = of_4_1 ? input_.header().size_bytes : sizeof(std::int32_t);
       input_.require_room("nodes in a block", count, numbers, tag_bytes + (numbers - 1) * msh_real_bytes);
+      note_entity(dimension, count);
       read_block(std::move(block_nodes), count, !of_4_1);
     }
     if (done_ != node_count_) {
@@ -69,6 +70,10 @@ class MshNodeReader {
   /// Of versions 1 and 2: a list of all. Its length is text in binary files too.
   void read_list() {
     begin(input_.text().next_integer("the number of nodes", 0, largest_msh_int));
+    if (input_.header().version < 20 && has_parameters()) {
+      read_parametric_rows();
+      return;
+    }
     start_binary_data();
     input_.require_room("nodes", node_count_, 4, sizeof(std::int32_t) + 3 * msh_real_bytes);
     read_block({}, node_count_, true);
@@ -79,6 +84,23 @@ class MshNodeReader {
   void read_parametric_list() {
     begin(input_.text().next_integer("the number of nodes", 0, largest_msh_int));
     start_binary_data();
+    read_parametric_rows();
+  }
+
+ private:
+  /// In version 1, whose $NOD has such rows, too, where Gmsh saves parameters.
+  bool has_parameters() {
+    constexpr int plain_numbers = 4;
+    const std::size_t begin = input_.offset();
+    for (int number = 0; number < plain_numbers; ++number) {
+      input_.text().next_token("a node");
+    }
+    const bool goes_on = !input_.text().at_end_of_line();
+    input_.seek(begin);
+    return goes_on;
+  }
+
+  void read_parametric_rows() {
     input_.require_room("nodes", node_count_, 6, 3 * sizeof(std::int32_t) + 3 * msh_real_bytes);
     for (; done_ < node_count_; ++done_) {
       tag_list_.push_back(input_.integer("the tag of a node", 0, largest_msh_int));
@@ -88,6 +110,7 @@ class MshNodeReader {
         offsets[i] = input_.number_offset();
       }
       const std::int64_t dimension = input_.integer("the dimension of an entity", -1, 3);
+      note_entity(dimension, 1);
       const std::size_t flag_offset = input_.number_offset();
       const std::int64_t entity = input_.integer("the tag of an entity", -largest_msh_int, largest_msh_int);
       const auto parameters = static_cast<std::size_t>(dimension == 1 || dimension == 2 ? dimension : 0);
@@ -106,7 +129,17 @@ class MshNodeReader {
     finish();
   }
 
- private:
+  /// The next `count` nodes are of an entity of that dimension; -1: of none.
+  void note_entity(std::int64_t dimension, std::size_t count) {
+    nodes_.any_on_surfaces = nodes_.any_on_surfaces || (dimension > 1 && count > 0);
+    if (dimension == 0 || dimension == 1) {
+      std::vector<std::int32_t>& vertices = dimension == 0 ? nodes_.on_points : nodes_.on_curves;
+      for (std::size_t node = 0; node < count; ++node) {
+        vertices.push_back(static_cast<std::int32_t>(done_ + node));
+      }
+    }
+  }
+
   void begin(std::int64_t count) {
     node_count_ = static_cast<std::size_t>(count);
     count_offset_ = input_.number_offset();

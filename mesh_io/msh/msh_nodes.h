@@ -31,11 +31,14 @@ struct MshNodeList {
 /// The nodes of a file. Their coordinates are the document's points.
 struct MshNodes {
   MshTags tags;
-  std::vector<MshNodeList> lists;  ///< of all nodes, in the file's order
+  std::vector<MshNodeList> lists;       ///< of all nodes, in the file's order
+  std::vector<std::int32_t> on_points;  ///< nodes of points of the geometry, ascending, where the file says so
+  std::vector<std::int32_t> on_curves;  ///< likewise
+  bool any_on_surfaces = false;         ///< some node is said to be of a surface or a volume
 };
 
-/// Reads the section $Nodes, or $ParametricNodes of versions 2, or $NOD of version 1, behind its first line up to its
-/// end.
+/// Reads the section $Nodes, or $ParametricNodes of versions 2, or $NOD of version 1 (with parameters or without),
+/// behind its first line up to its end.
 void read_msh_nodes(MshInput& input, MshRows& rows, bool parametric, MeshDocument& document, MshNodes& nodes);
 
 }  // namespace trismooth

@@ -6,9 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/ordered_blocks.h"
+#include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_affine_map.h"
+#include "trismooth/mesh_io/msh/msh_excerpt.h"
+#include "trismooth/mesh_io/msh/msh_fields.h"
 #include "trismooth/mesh_io/msh/msh_without_parameters.h"
 
 namespace trismooth {
@@ -49,26 +53,38 @@ class MshOriginal : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& workers) const override {
-    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
-      throw WriteError(path, "no arrays can be added to the file that was read");
-    }
     if (document.point_count() != vertex_count_ || document.cells.size() != layout_.cell_count) {
       throw WriteError(path, "the file that was read has " + std::to_string(vertex_count_) + " points and " +
                                  std::to_string(layout_.cell_count) + " cells, the mesh to write has " +
                                  std::to_string(document.point_count()) + " and " +
                                  std::to_string(document.cells.size()));
     }
+    const bool adds = !added_point_arrays.empty() || !added_cell_arrays.empty();
+    if (adds && !takes_added_arrays()) {
+      throw WriteError(path, "no arrays can be added to the file that was read");
+    }
+    if (adds && !layout_.annotations.empty()) {
+      write_as(without_annotations(), path, document, added_point_arrays, added_cell_arrays, workers);
+      return;
+    }
     std::vector<bool> left_out(layout_.nodes.size());
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
       left_out[i] = layout_.nodes[i].parametric.parameters > 0 && !maps_[i] && has_moved(layout_.nodes[i], document);
     }
     if (std::ranges::find(left_out, true) != left_out.end()) {
-      MshOriginal without{FileBytes(without_msh_parameters(bytes_, layout_, left_out))};
-      without.read(path, FileWorkers(workers));
-      without.write(path, document, {}, {}, workers);
+      write_as(without_msh_parameters(bytes_, layout_, left_out), path, document, added_point_arrays, added_cell_arrays,
+               workers);
       return;
     }
-    write_numbers(path, document, FileWorkers(workers));
+    const FileWorkers file_workers(workers);
+    write_numbers(path, document, adds ? sections_of(added_point_arrays, added_cell_arrays, file_workers) : "",
+                  file_workers);
+  }
+
+  /// Version 1 has no fields. The tags in fields are ints in every version.
+  bool takes_added_arrays() const override {
+    return layout_.header.version >= 20 && layout_.node_tags.largest() <= largest_msh_int &&
+           layout_.element_tags.largest() <= largest_msh_int;
   }
 
   bool keeps_values_of(std::string_view point_array) const override {
@@ -77,11 +93,54 @@ class MshOriginal : public OriginalFile {
   }
 
  private:
+  /// As if `bytes` were the file that was read, which has the same nodes and elements.
+  static void write_as(std::string bytes, const std::filesystem::path& path, const MeshDocument& document,
+                       std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
+                       Workers& workers) {
+    MshOriginal other{FileBytes(std::move(bytes))};
+    other.read(path, FileWorkers(workers));
+    other.write(path, document, added_point_arrays, added_cell_arrays, workers);
+  }
+
+  std::string without_annotations() const {
+    MshExcerpt excerpt(bytes_);
+    for (const MshSpan& section : layout_.annotations) {
+      excerpt.copy_until(section.begin);
+      excerpt.pass(section.end);
+    }
+    return excerpt.finish();
+  }
+
+  /// To stand behind the file's last byte.
+  std::string sections_of(std::span<const DataArray> point_arrays, std::span<const DataArray> cell_arrays,
+                          const FileWorkers& workers) const {
+    const std::string_view bytes = bytes_;
+    std::string text(bytes.ends_with('\n') ? "" : "\n");
+    OrderedBlocks blocks([&text](std::string_view block) { text += block; }, workers);
+    FreeNames names;
+    for (const std::string& name : layout_.field_names) {
+      names.take(name);
+    }
+    const auto add = [&](DataArray array, const MshFieldRows& rows) {
+      array.name = names.claim(array.name);
+      write_msh_field(blocks, layout_.header, rows, array);
+    };
+    const std::vector<std::int64_t> nodes = layout_.node_tags.listed();
+    for (const DataArray& array : point_arrays) {
+      add(array, {.of_nodes = true, .size = nodes.size(), .tags = nodes});
+    }
+    const std::vector<std::int64_t> elements = layout_.element_tags.listed();
+    for (const DataArray& array : cell_arrays) {
+      add(array, {.of_nodes = false, .size = elements.size(), .tags = elements, .places = layout_.element_cells});
+    }
+    return text;
+  }
+
   static bool has_moved(const MshNodeList& list, const MeshDocument& document) {
     return !std::ranges::equal(list.parametric.points, points_of(list, document));
   }
 
-  void write_numbers(const std::filesystem::path& path, const MeshDocument& document,
+  void write_numbers(const std::filesystem::path& path, const MeshDocument& document, std::string_view suffix,
                      const FileWorkers& workers) const {
     std::vector<std::vector<double>> parameters(layout_.nodes.size());
     std::vector<std::vector<double>> copies;
@@ -120,7 +179,7 @@ class MshOriginal : public OriginalFile {
     for (const std::size_t i : order) {
       ordered.push_back({lists[i].sites, std::move(lists[i].values)});
     }
-    write_patched(path, bytes_, ordered, {}, workers);
+    write_patched(path, bytes_, ordered, suffix, workers);
   }
 
   static std::vector<double> moved_parameters(const MshNodeList& list, const MshAffineMap& map,

@@ -5,13 +5,16 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_data.h"
 #include "trismooth/mesh_io/msh/msh_elements.h"
+#include "trismooth/mesh_io/msh/msh_periodic.h"
 #include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {
@@ -40,6 +43,7 @@ class MshReader {
     layout_.header = input_.header();
     add_cell_arrays();
     add_cell_sets();
+    add_implied_sets();
     for (const MshDataSection& section : data_) {
       read_msh_data(input_, rows_, section, nodes_, elements_, section.of_nodes ? point_names_ : cell_names_, document_,
                     layout_.data);
@@ -47,6 +51,11 @@ class MshReader {
     add_notes();
     layout_.nodes = std::move(nodes_.lists);
     layout_.cell_count = document_.cells.size();
+    layout_.node_tags = std::move(nodes_.tags);
+    layout_.node_tags.drop_table();
+    layout_.element_tags = std::move(elements_.tags);
+    layout_.element_tags.drop_table();
+    layout_.element_cells = std::move(elements_.cells);
     return std::move(document_);
   }
 
@@ -76,11 +85,18 @@ class MshReader {
       skip_section();
       return;
     } else if (!read_known_section()) {
+      if (section_ == "Periodic" && has_nodes_) {
+        read_periodic();
+      }
       kept_sections_.push_back(section_);
       skip_section();
       return;
     }
     require_end();
+    if (annotation_begin_) {
+      layout_.annotations.push_back({*annotation_begin_, input_.offset()});
+      annotation_begin_.reset();
+    }
   }
 
   /// Gmsh appends views with a header of their own.
@@ -188,9 +204,24 @@ class MshReader {
     }
   }
 
+  /// The section is kept whatever it holds, and the input stands at its beginning again.
+  void read_periodic() {
+    const std::size_t begin = input_.offset();
+    try {
+      periodic_ = read_msh_periodic(input_, nodes_.tags);
+    } catch (const ReadError&) {
+      document_.notes.emplace_back("The section $Periodic is not understood, so it holds no nodes.");
+    }
+    input_.seek(begin);
+  }
+
   void read_data() {
     MshDataSection section{.of_nodes = section_ == "NodeData"};
     const bool is_clear = read_msh_data_header(input_, section);
+    layout_.field_names.push_back(section.name);
+    if (is_annotation(section.name)) {
+      annotation_begin_ = section_begin_;
+    }
     if (is_clear) {
       data_.push_back(section);
     } else {
@@ -249,6 +280,20 @@ class MshReader {
     }
   }
 
+  /// A file whose nodes are all of points and curves says nothing by that.
+  void add_implied_sets() {
+    const auto add = [this](const char* name, std::vector<std::int32_t>& members) {
+      if (!members.empty()) {
+        document_.implied_sets.push_back({name, std::move(members)});
+      }
+    };
+    if (nodes_.any_on_surfaces) {
+      add("gmsh:points", nodes_.on_points);
+      add("gmsh:curves", nodes_.on_curves);
+    }
+    add("gmsh:periodic", periodic_);
+  }
+
   void add_notes() {
     if (elements_.repeated > 0) {
       document_.notes.push_back(std::to_string(elements_.repeated) +
@@ -274,12 +319,14 @@ class MshReader {
   MshElements elements_;
   std::vector<std::int32_t> all_physical_;
   std::vector<ValueName> value_names_;
+  std::vector<std::int32_t> periodic_;  ///< nodes
   std::vector<MshDataSection> data_;
   std::vector<std::string> kept_sections_;
   FreeNames point_names_;
   FreeNames cell_names_;
   std::string section_;
   std::size_t section_begin_ = 0;
+  std::optional<std::size_t> annotation_begin_;  ///< of the section that is read, where it holds an annotation
   bool has_header_ = false;
   bool has_nodes_ = false;
   bool has_elements_ = false;

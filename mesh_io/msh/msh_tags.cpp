@@ -65,6 +65,20 @@ void MshTags::make_table() {
   }
 }
 
+std::int64_t MshTags::largest() const {
+  return runs_.empty() ? 0 : runs_.back().first + static_cast<std::int64_t>(runs_.back().count) - 1;
+}
+
+std::vector<std::int64_t> MshTags::listed() const {
+  std::vector<std::int64_t> tags(count_);
+  for (const Run& run : runs_) {
+    for (std::uint64_t i = 0; i < run.count; ++i) {
+      tags[run.place + i] = run.first + static_cast<std::int64_t>(i);
+    }
+  }
+  return tags;
+}
+
 std::int64_t MshTags::find_among_runs(std::int64_t tag) const {
   if (runs_.empty() || tag < runs_.front().first) {
     return -1;

@@ -21,6 +21,13 @@ class MshTags {
   /// where tags ascend, else n log n.
   std::optional<std::size_t> finish();
 
+  /// Gives memory back: find() takes logarithmic time from now on.
+  void drop_table() { table_ = {}; }
+  /// Behind finish(); 0 where there are none.
+  std::int64_t largest() const;
+  /// The tags, in the order in which they were added. Behind finish().
+  std::vector<std::int64_t> listed() const;
+
   /// How many there are.
   std::size_t size() const { return count_; }
   /// The place of the one with that tag, or -1. Behind finish(). Constant time where tags are dense, else logarithmic.

@@ -3,37 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "trismooth/mesh_io/msh/msh_excerpt.h"
 #include "trismooth/mesh_io/text/plain_numbers.h"
 
 namespace trismooth {
 
 namespace {
-
-/// Copies a text but for what is passed over.
-class MshExcerpt {
- public:
-  explicit MshExcerpt(std::string_view bytes) : bytes_(bytes) {}
-
-  /// Up to `offset`.
-  void copy_until(std::size_t offset) {
-    text_.append(bytes_.substr(done_, offset - done_));
-    done_ = offset;
-  }
-  /// Goes on at `offset`.
-  void pass(std::size_t offset, std::string_view replacement = {}) {
-    text_.append(replacement);
-    done_ = offset;
-  }
-  std::string finish() {
-    copy_until(bytes_.size());
-    return std::move(text_);
-  }
-
- private:
-  std::string_view bytes_;
-  std::size_t done_ = 0;
-  std::string text_;
-};
 
 std::size_t end_of_msh_token(std::string_view bytes, std::size_t begin) {
   while (begin < bytes.size() && !is_white_space(bytes[begin])) {
@@ -77,7 +52,10 @@ void leave_out_of_list(std::string_view bytes, const MshLayout& layout, MshExcer
     excerpt.copy_until(at);
     excerpt.pass(at + word.size());
   };
-  pass_word(layout.nodes_begin);
+  const bool is_named = layout.header.version >= 20;  // $NOD of version 1 does not say what is in it
+  if (is_named) {
+    pass_word(layout.nodes_begin);
+  }
   for (const MshNodeList& list : layout.nodes) {
     const std::size_t columns = list.sites.columns.size();
     for (std::size_t node = 0; node < list.size(); ++node) {
@@ -93,7 +71,9 @@ void leave_out_of_list(std::string_view bytes, const MshLayout& layout, MshExcer
       excerpt.pass(end_of_msh_token(bytes, numbers.token_offset()));
     }
   }
-  pass_word(bytes.rfind('$', layout.nodes_end));
+  if (is_named) {
+    pass_word(bytes.rfind('$', layout.nodes_end));
+  }
 }
 
 }  // namespace

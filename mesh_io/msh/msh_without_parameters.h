@@ -9,7 +9,7 @@
 namespace trismooth {
 
 /// The file without the parametric coordinates of the lists of nodes for which `left_out` is true; the nodes are ones
-/// without then. In versions 2, whose $ParametricNodes are all in one section, without those of all nodes.
+/// without then. Before version 4, where all nodes are in one section, without those of all nodes.
 std::string without_msh_parameters(std::string_view bytes, const MshLayout& layout, const std::vector<bool>& left_out);
 
 }  // namespace trismooth

@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
 #include "trismooth/mesh_io/msh/msh_entity_plan.h"
+#include "trismooth/mesh_io/msh/msh_fields.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"
 
 namespace trismooth {
@@ -23,29 +24,6 @@ struct MshStretch {
   std::size_t begin;
   std::size_t end;
 };
-
-/// Between quotes nothing else may stand.
-std::string msh_name(std::string_view name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    text += c == '"' || static_cast<unsigned char>(c) < ' ' ? '_' : c;
-  }
-  return text + '"';
-}
-
-/// How many numbers a row of a field has in the file; 0: it cannot be there.
-std::size_t written_components(const DataArray& array) {
-  switch (array.components) {
-    case 1:
-    case 3:
-    case 9:
-      return array.components;
-    case 2:
-      return 3;
-    default:
-      return 0;
-  }
-}
 
 /// Whether the entities of the file say what the array says.
 bool is_of_entities(const DataArray& array, const MshEntityPlan& plan) {
@@ -73,12 +51,12 @@ class MshWriter {
     write_nodes();
     write_elements();
     for (const DataArray& array : document_.point_arrays) {
-      write_field("NodeData", array, document_.point_count(), [](std::size_t row) { return row; });
+      write_msh_field(writer_.blocks(), header_, {.of_nodes = true, .size = document_.point_count()}, array);
     }
     for (const DataArray& array : document_.cell_arrays) {
       if (!is_of_entities(array, plan_)) {
-        write_field("ElementData", array, written_.size(),
-                    [this](std::size_t row) { return static_cast<std::size_t>(written_[row]); });
+        write_msh_field(writer_.blocks(), header_,
+                        {.of_nodes = false, .size = written_.size(), .tags = {}, .places = written_}, array);
       }
     }
     writer_.close();
@@ -99,8 +77,9 @@ class MshWriter {
     line(std::to_string(named));
     for (const MshPlannedGroup& group : plan_.groups) {
       if (is_named(group)) {
-        writer_.write_line(
-            [&group](TextLines& lines) { lines.number(group.dimension).number(group.tag).word(msh_name(group.name)); });
+        writer_.write_line([&group](TextLines& lines) {
+          lines.number(group.dimension).number(group.tag).word(quoted_msh_name(group.name));
+        });
       }
     }
     line("$EndPhysicalNames");
@@ -227,32 +206,8 @@ class MshWriter {
     line("$EndElements");
   }
 
-  template <class RowOf>
-  void write_field(const std::string& section, const DataArray& array, std::size_t rows, const RowOf& row_of) {
-    const std::size_t components = written_components(array);
-    if (components == 0) {
-      return;
-    }
-    line("$" + section);
-    line("1");
-    line(msh_name(array.name));
-    for (const std::string_view text : {"1", "0", "3", "0"}) {  // one real number, the time; a step, and two sizes
-      line(text);
-    }
-    line(std::to_string(components));
-    line(std::to_string(rows));
-    writer_.write_lines(rows, [&](TextLines& lines, std::size_t i) {
-      lines.number(i + 1);
-      const std::size_t row = row_of(i);
-      for (std::size_t k = 0; k < components; ++k) {
-        lines.number(k < array.components ? array.value(row, k) : 0.0);
-      }
-      lines.end_line();
-    });
-    line("$End" + section);
-  }
-
   const MeshDocument& document_;
+  MshHeader header_{.version = 41};  ///< of what is written
   MshEntityPlan plan_;
   TextMeshWriter writer_;
   std::vector<std::int32_t> written_;  ///< cells
@@ -297,7 +252,7 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
       if (of_cells && is_of_entities(array, plan)) {
         continue;
       }
-      const std::size_t components = written_components(array);
+      const std::size_t components = msh_components(array);
       if (components == 0) {
         refused.push_back(array);
       } else if (components != array.components) {

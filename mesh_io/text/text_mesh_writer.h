@@ -81,6 +81,9 @@ class TextMeshWriter {
     });
   }
 
+  /// For what is written otherwise than in lines.
+  OrderedBlocks& blocks() { return blocks_; }
+
   /// Closes the file. Throws WriteError.
   void close() { writer_.close(); }
 

@@ -75,6 +75,8 @@ class VtkLegacyFile : public OriginalFile {
         file_workers);
   }
 
+  bool takes_added_arrays() const override { return true; }
+
   bool keeps_values_of(std::string_view point_array) const override {
     return std::ranges::any_of(layout_.point_values, [point_array](const VtkLegacyValues& values) {
       return values.array.name == point_array;

@@ -163,6 +163,8 @@ class VtkXmlOriginal : public OriginalFile {
     write_vtk_xml(path, *copy, file_.encoding, file_.attributes, FileWorkers(workers));
   }
 
+  bool takes_added_arrays() const override { return true; }
+
   bool keeps_values_of(std::string_view point_array) const override {
     vtkFieldData& arrays = *file_.data->GetPointData();
     for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {

@@ -171,7 +171,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
   add_result_options(command, settings->run);
   command
       .add_flag("--annotate", options.annotate,
-                "Add arrays to VTK output, or to PLY made of another format, in place of earlier ones: "
+                "Add arrays to VTK or MSH output, or to PLY made of another format, in place of earlier ones: "
                 "trismooth:shape, trismooth:shape_before (cells), "
                 "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);

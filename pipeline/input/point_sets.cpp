@@ -86,18 +86,22 @@ class InnerNeighbours {
 
 class SetFinder {
  public:
-  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles) : document_(document) {
+  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions)
+      : document_(document) {
     std::vector<std::uint8_t> in_set(document.point_count(), 0);
-    for (const NamedSet& set : document.point_sets) {
-      members_.push_back(different_members(set));
-      for (const std::int32_t v : members_.back()) {
-        in_set[static_cast<std::size_t>(v)] = 1;
+    for (const auto& sets : {std::span(document.point_sets), std::span(document.implied_sets)}) {
+      for (const NamedSet& set : sets) {
+        members_.push_back(different_members(set));
+        for (const std::int32_t v : members_.back()) {
+          in_set[static_cast<std::size_t>(v)] = 1;
+        }
       }
     }
     const InnerNeighbours neighbours(triangles, in_set);
+    keep_inner_points(neighbours, triangles, regions);
     // Which set was the last to have the vertex: no set clears what the one before it has marked.
     std::vector<std::int32_t> last_set(document.point_count(), -1);
-    for (std::size_t s = 0; s < members_.size(); ++s) {
+    for (std::size_t s = 0; s < document.point_sets.size(); ++s) {
       const auto number = static_cast<std::int32_t>(s);
       for (const std::int32_t v : members_[s]) {
         last_set[static_cast<std::size_t>(v)] = number;
@@ -110,6 +114,9 @@ class SetFinder {
       });
       found_.sets.push_back({document.point_sets[s].name, std::ssize(members_[s]), is_area, false});
     }
+    for (std::size_t s = 0; s < document.implied_sets.size(); ++s) {
+      found_.sets.push_back({document.implied_sets[s].name, std::ssize(members_[document.point_sets.size() + s])});
+    }
   }
 
   HeldSets by_names(std::span<const std::string> names) {
@@ -118,7 +125,7 @@ class SetFinder {
         hold(set);
       }
     }
-    return std::move(found_);
+    return finished();
   }
 
   HeldSets by_document() {
@@ -138,10 +145,59 @@ class SetFinder {
           fmt::format("point sets that cover an area hold nothing: {}; --fixed-set {} holds the vertices of one", areas,
                       shell_word(first_area)));
     }
-    return std::move(found_);
+    return finished();
   }
 
  private:
+  /// Leaves the implied sets what nothing else of the mesh holds.
+  void keep_inner_points(const InnerNeighbours& neighbours, std::span<const Triangle> triangles,
+                         std::span<const std::int32_t> regions) {
+    if (document_.implied_sets.empty()) {
+      return;
+    }
+    std::vector<std::uint8_t> is_held(document_.point_count(), 0);
+    for (std::size_t cell = 0; cell < document_.cells.size(); ++cell) {
+      if (cell_type::dimension(document_.cells.types[cell]) < 2) {
+        for (const std::int32_t v : document_.cells[cell]) {
+          is_held[static_cast<std::size_t>(v)] = 1;
+        }
+      }
+    }
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> region_of(document_.point_count(), none);
+    for (std::size_t t = 0; t < regions.size(); ++t) {
+      for (const std::int32_t v : triangles[t]) {
+        std::int32_t& region = region_of[static_cast<std::size_t>(v)];
+        if (region != none && region != regions[t]) {
+          is_held[static_cast<std::size_t>(v)] = 1;
+        }
+        region = regions[t];
+      }
+    }
+    for (std::size_t s = document_.point_sets.size(); s < members_.size(); ++s) {
+      std::erase_if(members_[s],
+                    [&](std::int32_t v) { return neighbours[v].empty() || is_held[static_cast<std::size_t>(v)] != 0; });
+    }
+  }
+
+  /// Tells of sets of the file without points, and has no implied ones.
+  HeldSets finished() {
+    std::string names;
+    for (std::size_t s = 0; s < document_.point_sets.size(); ++s) {
+      if (members_[s].empty()) {
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", found_.sets[s].name);
+      }
+    }
+    if (!names.empty()) {
+      found_.notes.push_back("point sets without points hold nothing: " + names);
+    }
+    const auto first_implied = found_.sets.begin() + std::ssize(document_.point_sets);
+    found_.sets.erase(
+        std::remove_if(first_implied, found_.sets.end(), [](const FilePointSet& set) { return set.vertices == 0; }),
+        found_.sets.end());
+    return std::move(found_);
+  }
+
   /// All sets of that name, or else of names that differ from it in case, blanks and the like.
   std::vector<std::size_t> named(const std::string& name) const {
     std::vector<std::size_t> found;
@@ -178,22 +234,23 @@ class SetFinder {
   }
 
   const MeshDocument& document_;
-  std::vector<std::vector<std::int32_t>> members_;  ///< of each set, each once
+  /// Of each set of the document, then of each implied one, each once.
+  std::vector<std::vector<std::int32_t>> members_;
   HeldSets found_;
 };
 
 }  // namespace
 
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names) {
+                        std::span<const std::string> names, std::span<const std::int32_t> regions) {
   const bool holds_none = std::ranges::find(names, no_sets) != names.end();
   if (holds_none && names.size() > 1) {
     throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
   }
-  if (document.point_sets.empty() && (names.empty() || holds_none)) {
+  if (document.point_sets.empty() && document.implied_sets.empty() && (names.empty() || holds_none)) {
     return {};
   }
-  SetFinder finder(document, triangles);
+  SetFinder finder(document, triangles, regions);
   if (holds_none) {
     return finder.by_names({});
   }

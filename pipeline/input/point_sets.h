@@ -14,7 +14,7 @@ namespace trismooth {
 
 /// The vertices that sets of the file hold.
 struct HeldSets {
-  std::vector<FilePointSet> sets;   ///< all that the document has, in its order
+  std::vector<FilePointSet> sets;  ///< all that the document has, in its order, then of its implied sets what is inside
   std::vector<std::uint8_t> flags;  ///< per point: 1 where a set holds it; empty where none holds any
   std::vector<std::string> notes;   ///< what the user should know, one sentence each
 };
@@ -25,12 +25,16 @@ inline constexpr std::string_view no_sets = "none";
 /// The document's point sets that hold their vertices: those of `names`, or where that is empty all but those that are
 /// of an area. `names` may be no_sets alone. A set is of an area if it has a vertex inside the mesh (each of its
 /// neighbours is in two of its triangles) and all the neighbours of this: files name the points of whole parts, and
-/// mean nothing by it that a smoother must obey. A note names these.
+/// mean nothing by it that a smoother must obey. Notes name these, and sets without points.
+///
+/// The document's implied sets are sets of those of their points that are inside the mesh, of no line or point cell
+/// and of one of `regions` alone (a number a triangle; empty: no one has told them);
+/// what else they have is held anyway. They are never of an area, and there are none without such points.
 ///
 /// `triangles`: of the document. Throws std::invalid_argument for a name that no set has, with those there are.
 /// Complexity: n log n in the members of all sets and the triangles around them.
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names = {});
+                        std::span<const std::string> names = {}, std::span<const std::int32_t> regions = {});
 
 /// The document's cell sets. Complexity: n log n in their members.
 std::vector<FileCellSet> summarise_cell_sets(const MeshDocument& document);

@@ -45,7 +45,10 @@ std::string held_html(const InputSummary& input) {
   }
   for (const FilePointSet& set : input.point_sets) {
     rows += row(fmt::format("{} the point set '{}'", set.holds ? "by" : "not by", set.name),
-                set.is_area ? "covers an area" : "", set.vertices);
+                set.is_area         ? "covers an area"
+                : set.vertices == 0 ? "has no points"
+                                    : "",
+                set.vertices);
   }
   for (const FileLineGroup& group : input.line_groups) {
     rows += row(fmt::format("by the lines '{}'", group.name), "", group.vertices);

@@ -65,8 +65,9 @@ void write_output(RunState& run, const std::filesystem::path& path, bool annotat
   const bool annotates = annotate && takes_added_arrays(run.document, target);
   if (annotate && !annotates) {
     run.note("--annotate has no effect: " +
-             (target == FileFormat::ply ? std::string("a PLY file that was read is written back with nothing added")
-                                        : "." + std::string(to_string(target)) + " holds no arrays") +
+             (target == FileFormat::ply || has_arrays(target)
+                  ? "a " + std::string(title_of(target)) + " file that was read is written back with nothing added"
+                  : "." + std::string(to_string(target)) + " holds no arrays") +
              "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
   }
   if (!annotates && has_arrays(target)) {

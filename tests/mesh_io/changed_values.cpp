@@ -72,7 +72,7 @@ TEST_CASE("changed values of point arrays are written back in every format that 
       }
     }
     for (const bool annotates : {false, true}) {
-      if (annotates && !has_arrays(document.format)) {
+      if (annotates && !takes_added_arrays(document, document.format)) {
         continue;
       }
       AddedArrays added;

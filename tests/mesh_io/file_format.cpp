@@ -39,6 +39,7 @@ TEST_CASE("the extensions that the documentation lists name these formats") {
       {".su2", {"su2"}},
       {".14", {"adcirc"}},
       {".grd", {"adcirc"}},
+      {".gr3", {"adcirc"}},
       {".meshb", {"medit"}},
       {".msh", {"msh", "freefem"}},
       {".node", {"triangle"}},
@@ -111,8 +112,8 @@ TEST_CASE("the last extension counts, and nothing else of the name") {
   }
 }
 
-TEST_CASE("VTK's formats hold arrays") {
-  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp}) {
+TEST_CASE("VTK's formats and MSH hold arrays") {
+  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh}) {
     CHECK(has_arrays(format));
   }
   for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl}) {

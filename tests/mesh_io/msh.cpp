@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,13 @@ std::string written_back(const MeshDocument& document) {
 std::string written_as_msh(const MeshDocument& document) {
   const test_support::MemoryFile file;
   msh_codec.write(file.path(), document);
+  return file.bytes();
+}
+
+std::string with_added_arrays(const MeshDocument& document, const std::vector<DataArray>& of_points,
+                              const std::vector<DataArray>& of_cells) {
+  const test_support::MemoryFile file;
+  document.original->write(file.path(), document, of_points, of_cells);
   return file.bytes();
 }
 
@@ -114,6 +122,61 @@ TEST_CASE("MSH is written back with the moved coordinates and values of fields, 
         replaced_in(replaced_in(text, "0.75 1.25 0\n", "0.875 1.25 0\n"), "\n5 5\n", "\n5 5.5\n"));
 }
 
+TEST_CASE("arrays are added behind the last section of an MSH file, whose bytes stay, and replaced the next time") {
+  for (const int version : {20, 21, 22, 40, 41}) {
+    for (const bool binary : {false, true}) {
+      for (const bool big : {false, true}) {
+        CAPTURE(version, binary, big);
+        const std::string bytes = accepted_files::msh::file({.version = version,
+                                                             .binary = binary,
+                                                             .big_endian = big,
+                                                             .with_groups = true,
+                                                             .with_data = true,
+                                                             .sparse = true});
+        const MeshDocument document = read_msh_text(bytes);
+        REQUIRE(document.original->takes_added_arrays());
+        const Numbers shapes{0, 0, 0, 0.25, 1e-300, 1, 1e30};
+        const std::vector<DataArray> of_points{
+            trismooth::make_data_array("trismooth:fixed", 1, std::vector<std::uint8_t>{1, 1, 1, 0, 1}),
+            trismooth::make_data_array("data", 3, Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 0.1})};
+        const std::vector<DataArray> of_cells{trismooth::make_data_array("trismooth:shape", 1, shapes)};
+        const std::string once = with_added_arrays(document, of_points, of_cells);
+        CHECK(once.starts_with(bytes));
+        const MeshDocument again = read_msh_text(once);
+        CHECK(numbers_of(again.cell_arrays, "trismooth:shape") == shapes);
+        CHECK(numbers_of(again.point_arrays, "trismooth:fixed") == Numbers{1, 1, 1, 0, 1});
+        // The file's own array of that name keeps it.
+        CHECK(numbers_of(again.point_arrays, "data") == numbers_of(document.point_arrays, "data"));
+        const DataArray* const renamed = find_array(again.point_arrays, "data_1");
+        REQUIRE(renamed != nullptr);
+        CHECK(renamed->value(4, 2) == 0.1);
+        const std::vector<DataArray> fixed{of_points[0]};
+        CHECK(with_added_arrays(read_msh_text(with_added_arrays(document, fixed, of_cells)), fixed, of_cells) ==
+              with_added_arrays(document, fixed, of_cells));
+        CHECK(with_added_arrays(read_msh_text(with_added_arrays(document, fixed, of_cells)), {}, of_cells) ==
+              with_added_arrays(document, {}, of_cells));
+      }
+    }
+  }
+}
+
+TEST_CASE("no arrays are added to what has no place for them: version 1, and files with tags beyond 32 bits") {
+  const std::vector<DataArray> fixed{
+      trismooth::make_data_array("trismooth:fixed", 1, std::vector<std::uint8_t>{1, 1, 1, 1})};
+  const MeshDocument of_version_1 = read_msh_text(
+      "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$ENDNOD\n"
+      "$ELM\n2\n1 2 1 1 3 1 2 3\n2 2 1 1 3 2 4 3\n$ENDELM\n");
+  CHECK_FALSE(of_version_1.original->takes_added_arrays());
+  CHECK_THROWS_AS(with_added_arrays(of_version_1, fixed, {}), trismooth::WriteError);
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 9999999999\n2 1 0 4\n1\n2\n3\n9999999999\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n$EndNodes\n$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 2 9999999999 3\n$EndElements\n";
+  CHECK_FALSE(read_msh_text(text).original->takes_added_arrays());
+  CHECK(read_msh_text(replaced_in(replaced_in(replaced_in(text, "9999999999", "9"), "\n9999999999\n", "\n9\n"),
+                                  "2 9999999999 3", "2 9 3"))
+            .original->takes_added_arrays());
+}
+
 TEST_CASE("parametric coordinates follow their nodes on plane surfaces") {
   const std::string nodes = "0 0 0 1 10\n1 0 0 1 12\n0 1 0 4 10\n0.5 0.25 0 1.75 11\n";
   const std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 1 4\n1\n2\n3\n4\n" + nodes +
@@ -138,8 +201,11 @@ TEST_CASE("parametric coordinates of a curved surface are left out where a node 
         "0 0 0\n1 0 0\n0 1 0\n0.25 0.25 0\n"
         "$EndNodes\n$Elements\n1 3 1 3\n2 1 2 3\n1 1 2 4\n2 2 3 4\n3 3 1 4\n$EndElements\n");
   // The same in every version and encoding: what is left is read as what it was.
-  for (const int version : {22, 40, 41}) {
+  for (const int version : {10, 22, 40, 41}) {
     for (const bool binary : {false, true}) {
+      if (version == 10 && binary) {
+        continue;  // version 1 is text
+      }
       CAPTURE(version, binary);
       MeshDocument other =
           read_msh_text(accepted_files::msh::file({.version = version, .binary = binary, .parametric = true}));
@@ -149,6 +215,43 @@ TEST_CASE("parametric coordinates of a curved surface are left out where a node 
       CHECK(again.cells.connectivity == other.cells.connectivity);
     }
   }
+}
+
+TEST_CASE("nodes of points and curves, and linked ones, are implied sets in every version that tells them") {
+  for (const int version : {40, 41}) {
+    for (const bool binary : {false, true}) {
+      CAPTURE(version, binary);
+      const MeshDocument document = read_msh_text(accepted_files::msh::file({.version = version, .binary = binary}));
+      CHECK(document.implied_sets == std::vector<trismooth::NamedSet>{{"gmsh:curves", {0, 1, 2, 3}}});
+    }
+  }
+  CHECK(read_msh_text(accepted_files::msh::file({.version = 22})).implied_sets.empty());
+  // Of $ParametricNodes, and of $NOD with parameters.
+  for (const int version : {10, 22}) {
+    const MeshDocument document = read_msh_text(accepted_files::msh::file({.version = version, .parametric = true}));
+    CHECK(document.implied_sets == std::vector<trismooth::NamedSet>{{"gmsh:points", {0}}, {"gmsh:curves", {1, 2, 3}}});
+  }
+  // Where all nodes are of curves, the file does not mean it.
+  const std::string text = accepted_files::msh::file({});
+  CHECK(read_msh_text(replaced_in(text, "\n2 1 0 1\n", "\n1 1 0 1\n")).implied_sets.empty());
+  const trismooth::NamedSet linked{"gmsh:periodic", {0, 1, 4}};
+  CHECK(read_msh_text(text + "$Periodic\n1\n1 2 1\n3 1 0.5 -1\n2\n1 2\n5 2\n$EndPeriodic\n").implied_sets.back() ==
+        linked);
+  for (const char* const map : {"", "Affine 1 0 0 2 0 1 0\n"}) {
+    // Gmsh writes 0 for nodes that it leaves out.
+    const std::string section =
+        "$Periodic\n2\n1 2 1\n" + std::string(map) + "2\n1 2\n0 2\n1 2 1\n1\n5 1\n$EndPeriodic\n";
+    CHECK(read_msh_text(accepted_files::msh::file({.version = 40}) + section).implied_sets.back() == linked);
+    CHECK(read_msh_text(accepted_files::msh::file({.version = 22}) + section).implied_sets.back() == linked);
+    CHECK(read_msh_text(accepted_files::msh::file({.version = 22, .binary = true}) + section).implied_sets.back() ==
+          linked);
+  }
+  // What is not understood is kept, and said.
+  const std::string odd = text + "$Periodic\n1\nof my own\n$EndPeriodic\n";
+  const MeshDocument document = read_msh_text(odd);
+  CHECK(document.implied_sets.size() == 1);
+  CHECK(document.notes.front() == "The section $Periodic is not understood, so it holds no nodes.");
+  CHECK(written_back(document) == odd);
 }
 
 TEST_CASE("what is wrong in an MSH file is said with its line") {

@@ -198,6 +198,48 @@ class OpenedByGmsh(GmshTest):
                     parameters = [q - p for p, q in zip(before[tag], after[tag])]
                     self.assertAlmostEqual(way[0]**2 + way[1]**2, parameters[0]**2 + parameters[1]**2, delta=1e-12)
 
+    def test_embedded_curves_and_points_stay_though_the_file_has_no_elements_of_them(self):
+        for dialect in ("msh41", "msh40", "msh41_binary"):
+            with self.subTest(dialect):
+                extension, options = EVERY_DIALECT[dialect]
+                gmsh_model.build_embedded()
+                name = "embedded" + extension
+                gmsh_model.write(self.path(name), **options)
+                bound = {int(tag) for dimension in (0, 1) for _, entity in gmsh.model.getEntities(dimension)
+                         for tag in gmsh.model.mesh.getNodes(dimension, entity)[0]}
+                output, report = self.smooth(name)
+                before, after = self.open_both(name, output)
+                self.assertEqual(len(gmsh.model.mesh.getElements(1)[0]), 0)
+                moved = {tag for tag in before if before[tag] != after[tag]}
+                self.assertGreater(len(moved), 40)
+                self.assertFalse(moved & bound)
+                sets = {found["name"]: found for found in report["input"]["point_sets"]}
+                self.assertEqual({name: (found["vertices"], found["holds"]) for name, found in sets.items()},
+                                 {"gmsh:points": (3, True), "gmsh:curves": (4, True)})
+
+    def test_old_files_with_parameters_are_read(self):
+        # Gmsh itself does not read version 1 with parameters.
+        for version, binary in ((1, 0), (2.2, 0), (2.2, 1)):
+            with self.subTest(version=version, binary=binary):
+                gmsh_model.build()
+                gmsh.model.mesh.clear()
+                gmsh.model.mesh.generate(2)
+                for name, parametric in (("plain.msh", 0), ("uv.msh", 1)):
+                    gmsh_model.write(self.path(name), MshFileVersion=version, Binary=binary, SaveParametric=parametric)
+                _, plain = self.smooth("plain.msh", "plain_out.msh")
+                _, report = self.smooth("uv.msh", "uv_out.msh")
+                self.assertGreater(report["smoothing"]["moved_vertices"], 100)
+                self.assertEqual(report["coordinates_hash"], plain["coordinates_hash"])
+                # Read again, they are the same places.
+                _, again = self.smooth("uv_out.msh", "again.msh", "--max-sweeps", "1", "--fixed-ids",
+                                       self.hold_everything(report["input"]["vertices"])[1])
+                self.assertEqual(again["coordinates_hash"], report["coordinates_hash"])
+                if version > 1:
+                    gmsh_model.open_file(self.path("uv_out.msh"))
+                    places = gmsh_model.points()
+                    gmsh_model.open_file(self.path("plain_out.msh"))
+                    self.assertEqual(gmsh_model.points(), places)
+
     def test_views_are_kept(self):
         name = self.write_model("msh41")
         tags = list(map(int, gmsh.model.mesh.getNodes()[0]))
@@ -210,6 +252,50 @@ class OpenedByGmsh(GmshTest):
         gmsh_model.open_file(self.path(output))
         _, again, values, _, _ = gmsh.view.getModelData(gmsh.view.getTags()[0], 0)
         self.assertEqual([(int(tag), value[0]) for tag, value in zip(again, values)], [(tag, float(tag)) for tag in tags])
+
+
+    def test_annotations_are_views(self):
+        for dialect in MSH:
+            with self.subTest(dialect):
+                name = self.write_model(dialect)
+                plain, _ = self.smooth(name)
+                annotated, _ = self.smooth(name, "annotated.msh", "--annotate")
+                self.assertTrue(self.read(annotated).startswith(self.read(plain)))
+                gmsh_model.open_file(self.path(name))
+                places = gmsh_model.points()
+                before = self.qualities()
+                known, after = self.open_both(plain, annotated)
+                self.assertEqual(known, after)
+                views = {gmsh.option.getString(f"View[{i}].Name"): gmsh.view.getModelData(tag, 0)
+                         for i, tag in enumerate(gmsh.view.getTags())}
+                self.assertEqual(sorted(views), ["trismooth:displacement", "trismooth:fixed", "trismooth:shape",
+                                                 "trismooth:shape_before"])
+                values = {name: (kind, {int(tag): tuple(row) for tag, row in zip(tags, rows)})
+                          for name, (kind, tags, rows, _, _) in views.items()}
+                displacement, fixed = values["trismooth:displacement"][1], values["trismooth:fixed"][1]
+                self.assertEqual(displacement, {tag: tuple(q - p for p, q in zip(places[tag], after[tag]))
+                                                for tag in places})
+                self.assertEqual(fixed.keys(), places.keys())
+                self.assertEqual({displacement[tag] for tag in fixed if fixed[tag] == (1.0,)}, {(0.0, 0.0, 0.0)})
+                self.assertEqual({kind for kind, _ in values.values()}, {"NodeData", "ElementData"})
+                for view, expected in (("trismooth:shape", self.qualities()), ("trismooth:shape_before", before)):
+                    shapes = values[view][1]
+                    self.assertGreater(len(expected), 500)
+                    for tag, quality in expected.items():
+                        self.assertAlmostEqual(shapes[tag][0], quality, places=12)
+
+    def qualities(self):
+        """Gmsh's own measure of each triangle, which is the shape."""
+        tags = [int(tag) for kind, elements in zip(*gmsh.model.mesh.getElements(2)[:2]) if kind == 2
+                for tag in elements]
+        return dict(zip(tags, gmsh.model.mesh.getElementQualities(tags, "minSICN")))
+
+    def test_annotations_of_version_1_are_said_to_be_left_out(self):
+        gmsh_model.build()
+        gmsh_model.write(self.path("old.msh"), MshFileVersion=1, Binary=0)
+        outcome = self.run_tool("smooth", "old.msh", "out.msh", "--annotate", "--verbose")
+        self.assertIn("--annotate has no effect: a Gmsh MSH file that was read is written back with nothing added",
+                      " ".join(outcome.err.split()))
 
 
 class OtherFormatsBecomeMsh(GmshTest):

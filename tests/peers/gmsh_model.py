@@ -66,6 +66,29 @@ def build(size=0.08, order=1, quads=False):
     disturb(outer, inner, 0.25 * size)
 
 
+def build_embedded(size=0.1):
+    """A square with a curve and a point inside, periodic from left to right, and no groups but that of the surface."""
+    gmsh.clear()
+    gmsh.model.add("embedded")
+    occ = gmsh.model.occ
+    square = occ.addRectangle(0, 0, 0, 1, 1)
+    points = [occ.addPoint(0.3, 0.3, 0), occ.addPoint(0.7, 0.4, 0), occ.addPoint(0.3, 0.7, 0)]
+    curve = occ.addLine(points[0], points[1])
+    occ.synchronize()
+    gmsh.model.mesh.embed(1, [curve], 2, square)
+    gmsh.model.mesh.embed(0, [points[2]], 2, square)
+    left, right = (next(tag for _, tag in gmsh.model.getBoundary([(2, square)], oriented=False)
+                        if abs(gmsh.model.getBoundingBox(1, tag)[0] - x) < 1e-3 and
+                        abs(gmsh.model.getBoundingBox(1, tag)[3] - x) < 1e-3) for x in (0, 1))
+    gmsh.model.mesh.setPeriodic(1, [right], [left], [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+    gmsh.model.addPhysicalGroup(2, [square], 1, "all")
+    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+    gmsh.option.setNumber("Mesh.Smoothing", 0)
+    gmsh.option.setNumber("Mesh.Optimize", 0)
+    gmsh.model.mesh.generate(2)
+    disturb(square, [], 0.25 * size)
+
+
 def disturb(outer, inner, distance):
     """Moves the inner nodes about, so that there is something to smooth."""
     for surface in [outer, *inner]:

@@ -65,8 +65,40 @@ TEST_CASE("sets of points hold their vertices; one of a whole part holds nothing
   CHECK(held.sets[2].vertices == 0);
   CHECK_FALSE(held.sets[2].holds);
   CHECK(held.flags == Bytes{1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1});
-  REQUIRE(held.notes.size() == 1);
+  REQUIRE(held.notes.size() == 2);
   CHECK(says(held.notes[0], "'NALL'; --fixed-set NALL holds"));
+  CHECK(held.notes[1] == "point sets without points hold nothing: 'EMPTY'");
+}
+
+TEST_CASE("implied sets hold what is inside the mesh and of no line, also where this covers an area") {
+  const auto triangles = grid_triangles(5);
+  MeshDocument document = with_sets(5, {{"Corners", {0}}});
+  document.implied_sets = {{"curves", {0, 1, 2, 3, 4, 11, 12, 13}}, {"points", {5}}, {"all", all_of(25)}};
+  document.cells.append(trismooth::cell_type::line, std::vector<std::int32_t>{12, 13});
+  const HeldSets held = find_held_sets(document, triangles);
+  REQUIRE(held.sets.size() == 3);
+  CHECK(held.sets[1].name == "curves");
+  CHECK(held.sets[1].vertices == 1);
+  CHECK(held.sets[1].holds);
+  CHECK(held.sets[2].name == "all");
+  CHECK(held.sets[2].vertices == 7);
+  CHECK(held.sets[2].holds);
+  CHECK(held.notes.empty());
+  const std::vector<std::string> none{"none"};
+  CHECK(find_held_sets(document, triangles, none).flags.empty());
+  const std::vector<std::string> named{"curves"};
+  const Bytes flags = find_held_sets(document, triangles, named).flags;
+  CHECK(std::accumulate(flags.begin(), flags.end(), 0) == 1);
+  CHECK(flags[11] == 1);
+  // What lies between two regions is held by these: here rows of cells above and below the points 5 to 9.
+  std::vector<std::int32_t> regions(triangles.size(), 1);
+  std::fill_n(regions.begin(), 8, 0);
+  CHECK(find_held_sets(document, triangles, {}, regions).sets[2].vertices == 4);
+  // Without a set of the file's own, and without one that is left.
+  document.point_sets.clear();
+  CHECK(find_held_sets(document, triangles).sets.size() == 2);
+  document.implied_sets = {{"points", {5}}};
+  CHECK(find_held_sets(document, triangles).sets.empty());
 }
 
 TEST_CASE("an area is what has all neighbours of a vertex inside the mesh") {

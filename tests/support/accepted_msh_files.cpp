@@ -364,6 +364,7 @@ void add(std::vector<AcceptedFile>& files) {
   push("10_groups",
        replaced_all(file({.version = 10, .with_groups = true}),
                     "$PhysicalNames\n3\n1 5 \"the edge\"\n2 1 \"steel\"\n2 2 \"all\"\n$EndPhysicalNames\n", ""));
+  push("10_parametric", file({.version = 10, .parametric = true}));
   push("20", file({.version = 20}));
   push("21", file({.version = 21}));
   push("polygons", with_polygons());
