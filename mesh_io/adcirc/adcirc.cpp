@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/adcirc/adcirc_boundary.h"
+#include "trismooth/mesh_io/adcirc/adcirc_line_boundaries.h"
 #include "trismooth/mesh_io/adcirc/adcirc_reader.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/flat_points.h"
@@ -17,12 +18,6 @@ namespace {
 
 constexpr std::array adcirc_types{cell_type::triangle};
 
-/// A boundary, and the set of points that it is.
-struct WrittenBoundary {
-  AdcircBoundary boundary;
-  const NamedSet* set;
-};
-
 /// The boundary that a set of points is written as. Those of weirs have heights, which sets have not.
 std::optional<AdcircBoundary> written_boundary(const NamedSet& set) {
   const auto boundary = parse_adcirc_boundary(set.name);
@@ -31,40 +26,41 @@ std::optional<AdcircBoundary> written_boundary(const NamedSet& set) {
   return needs_more ? std::nullopt : boundary;
 }
 
-std::vector<WrittenBoundary> written_boundaries(const MeshDocument& document, bool open) {
-  std::vector<WrittenBoundary> found;
+/// The boundaries that the document has, as sets of points or else as lines.
+AdcircLineBoundaries boundaries_to_write(const MeshDocument& document) {
+  AdcircLineBoundaries found = find_adcirc_line_boundaries(document);
   for (const NamedSet& set : document.point_sets) {
-    if (const auto boundary = written_boundary(set); boundary && boundary->is_open == open) {
-      found.push_back({*boundary, &set});
+    if (const auto boundary = written_boundary(set)) {
+      found.boundaries.push_back({boundary->is_open, boundary->type, set.members});
     }
   }
   return found;
 }
 
-void write_boundaries(TextMeshWriter& writer, const MeshDocument& document, bool open) {
+void write_boundaries(TextMeshWriter& writer, const AdcircLineBoundaries& all, bool open) {
   const std::string kind = open ? "open" : "land";
-  const std::vector<WrittenBoundary> boundaries = written_boundaries(document, open);
+  std::vector<AdcircLineBoundaries::Boundary> boundaries;
+  std::ranges::copy_if(all.boundaries, std::back_inserter(boundaries),
+                       [open](const AdcircLineBoundaries::Boundary& boundary) { return boundary.is_open == open; });
   std::size_t nodes = 0;
-  for (const WrittenBoundary& written : boundaries) {
-    nodes += written.set->members.size();
+  for (const AdcircLineBoundaries::Boundary& boundary : boundaries) {
+    nodes += boundary.nodes.size();
   }
   writer.write_line(
       [&](TextLines& line) { line.number(boundaries.size()).word("= Number of " + kind + " boundaries"); });
   writer.write_line([&](TextLines& line) { line.number(nodes).word("= Total number of " + kind + " boundary nodes"); });
   std::size_t number = 0;
-  for (const WrittenBoundary& written : boundaries) {
-    const auto& boundary = written.boundary;
-    const auto* const set = written.set;
+  for (const AdcircLineBoundaries::Boundary& boundary : boundaries) {
     ++number;
     writer.write_line([&](TextLines& line) {
-      line.number(set->members.size());
+      line.number(boundary.nodes.size());
       if (!open || boundary.type != 0) {
         line.number(boundary.type);
       }
       line.word("= Number of nodes for " + kind + " boundary").number(number);
     });
-    writer.write_lines(set->members.size(), [&members = set->members](TextLines& lines, std::size_t i) {
-      lines.number(std::int64_t{members[i]} + 1).end_line();
+    writer.write_lines(boundary.nodes.size(), [&boundary](TextLines& lines, std::size_t i) {
+      lines.number(std::int64_t{boundary.nodes[i]} + 1).end_line();
     });
   }
 }
@@ -93,8 +89,9 @@ void write_adcirc(const std::filesystem::path& path, const MeshDocument& documen
     }
     lines.end_line();
   });
-  write_boundaries(writer, document, true);
-  write_boundaries(writer, document, false);
+  const AdcircLineBoundaries boundaries = boundaries_to_write(document);
+  write_boundaries(writer, boundaries, true);
+  write_boundaries(writer, boundaries, false);
   writer.close();
 }
 
@@ -108,7 +105,15 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
                        [&depths](const DataArray& array) { return array.name != depths; });
   std::ranges::copy_if(document.point_sets, std::back_inserter(lost.point_sets),
                        [](const NamedSet& set) { return !written_boundary(set); });
-  std::vector<std::string> sentences = describe_lost_cells("ADCIRC", "triangles", adcirc_types, document.cells);
+  const AdcircLineBoundaries boundaries = boundaries_to_write(document);
+  CellList cells;
+  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
+    if (boundaries.is_written.empty() || boundaries.is_written[cell] == 0) {
+      cells.append(document.cells.types[cell], document.cells[cell]);
+    }
+  }
+  std::vector<std::string> sentences = describe_lost_cells("ADCIRC", "triangles", adcirc_types, cells);
+  std::ranges::copy(boundaries.losses, std::back_inserter(sentences));
   std::ranges::move(describe_lost_arrays("ADCIRC", lost), std::back_inserter(sentences));
   if (!lost.point_sets.empty()) {
     std::string sentence =
@@ -124,8 +129,10 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
   std::ranges::move(describe_lost_z("ADCIRC", document), std::back_inserter(sentences));
   std::ranges::move(describe_missing_place_values("ADCIRC", document, PlaceValue::depth),
                     std::back_inserter(sentences));
-  if (written_boundaries(document, true).empty() && written_boundaries(document, false).empty()) {
-    sentences.emplace_back("ADCIRC runs with boundaries: the mesh names none, and none are written");
+  if (boundaries.boundaries.empty()) {
+    sentences.emplace_back(
+        "ADCIRC runs with boundaries: the mesh names none, and none are written; groups of lines named open... or "
+        "land... become such");
   }
   return sentences;
 }

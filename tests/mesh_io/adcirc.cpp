@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ const std::string bay = head + nodes + elements + boundaries;
 }  // namespace
 
 TEST_CASE("ADCIRC: the grid is read with depths, and boundaries as sets of points") {
-  for (const char* const extension : {".14", ".grd", ".GRD"}) {
+  for (const char* const extension : {".14", ".grd", ".gr3", ".GRD"}) {
     const MeshDocument document = TextFormat(extension).read(bay);
     CHECK(document.format == FileFormat::adcirc);
     CHECK(document.points == std::vector<double>{0, 0, 0, 1.5, 0, 0, 1, 1, 0, 0, 1, 0});
@@ -193,6 +194,93 @@ TEST_CASE("ADCIRC: a mesh of another format is written with what the grid holds,
   CHECK(again.point_sets == std::vector<NamedSet>{document.point_sets[1], document.point_sets[0]});
 }
 
+/// A square of 4 by 4 cells of two triangles without its middle four, listed one way or the other in turn, and lines.
+MeshDocument pond(const std::vector<std::vector<std::int32_t>>& lines_of_groups) {
+  constexpr std::int32_t side = 5;
+  MeshDocument document;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      document.points.insert(document.points.end(), {static_cast<double>(x), static_cast<double>(y), 0.0});
+    }
+  }
+  std::vector<std::int32_t> groups;
+  for (std::int32_t y = 0; y + 1 < side; ++y) {
+    for (std::int32_t x = 0; x + 1 < side; ++x) {
+      const bool is_hole = (x == 1 || x == 2) && (y == 1 || y == 2);
+      const std::int32_t a = y * side + x;
+      if (!is_hole) {
+        document.cells.append(cell_type::triangle, std::vector<std::int32_t>{a, a + 1, a + side + 1});
+        document.cells.append(cell_type::triangle, std::vector<std::int32_t>{a, a + side, a + side + 1});
+        groups.insert(groups.end(), 2, 1);
+      }
+    }
+  }
+  for (std::size_t group = 0; group < lines_of_groups.size(); ++group) {
+    const std::vector<std::int32_t>& ends = lines_of_groups[group];
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      document.cells.append(cell_type::line, std::vector<std::int32_t>{ends[i], ends[i + 1]});
+      groups.push_back(static_cast<std::int32_t>(group) + 1);
+    }
+  }
+  document.cell_arrays = {make_data_array("gmsh:physical", 1, groups)};
+  document.point_arrays = {make_data_array("depth", 1, std::vector<double>(25, 1.0))};
+  return document;
+}
+
+void name_lines(MeshDocument& document, const std::vector<std::string>& names) {
+  trismooth::ArrayDescription description;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    description.value_names.push_back({static_cast<std::int64_t>(i) + 1, 1, names[i]});
+  }
+  document.cell_arrays[0].description = std::make_shared<const trismooth::ArrayDescription>(std::move(description));
+}
+
+TEST_CASE("ADCIRC: lines of groups named open and land become boundaries with the mesh to their left") {
+  // Listed in no order and direction: the lower side, what else is around the mesh, and around the hole.
+  MeshDocument document =
+      pond({{3, 2, 0, 1, 3, 4, 1, 2},
+            {4, 9, 14, 9, 14, 19, 19, 24, 24, 23, 22, 23, 22, 21, 20, 21, 20, 15, 15, 10, 10, 5, 5, 0},
+            {6, 7, 8, 7, 8, 13, 13, 18, 18, 17, 16, 17, 16, 11, 11, 6}});
+  name_lines(document, {"Open sea", "LAND", "island"});
+  const MeshDocument again = adcirc.read(adcirc.written(document));
+  CHECK(again.point_sets ==
+        std::vector<NamedSet>{{"open boundary 1", {0, 1, 2, 3, 4}},
+                              {"land boundary 1 (type 0)", {4, 9, 14, 19, 24, 23, 22, 21, 20, 15, 10, 5, 0}},
+                              {"land boundary 2 (type 1)", {6, 11, 16, 17, 18, 13, 8, 7}}});
+  CHECK(what_is_lost(document, FileFormat::adcirc) ==
+        std::vector<std::string>{"ADCIRC holds no cell arrays: gmsh:physical is not written"});
+  // Around the whole mesh, in two pieces where something is between them.
+  document = pond({{0, 1, 1, 2, 22, 23}});
+  name_lines(document, {"land"});
+  CHECK(adcirc.read(adcirc.written(document)).point_sets ==
+        std::vector<NamedSet>{{"land boundary 1 (type 0)", {0, 1, 2}}, {"land boundary 2 (type 0)", {23, 22}}});
+}
+
+TEST_CASE("ADCIRC: groups of lines that can be no boundary are said, and sets of points come first") {
+  struct Loss {
+    std::vector<std::int32_t> lines;
+    std::string name;
+    std::string sentence;
+  };
+  for (const Loss& loss : {Loss{{0, 1, 1, 7}, "open", "which are no edges of the mesh's boundary, not all of them"},
+                           {{0, 2}, "land", "which are no edges of the mesh's boundary, not all of them"}}) {
+    MeshDocument document = pond({loss.lines});
+    name_lines(document, {loss.name});
+    const auto lost = what_is_lost(document, FileFormat::adcirc);
+    CHECK(std::ranges::find(lost, "ADCIRC gets no boundary from the lines of " + loss.name + ", " + loss.sentence) !=
+          lost.end());
+    CHECK(adcirc.read(adcirc.written(document)).point_sets.empty());
+    CHECK(lost.front().starts_with("ADCIRC holds triangles only: "));
+  }
+  MeshDocument document = pond({{0, 1}});
+  name_lines(document, {"open"});
+  document.point_sets = {{"open boundary 1", {1, 2}}};
+  CHECK(adcirc.read(adcirc.written(document)).point_sets == document.point_sets);
+  document = pond({{0, 1}});
+  name_lines(document, {"walls"});
+  CHECK(adcirc.read(adcirc.written(document)).point_sets.empty());
+}
+
 TEST_CASE("ADCIRC: depths come from elevations with the other sign, and are 0 where a mesh has none") {
   MeshDocument document;
   document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0};
@@ -200,7 +288,8 @@ TEST_CASE("ADCIRC: depths come from elevations with the other sign, and are 0 wh
   const auto lost = what_is_lost(document, FileFormat::adcirc);
   CHECK(lost == std::vector<std::string>{
                     "ADCIRC holds a depth for each point: 0 is written, since there is no point array depth",
-                    "ADCIRC runs with boundaries: the mesh names none, and none are written"});
+                    "ADCIRC runs with boundaries: the mesh names none, and none are written; groups of lines named "
+                    "open... or land... become such"});
   CHECK(values_of<double>(adcirc.read(adcirc.written(document)).point_arrays, "depth") == std::vector<double>{0, 0, 0});
   document.point_arrays = {make_data_array("elevation", 1, std::vector<double>{-1.5, 0, 2})};
   CHECK(values_of<double>(adcirc.read(adcirc.written(document)).point_arrays, "depth") ==

@@ -85,6 +85,31 @@ std::pair<double, double> angles(const MeshDocument& document) {
   return {smallest, sum / static_cast<double>(document.cells.size())};
 }
 
+TEST_CASE("a mesh of the oceans' formats that looks like degrees gets a note without --geographic, and no other mesh") {
+  const auto is_noted = [](const MeshDocument& document, const std::string& extension, bool geographic) {
+    Run run(document, extension);
+    run.options.geographic = geographic;
+    const PipelineResult result = run_pipeline(run.options);
+    return std::ranges::any_of(result.notes, [](const std::string& note) {
+      return note.starts_with("x and y look like longitude and latitude in degrees: --geographic");
+    });
+  };
+  const MeshDocument degrees = patch(10, 50, 12, 6);
+  for (const char* const extension : {".14", ".gr3", ".2dm"}) {
+    CAPTURE(extension);
+    CHECK(is_noted(degrees, extension, false));
+    CHECK_FALSE(is_noted(degrees, extension, true));
+    // A basin of some metres, and one of kilometres.
+    CHECK_FALSE(is_noted(patch(0, 0, 2, 1), extension, false));
+    MeshDocument kilometres = degrees;
+    for (double& coordinate : kilometres.points) {
+      coordinate *= 1000;
+    }
+    CHECK_FALSE(is_noted(kilometres, extension, false));
+  }
+  CHECK_FALSE(is_noted(degrees, ".off", false));
+}
+
 TEST_CASE("angles that reports have are those on the sphere, and are better than without the map") {
   Run run(patch(10, 60, 12, 6));
   const PipelineResult result = run_pipeline(run.options);
