@@ -21,10 +21,10 @@
 
 #include "trismooth/base/processor_name.h"
 #include "trismooth/base/stopwatch.h"
-#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_document.h"
 
+#include "mesh_files.h"
 #include "run_reporting.h"
 #include "vtk_runs.h"
 
@@ -85,14 +85,14 @@ std::vector<std::pair<std::string, double>> medians(
 }
 
 void print_head() {
-  fmt::print("{:<9} {:<4} {:>9} {:>3} {:>8} {:>8} {:>7} {:>8} {:>7} {:>7} {:>8} {:>8} {:>9} {:>7}\n", "tool", "file",
+  fmt::print("{:<9} {:<10} {:>9} {:>3} {:>8} {:>8} {:>7} {:>8} {:>7} {:>7} {:>8} {:>8} {:>9} {:>7}\n", "tool", "file",
              "vertices", "thr", "read", "topology", "check", "smooth", "guard", "after", "write", "between", "total",
              "ns/vtx");
 }
 
 void print(const Row& row) {
   const double total = row.of("total");
-  fmt::print("{:<9} {:<4} {:>9} {:>3}", row.tool, row.format, row.vertices, row.threads);
+  fmt::print("{:<9} {:<10} {:>9} {:>3}", row.tool, row.format, row.vertices, row.threads);
   for (const auto& [stage, width] : {std::pair("read", 8),
                                      {"topology", 8},
                                      {"check", 7},
@@ -118,9 +118,9 @@ class Benchmark {
     for (const std::int64_t vertices : settings_.vertices) {
       const MeshDocument document = document_of(random_delaunay_mesh(vertices, 1));
       for (const std::string& format : settings_.formats) {
-        const std::filesystem::path input = settings_.folder / ("pipeline_benchmark_in." + format);
-        const std::filesystem::path output = settings_.folder / ("pipeline_benchmark_out." + format);
-        write_mesh(input, document);
+        const std::filesystem::path input = mesh_files::path_of(settings_.folder, "pipeline_benchmark_in", format);
+        const std::filesystem::path output = mesh_files::path_of(settings_.folder, "pipeline_benchmark_out", format);
+        mesh_files::write(input, format, document);
         measure(input, output, format, static_cast<std::int64_t>(document.point_count()));
         std::filesystem::remove(input);
         std::filesystem::remove(output);
@@ -185,7 +185,7 @@ class Benchmark {
     fmt::print("\ntimes as fast by more threads, stages above 50 ms\n");
     for_pairs([](const Row& a, const Row& b) { return a.vertices == b.vertices && a.threads < b.threads; },
               [](const Row& one, const Row& many) {
-                fmt::print("{:<4} {:>9} {:>3}", many.format, many.vertices, many.threads);
+                fmt::print("{:<10} {:>9} {:>3}", many.format, many.vertices, many.threads);
                 for (const auto& [stage, time] : one.stages) {
                   if (time > 50) {
                     fmt::print("  {} {:.2f}", stage, time / many.of(stage));
@@ -199,7 +199,7 @@ class Benchmark {
     fmt::print("\ntime per vertex beside that of the smallest mesh\n");
     for_pairs([](const Row& a, const Row& b) { return a.threads == b.threads && a.vertices < b.vertices; },
               [](const Row& small, const Row& large) {
-                fmt::print("{:<4} {:>9} {:>3}  {:.2f}\n", large.format, large.vertices, large.threads,
+                fmt::print("{:<10} {:>9} {:>3}  {:.2f}\n", large.format, large.vertices, large.threads,
                            large.of("total") / static_cast<double>(large.vertices) /
                                (small.of("total") / static_cast<double>(small.vertices)));
               });
@@ -210,7 +210,7 @@ class Benchmark {
     for (const Row& vtk : rows_) {
       for (const Row& row : rows_) {
         if (vtk.tool == "VTK" && row.tool == "trismooth" && row.format == vtk.format && row.vertices == vtk.vertices) {
-          fmt::print("{:<4} {:>9} {:>3}  read {:.2f}  smooth and guard {:.1f}  write {:.2f}\n", row.format,
+          fmt::print("{:<10} {:>9} {:>3}  read {:.2f}  smooth and guard {:.1f}  write {:.2f}\n", row.format,
                      row.vertices, row.threads, vtk.of("read") / row.of("read"),
                      vtk.of("smooth") / (row.of("smooth") + row.of("guard")), vtk.of("write") / row.of("write"));
         }
@@ -245,7 +245,8 @@ int run(int argc, char** argv) {
   CLI::App app("Measures whole runs from file to file beside VTK");
   Settings settings;
   app.add_option("--vertices", settings.vertices, "mesh sizes")->capture_default_str();
-  app.add_option("--formats", settings.formats, "extensions: off, obj, ply, stl, vtk, vtu, vtp")->capture_default_str();
+  app.add_option("--formats", settings.formats, "extensions: off, vtk, vtu, ...; msh-binary, msh2, freefem")
+      ->capture_default_str();
   app.add_option("--threads", settings.threads, "numbers of threads")->capture_default_str();
   app.add_option("--runs", settings.runs)->capture_default_str()->check(CLI::PositiveNumber);
   app.add_flag("!--no-vtk", settings.vtk, "without VTK beside it");
