@@ -4,31 +4,20 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/text/plain_line.h"
 #include "trismooth/mesh_io/text/plain_list_rows.h"
 
 namespace trismooth {
 
 namespace {
 
-/// The fields behind the coordinates of a vertex, or the vertices of a face: as many as a line has at most.
+/// The numbers behind the coordinates of a vertex, or the vertices of a face: as many as a line has at most.
 using Fields = std::array<double, 9>;
-
-/// Reads numbers up to the end of the line; nothing where there are too many, or other things.
-std::optional<std::size_t> read_rest_of_line(PlainNumbers& numbers, Fields& fields) {
-  std::size_t count = 0;
-  for (; !numbers.at_end_of_line(); ++count) {
-    if (count == fields.size() || !numbers.next(fields[count]) || !std::isfinite(fields[count])) {
-      return std::nullopt;
-    }
-  }
-  return count;
-}
 
 bool read_indices(PlainNumbers& numbers, std::int32_t vertices, std::span<std::int32_t> indices) {
   return std::ranges::all_of(indices, [&numbers, vertices](std::int32_t& index) {
@@ -51,20 +40,15 @@ void copy_row(std::span<const double> values, std::vector<double>& rows, std::si
 
 }  // namespace
 
-/// Every number takes a digit and a separator, except for the separator at the end of the file.
-bool OffPlainRows::has_room(std::size_t offset, std::size_t rows, std::size_t columns) const {
-  return rows <= (text_.size() - offset + 1) / 2 / columns;
-}
-
 std::optional<PlainRows::End> OffPlainRows::read_vertices(std::size_t offset, std::size_t count,
                                                           const OffKeyword& keyword, MeshDocument& document,
                                                           NumberSites& sites) {
   Fields fields{};
-  PlainNumbers first_row(text_, offset);
+  PlainNumbers first_row(rows_.text(), offset);
   std::array<double, 3> point{};
   const bool has_point = std::ranges::all_of(point, [&first_row](double& x) { return first_row.next(x); });
-  const std::optional<std::size_t> found = has_point ? read_rest_of_line(first_row, fields) : std::nullopt;
-  if (!found || !keyword.allows_extras(*found) || !has_room(offset, count, 3 + *found)) {
+  const std::optional<std::size_t> found = has_point ? count_rest_of_line(first_row, fields.size()) : std::nullopt;
+  if (!found || !keyword.allows_extras(*found) || !rows_.has_room(offset, count, 3 + *found)) {
     return std::nullopt;
   }
   const std::size_t field_count = *found;
@@ -72,8 +56,8 @@ std::optional<PlainRows::End> OffPlainRows::read_vertices(std::size_t offset, st
   std::vector<double> normals;
   std::vector<double> colours;
   std::vector<double> texture_coordinates;
-  shared_resize(normals, sizes.normal.size() * count, colours, sizes.colour.size() * count, workers_.workers);
-  shared_resize(texture_coordinates, sizes.texture.size() * count, workers_.workers);
+  shared_resize(normals, sizes.normal.size() * count, colours, sizes.colour.size() * count, rows_.workers().workers);
+  shared_resize(texture_coordinates, sizes.texture.size() * count, rows_.workers().workers);
   const auto end =
       rows_.read(offset, count, 3 + field_count, [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
         bool plain = true;
@@ -110,31 +94,28 @@ std::optional<PlainRows::End> OffPlainRows::read_vertices(std::size_t offset, st
 }
 
 std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::size_t count, MeshDocument& document) {
-  PlainNumbers first_face(text_, offset);
+  PlainNumbers first_face(rows_.text(), offset);
   std::size_t degree = 0;
-  if (workers_.part_bytes == FileWorkers::serial || !first_face.next(degree) || degree < 3 ||
-      degree > text_.size() - offset || !first_face.skip(degree)) {
+  if (!first_face.next(degree) || degree < 3 || degree > rows_.text().size() - offset || !first_face.skip(degree)) {
     return std::nullopt;
   }
-  Fields fields{};
-  const std::optional<std::size_t> found = read_rest_of_line(first_face, fields);
-  if (!found || *found > 4 || *found == 2) {
+  const std::optional<std::size_t> found = count_rest_of_line(first_face, 4);
+  if (!found || *found == 2) {
     return std::nullopt;
   }
   const std::size_t components = *found;
   CellList& cells = document.cells;
   std::vector<double> colours;
   const auto make_room = [&](std::size_t corners) {
-    shared_resize(cells.connectivity, corners, cells.offsets, count + 1, workers_.workers);
-    shared_resize(cells.types, count, colours, components * count, workers_.workers);
+    shared_resize(cells.connectivity, corners, cells.offsets, count + 1, rows_.workers().workers);
+    shared_resize(cells.types, count, colours, components * count, rows_.workers().workers);
   };
   const auto vertices = static_cast<std::int32_t>(document.point_count());
-  const auto read_part = [&](PlainNumbers& numbers, const PlainListRows::Part& part, std::size_t least,
-                             std::size_t most) {
+  const auto read_part = [&](PlainNumbers& numbers, const PlainListRows::Part& part) {
     std::size_t item = part.first_item;
     for (std::size_t face = part.first; face < part.last; ++face) {
       std::size_t corners = 0;
-      if (!numbers.next(corners) || corners < least || corners > std::min(most, part.last_item - item) ||
+      if (!numbers.next(corners) || corners < 3 || corners > part.last_item - item ||
           !read_indices(numbers, vertices, std::span(cells.connectivity).subspan(item, corners)) ||
           !read_fields(numbers, std::span(colours).subspan(components * face, components))) {
         return false;
@@ -143,26 +124,9 @@ std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::
       cells.offsets[face + 1] = static_cast<std::int64_t>(item);
       cells.types[face] = cell_type::of_face(corners);
     }
-    return true;
+    return item == part.last_item;
   };
-  std::optional<PlainRows::End> end;
-  if (has_room(offset, count, 1 + degree + components)) {
-    // As if all faces were like the first one.
-    make_room(degree * count);
-    end = rows_.read(offset, count, 1 + degree + components,
-                     [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                       return read_part(numbers, {first, last, degree * first, degree * last}, degree, degree);
-                     });
-  }
-  if (!end) {
-    const PlainListRows rows(text_, offset, count, components, workers_);
-    if (rows.items()) {
-      make_room(*rows.items());
-      end = rows.read([&](PlainNumbers& numbers, const PlainListRows::Part& part) {
-        return read_part(numbers, part, 3, std::numeric_limits<std::size_t>::max());
-      });
-    }
-  }
+  const auto end = read_plain_lists(rows_, offset, count, {degree, components}, true, make_room, read_part);
   if (!end) {
     cells = {};
   } else if (components > 0) {

@@ -18,8 +18,7 @@ namespace trismooth {
 class OffPlainRows {
  public:
   /// `text` must outlive the object.
-  OffPlainRows(std::string_view text, const FileWorkers& workers)
-      : text_(text), workers_(workers), rows_(text, workers) {}
+  OffPlainRows(std::string_view text, const FileWorkers& workers) : rows_(text, workers) {}
 
   /// `count` vertices, 1 or more, from `offset` on: coordinates to the points of the document, which have their size
   /// as the sites do; fields to point arrays.
@@ -31,10 +30,6 @@ class OffPlainRows {
   std::optional<PlainRows::End> read_faces(std::size_t offset, std::size_t count, MeshDocument& document);
 
  private:
-  bool has_room(std::size_t offset, std::size_t rows, std::size_t columns) const;
-
-  std::string_view text_;
-  FileWorkers workers_;
   PlainRows rows_;
 };
 

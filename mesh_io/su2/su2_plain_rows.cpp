@@ -4,58 +4,29 @@
 #include <cmath>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/text/plain_line.h"
 #include "trismooth/mesh_io/text/plain_list_rows.h"
 
 namespace trismooth {
 
 namespace {
 
-/// The numbers up to the end of the line; nothing where there is something else.
-std::optional<std::size_t> count_rest_of_line(PlainNumbers& numbers) {
-  constexpr std::size_t most = 16;
-  std::size_t count = 0;
-  for (double value = 0; !numbers.at_end_of_line(); ++count) {
-    if (count == most || !numbers.next(value)) {
-      return std::nullopt;
-    }
-  }
-  return count;
-}
-
-/// The next number, which is on the line that is being read.
-template <class T>
-bool next_on_line(PlainNumbers& numbers, T& value) {
-  return !numbers.at_end_of_line() && numbers.next(value);
-}
-
-template <class T>
-bool skip_rest_of_line(PlainNumbers& numbers, std::size_t count) {
-  for (T value{}; count > 0; --count) {
-    if (!next_on_line(numbers, value)) {
-      return false;
-    }
-  }
-  return numbers.at_end_of_line();
-}
+/// Numbers behind the first one of a row.
+constexpr std::size_t most_su2_rest = 16;
 
 }  // namespace
-
-/// Every number takes a digit and a separator, except for the separator at the end of the file.
-bool Su2PlainRows::has_room(std::size_t offset, std::size_t rows, std::size_t columns) const {
-  return rows <= (text_.size() - offset + 1) / 2 / columns;
-}
 
 std::optional<PlainRows::End> Su2PlainRows::read_points(std::size_t offset, std::size_t first, MeshDocument& document,
                                                         NumberSites& sites) {
   const std::size_t count = document.point_count() - first;
   const std::size_t dimension = sites.columns.size();
-  PlainNumbers first_row(text_, offset);
+  PlainNumbers first_row(rows_.text(), offset);
   double first_number = 0;
   if (!first_row.next(first_number)) {
     return std::nullopt;
   }
-  const std::optional<std::size_t> rest = count_rest_of_line(first_row);
-  if (!rest || *rest + 1 < dimension || !has_room(offset, count, *rest + 1)) {
+  const std::optional<std::size_t> rest = count_rest_of_line(first_row, most_su2_rest);
+  if (!rest || *rest + 1 < dimension || !rows_.has_room(offset, count, *rest + 1)) {
     return std::nullopt;
   }
   const std::size_t others = *rest + 1 - dimension;
@@ -80,13 +51,13 @@ std::optional<PlainRows::End> Su2PlainRows::read_points(std::size_t offset, std:
 
 std::optional<PlainRows::End> Su2PlainRows::read_elements(std::size_t offset, std::size_t count, int dimension,
                                                           Indices indices, CellList& cells) {
-  PlainNumbers first_row(text_, offset);
+  PlainNumbers first_row(rows_.text(), offset);
   std::int64_t first_type = 0;
-  if (workers_.part_bytes == FileWorkers::serial || !first_row.next(first_type)) {
+  if (!first_row.next(first_type)) {
     return std::nullopt;
   }
   const std::size_t points = su2_points_of(Su2Section::elements, dimension, first_type);
-  const std::optional<std::size_t> rest = count_rest_of_line(first_row);
+  const std::optional<std::size_t> rest = count_rest_of_line(first_row, most_su2_rest);
   if (points == 0 || !rest || *rest < points || *rest > points + 1) {
     return std::nullopt;
   }
@@ -94,8 +65,9 @@ std::optional<PlainRows::End> Su2PlainRows::read_elements(std::size_t offset, st
   const std::size_t cells_before = cells.size();
   const std::size_t items_before = cells.connectivity.size();
   const auto make_room = [&](std::size_t items) {
-    shared_resize(cells.connectivity, items_before + items, cells.offsets, cells_before + count + 1, workers_.workers);
-    shared_resize(cells.types, cells_before + count, workers_.workers);
+    shared_resize(cells.connectivity, items_before + items, cells.offsets, cells_before + count + 1,
+                  rows_.workers().workers);
+    shared_resize(cells.types, cells_before + count, rows_.workers().workers);
   };
   const auto read_row = [&](PlainNumbers& numbers, std::size_t row, std::size_t& item, std::size_t last_item) {
     std::int64_t type = 0;
@@ -126,24 +98,11 @@ std::optional<PlainRows::End> Su2PlainRows::read_elements(std::size_t offset, st
     }
     return item == part.last_item;
   };
-  std::optional<PlainRows::End> end;
-  if (has_room(offset, count, 1 + *rest)) {
-    // As if all elements were of the type of the first one.
-    make_room(points * count);
-    end = rows_.read(offset, count, 1 + *rest, [&](PlainNumbers& numbers, std::size_t from, std::size_t to) {
-      return read_part(numbers, {from, to, points * from, points * to});
-    });
-  }
-  // Of different types: the type says how many points follow, and so what it is the length of. This looks at all of the
-  // rest of the file, which pays for large sections only, and may not be done for each of many small ones.
+  // Where types differ: this looks at all of the rest of the file, which pays for large sections only, and may not be
+  // done for each of many small ones.
   constexpr std::size_t least_row = 8;
-  if (!end && count >= (text_.size() - offset) / 16 / least_row) {
-    const PlainListRows rows(text_, offset, count, others, workers_);
-    if (rows.items()) {
-      make_room(*rows.items());
-      end = rows.read(read_part);
-    }
-  }
+  const bool is_large = count >= (rows_.text().size() - offset) / 16 / least_row;
+  const auto end = read_plain_lists(rows_, offset, count, {points, others}, is_large, make_room, read_part);
   if (!end) {
     cells.connectivity.resize(items_before);
     cells.offsets.resize(cells_before + 1);

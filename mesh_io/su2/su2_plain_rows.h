@@ -19,8 +19,7 @@ namespace trismooth {
 class Su2PlainRows {
  public:
   /// `text` must outlive the object.
-  Su2PlainRows(std::string_view text, const FileWorkers& workers)
-      : text_(text), workers_(workers), rows_(text, workers) {}
+  Su2PlainRows(std::string_view text, const FileWorkers& workers) : rows_(text, workers) {}
 
   /// The points from number `first` on, which fill the document's points and the sites to their end; 1 or more. The
   /// columns of the sites are the dimension.
@@ -38,10 +37,6 @@ class Su2PlainRows {
                                               CellList& cells);
 
  private:
-  bool has_room(std::size_t offset, std::size_t rows, std::size_t columns) const;
-
-  std::string_view text_;
-  FileWorkers workers_;
   PlainRows rows_;
 };
 

@@ -61,4 +61,39 @@ class PlainListRows {
   std::optional<std::size_t> items_;
 };
 
+/// Rows that are a list each, with equally many numbers beside it.
+struct PlainListShape {
+  std::size_t items = 0;   ///< of the first list
+  std::size_t beside = 0;  ///< numbers beside a list and the one that says how long it is
+};
+
+/// Reads `count` such rows, 1 or more, that begin at `offset`: as if all lists were as long as the first one, and,
+/// where that fails and `may_differ`, as rows that are a line each. Calls make_room(items of all lists), once or twice,
+/// and read_part(numbers, part) as PlainListRows does; that answers false too where the part has more or fewer items.
+/// What room was made stays where the answer is nothing.
+template <class MakeRoom, class ReadPart>
+std::optional<PlainRows::End> read_plain_lists(PlainRows& rows, std::size_t offset, std::size_t count,
+                                               const PlainListShape& shape, bool may_differ, const MakeRoom& make_room,
+                                               const ReadPart& read_part) {
+  if (rows.workers().part_bytes == FileWorkers::serial) {
+    return std::nullopt;
+  }
+  std::optional<PlainRows::End> end;
+  const std::size_t columns = 1 + shape.items + shape.beside;
+  if (rows.has_room(offset, count, columns)) {
+    make_room(shape.items * count);
+    end = rows.read(offset, count, columns, [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+      return read_part(numbers, PlainListRows::Part{first, last, shape.items * first, shape.items * last});
+    });
+  }
+  if (!end && may_differ) {
+    const PlainListRows lists(rows.text(), offset, count, shape.beside, rows.workers());
+    if (lists.items()) {
+      make_room(*lists.items());
+      end = lists.read(read_part);
+    }
+  }
+  return end;
+}
+
 }  // namespace trismooth

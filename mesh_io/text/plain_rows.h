@@ -25,6 +25,15 @@ class PlainRows {
   /// `text` must outlive the object.
   PlainRows(std::string_view text, const FileWorkers& workers) : text_(text), workers_(workers) {}
 
+  std::string_view text() const { return text_; }
+  const FileWorkers& workers() const { return workers_; }
+
+  /// Whether so many numbers may stand behind `offset`: each takes a digit and a separator, but for the separator at
+  /// the end of the text. `columns` is 1 or more.
+  bool has_room(std::size_t offset, std::size_t rows, std::size_t columns) const {
+    return rows <= (text_.size() - offset + 1) / 2 / columns;
+  }
+
   /// Reads `rows` rows of `columns` numbers from `offset` on, which is at no token or at the start of one. Calls
   /// body(numbers, first, last) for parts of the rows, in any order, on any worker: it reads rows first to last - 1
   /// from `numbers` and answers false where it cannot. Nothing where any part could not be read; what the body has
