@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string_view>
 
 namespace trismooth {
@@ -31,6 +32,27 @@ class BinaryNumbers {
     }
     offset_ += sizeof(T);
     value = std::bit_cast<T>(stored);
+    return true;
+  }
+
+  /// As many as there are values; false where the bytes end before.
+  template <class T, std::size_t count>
+  bool next_all(std::span<T, count> values) {
+    number_offset_ = offset_;
+    if ((bytes_.size() - offset_) / sizeof(T) < values.size()) {
+      return false;
+    }
+    if (!values.empty()) {
+      std::memcpy(values.data(), bytes_.data() + offset_, values.size_bytes());
+    }
+    offset_ += values.size_bytes();
+    if (swapped_) {
+      for (T& value : values) {
+        auto stored = std::bit_cast<std::array<char, sizeof(T)>>(value);
+        std::ranges::reverse(stored);
+        value = std::bit_cast<T>(stored);
+      }
+    }
     return true;
   }
 

@@ -187,9 +187,7 @@ class PatchedStretch {
  private:
   using Order = std::vector<std::size_t>;
 
-  std::size_t offset_of(std::size_t site, std::size_t column) const {
-    return sites_.offsets[sites_.columns.size() * site + column];
-  }
+  std::size_t offset_of(std::size_t site, std::size_t column) const { return sites_.offset_of(site, column); }
 
   /// A file may list y before x: the bytes are written in their own order. `order` is memory for it.
   std::span<const std::size_t> columns_of(std::size_t site, Order& order) const {

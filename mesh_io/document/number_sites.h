@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,13 @@ struct SiteColumn {
   bool operator==(const SiteColumn&) const = default;
 };
 
+/// Sites of a binary file in equal steps, whose numbers of 8 bytes stand side by side.
+struct EvenSites {
+  std::uint64_t begin = 0;  ///< byte offset of the first one
+  std::uint64_t step = 0;   ///< bytes from each to the next
+  std::size_t count = 0;
+};
+
 /// Where in a file's bytes the numbers of each vertex stand that may change: its coordinates, values of its fields.
 struct NumberSites {
   NumberEncoding encoding = NumberEncoding::text;
@@ -31,11 +39,16 @@ struct NumberSites {
   std::vector<SiteColumn> columns{{.component = 0}, {.component = 1}, {.component = 2}};
   std::vector<ScalarType> column_types;  ///< of each column where they differ; empty where all are of `type`
   std::vector<std::uint64_t> offsets;    ///< byte offsets, one a column and site; sites in the file's order
+  std::optional<EvenSites> even;         ///< instead of offsets, which are none then
   std::vector<std::int32_t> vertices;    ///< the vertex at each site; empty where site i is vertex i
   std::uint8_t most_characters = 0;      ///< that a new number may take as text; 0: any number of them
 
   /// Sites.
-  std::size_t size() const { return offsets.size() / columns.size(); }
+  std::size_t size() const { return even ? even->count : offsets.size() / columns.size(); }
+  /// Byte offset of the number of that column at a site.
+  std::uint64_t offset_of(std::size_t site, std::size_t column) const {
+    return even ? even->begin + site * even->step + column * sizeof(double) : offsets[columns.size() * site + column];
+  }
 };
 
 /// Where the values of a column are: those of vertex v at first[v * stride]. Null: the column stays as it is.

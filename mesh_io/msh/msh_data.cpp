@@ -70,7 +70,7 @@ class MshDataReader {
                         bool plain = true;
                         for (std::size_t row = first; row < last && plain; ++row) {
                           std::int64_t tag = 0;
-                          plain = next_tag(numbers, MshTagKind::int32, tag);
+                          plain = next_tag<std::int32_t>(numbers, tag);
                           const std::int32_t place = plain ? place_of(tag) : -1;
                           of_rows[row] = place;
                           for (std::size_t i = 0; i < components && plain; ++i) {

@@ -63,27 +63,14 @@ class MshElementReader {
   /// Of version 2; its length is text in binary files too.
   void read_list() {
     begin_list();
-    if (!input_.header().binary) {
-      while (cells_.size() < element_count_) {
-        tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
-        const MshElementType* type = &next_type();
-        const std::int64_t labels = input_.integer("the number of tags of an element", 0, largest_msh_int);
-        read_labels(static_cast<std::size_t>(labels));
-        MshElementType polygon;
-        if (type->vertices == 0) {
-          polygon = {
-              2, static_cast<std::size_t>(input_.integer("the number of vertices of a polygon", 3, largest_msh_int))};
-          input_.require_room("vertices of a polygon", polygon.vertices, 1, msh_int_bytes);
-          polygon.cell = cell_type::of_face(polygon.vertices);
-          type = &polygon;
-        }
-        read_vertices(*type);
-      }
-    } else {
+    if (input_.header().binary) {
       input_.text().next_line();
+      reserve_labels();
       while (cells_.size() < element_count_) {
         read_binary_group();
       }
+    } else if (element_count_ == 0 || !read_plain_list()) {
+      read_text_list();
     }
     elements_.tags.add(tag_list_);
     finish_list();
@@ -92,6 +79,7 @@ class MshElementReader {
   /// Of version 1.
   void read_list_of_version_1() {
     begin_list();
+    reserve_labels();
     while (cells_.size() < element_count_) {
       tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
       const MshElementType& type = next_type();
@@ -123,6 +111,10 @@ class MshElementReader {
     count_offset_ = input_.number_offset();
     input_.require_room("elements", element_count_, 4, 3 * msh_int_bytes);
     reserve();
+  }
+
+  /// For elements that are read one by one.
+  void reserve_labels() {
     elements_.physical.reserve(element_count_);
     elements_.geometrical.reserve(element_count_);
     elements_.partition.reserve(element_count_);
@@ -151,9 +143,8 @@ class MshElementReader {
     const std::size_t first = cells_.size();
     const std::size_t first_vertex = cells_.connectivity.size();
     Workers& workers = rows_.workers().workers;
-    grow_shared(cells_.connectivity, first_vertex + count * type.vertices, workers);
-    grow_shared(cells_.offsets, first + 1 + count, workers);
-    grow_shared(cells_.types, first + count, workers);
+    grow_shared(cells_.connectivity, first_vertex + count * type.vertices, cells_.offsets, first + 1 + count, workers);
+    grow_shared(cells_.types, first + count, elements_.geometrical, first + count, workers);
     const auto begin_cell = [&](std::size_t row) {
       cells_.offsets[first + row + 1] = static_cast<std::int64_t>(first_vertex + (row + 1) * type.vertices);
       cells_.types[first + row] = type.cell;
@@ -161,18 +152,8 @@ class MshElementReader {
     };
     const bool plain = MshRowTags(kind, count)
                            .read(rows_, input_, {count, numbers, numbers * tag_bytes(kind)}, elements_.tags,
-                                 [&](auto& row_numbers, std::size_t row) {
-                                   std::int32_t* const vertices = begin_cell(row);
-                                   bool found = true;
-                                   for (std::size_t i = 0; i < type.vertices && found; ++i) {
-                                     std::int64_t tag = 0;
-                                     found = next_tag(row_numbers, kind, tag);
-                                     const std::int64_t vertex = nodes_.find(tag);
-                                     found = found && vertex >= 0;
-                                     vertices[type.places.empty() ? i : type.places[i]] =
-                                         static_cast<std::int32_t>(vertex);
-                                   }
-                                   return found;
+                                 [&](auto& row_numbers, std::size_t row, auto tag) {
+                                   return next_vertices<decltype(tag)>(row_numbers, type, begin_cell(row));
                                  });
     if (!plain) {
       tag_list_.clear();
@@ -182,15 +163,9 @@ class MshElementReader {
       }
       elements_.tags.add(tag_list_);
     }
-    grow_shared(elements_.geometrical, first + count, workers);
     std::fill_n(elements_.geometrical.begin() + static_cast<std::ptrdiff_t>(first), count, entity.geometrical);
-    grow_shared(elements_.physical, first + count, workers);
-    std::fill_n(elements_.physical.begin() + static_cast<std::ptrdiff_t>(first), count,
-                entity.physical.empty() ? 0 : entity.physical.front());
-    if (entity.partition != 0 || !elements_.partition.empty()) {
-      elements_.partition.resize(first);
-      elements_.partition.resize(first + count, entity.partition);
-    }
+    add_label(elements_.physical, first, count, entity.physical.empty() ? 0 : entity.physical.front());
+    add_label(elements_.partition, first, count, entity.partition);
     for (std::size_t i = 1; i < entity.physical.size(); ++i) {
       budget_.spend(count);
       std::vector<std::int32_t>& members = elements_.further_groups[{dimension, entity.physical[i]}];
@@ -198,6 +173,18 @@ class MshElementReader {
         members.push_back(static_cast<std::int32_t>(cell));
       }
     }
+  }
+
+  /// Of `count` elements from number `first` on. Labels that are 0 in the whole file take no memory.
+  void add_label(std::vector<std::int32_t>& labels, std::size_t first, std::size_t count, std::int32_t label) {
+    if (label == 0 && labels.empty()) {
+      return;
+    }
+    if (labels.empty()) {
+      shared_reserve(labels, element_count_, rows_.workers().workers);
+    }
+    labels.resize(first);
+    labels.resize(first + count, label);
   }
 
   std::int64_t next_element_or_node_tag(std::string_view what) {
@@ -226,21 +213,154 @@ class MshElementReader {
   }
 
   /// Numbers behind the type of an element: its group, its entity, its partitions.
+  using FirstLabels = std::array<std::int64_t, 4>;
+
   void read_labels(std::size_t count) {
-    std::array<std::int64_t, 4> first{};
+    FirstLabels first{};
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t label = input_.integer("a tag of an element", -largest_msh_int, largest_msh_int);
       if (i < first.size()) {
         first[i] = label;
       }
     }
-    elements_.physical.push_back(static_cast<std::int32_t>(std::abs(first[0])));
-    elements_.geometrical.push_back(static_cast<std::int32_t>(first[1]));
+    const std::size_t element = elements_.physical.size();
+    elements_.physical.push_back(0);
+    elements_.geometrical.push_back(0);
+    elements_.partition.push_back(0);
+    set_labels(element, first, count);
+  }
+
+  void set_labels(std::size_t element, const FirstLabels& first, std::size_t count) {
+    elements_.physical[element] = static_cast<std::int32_t>(std::abs(first[0]));
+    elements_.geometrical[element] = static_cast<std::int32_t>(first[1]);
     // From version 2.2 on the number of partitions stands before them.
     const bool counted = input_.header().version >= 22;
-    elements_.partition.push_back(static_cast<std::int32_t>(!counted                    ? first[2]
-                                                            : count > 3 && first[2] > 0 ? first[3]
-                                                                                        : 0));
+    elements_.partition[element] = static_cast<std::int32_t>(!counted                    ? first[2]
+                                                             : count > 3 && first[2] > 0 ? first[3]
+                                                                                         : 0);
+  }
+
+  void read_text_list() {
+    reserve_labels();
+    while (cells_.size() < element_count_) {
+      tag_list_.push_back(input_.integer("the tag of an element", 0, largest_msh_int));
+      const MshElementType* type = &next_type();
+      const std::int64_t labels = input_.integer("the number of tags of an element", 0, largest_msh_int);
+      read_labels(static_cast<std::size_t>(labels));
+      MshElementType polygon;
+      if (type->vertices == 0) {
+        polygon = {2,
+                   static_cast<std::size_t>(input_.integer("the number of vertices of a polygon", 3, largest_msh_int))};
+        input_.require_room("vertices of a polygon", polygon.vertices, 1, msh_int_bytes);
+        polygon.cell = cell_type::of_face(polygon.vertices);
+        type = &polygon;
+      }
+      read_vertices(*type);
+    }
+  }
+
+  /// Rows of elements that have equally many labels: by all workers. False where anything is unusual: nothing has
+  /// changed then.
+  bool read_plain_list() {
+    PlainNumbers first_row(input_.bytes(), input_.offset());
+    std::array<std::int32_t, 3> head{};  // tag, type and number of labels
+    if (!std::ranges::all_of(head, [&first_row](std::int32_t& number) { return first_row.next(number); }) ||
+        head[2] < 0) {
+      return false;
+    }
+    const auto labels = static_cast<std::size_t>(head[2]);
+    if (msh_element_type(head[1]).vertices == 0) {
+      return false;
+    }
+    // Beside the vertices, whose number the type tells: the tag, the number of labels, and these.
+    const PlainListShape shape{msh_element_type(head[1]).vertices, 2 + labels};
+    Workers& workers = rows_.workers().workers;
+    const auto make_room = [&](std::size_t vertices) {
+      shared_resize(cells_.connectivity, vertices, cells_.offsets, element_count_ + 1, workers);
+      shared_resize(cells_.types, element_count_, workers);
+      shared_resize(elements_.physical, element_count_, elements_.geometrical, element_count_, workers);
+      shared_resize(elements_.partition, element_count_, workers);
+    };
+    MshRowTags tags(MshTagKind::int32, element_count_);
+    const auto read_row = [&](PlainNumbers& numbers, std::size_t row, std::size_t& item, std::size_t last_item) {
+      std::int32_t number = 0;
+      std::size_t count = 0;
+      if (!tags.next<std::int32_t>(numbers, row) || !numbers.next(number) || !numbers.next(count) || count != labels) {
+        return false;
+      }
+      const MshElementType& type = msh_element_type(number);
+      if (type.vertices == 0 || type.vertices > last_item - item || !next_labels(numbers, row, labels) ||
+          !next_vertices<std::int32_t>(numbers, type, cells_.connectivity.data() + item)) {
+        return false;
+      }
+      item += type.vertices;
+      cells_.offsets[row + 1] = static_cast<std::int64_t>(item);
+      cells_.types[row] = type.cell;
+      return numbers.at_end_of_line();
+    };
+    const bool plain = tags.read(rows_, input_, elements_.tags, [&](auto /*type*/) {
+      return rows_.read_lists(element_count_, shape, make_room, [&](PlainNumbers& numbers, const auto& part) {
+        std::size_t item = part.first_item;
+        bool read = true;
+        for (std::size_t row = part.first; row < part.last && read; ++row) {
+          read = read_row(numbers, row, item, part.last_item);
+        }
+        return read && item == part.last_item;
+      });
+    });
+    if (!plain) {
+      cells_.connectivity.clear();
+      cells_.offsets.resize(1);
+      cells_.types.clear();
+      elements_.physical.clear();
+      elements_.geometrical.clear();
+      elements_.partition.clear();
+    }
+    return plain;
+  }
+
+  template <class Numbers>
+  bool next_labels(Numbers& numbers, std::size_t element, std::size_t count) {
+    FirstLabels first{};
+    for (std::size_t i = 0; i < count; ++i) {
+      std::int32_t label = 0;
+      if (!numbers.next(label) || label < -largest_msh_int) {
+        return false;
+      }
+      if (i < first.size()) {
+        first[i] = label;
+      }
+    }
+    set_labels(element, first, count);
+    return true;
+  }
+
+  /// The vertices that the next tags of nodes stand for; false where one cannot be read, or is of no node.
+  template <class Tag, class Numbers>
+  bool next_vertices(Numbers& numbers, const MshElementType& type, std::int32_t* vertices) const {
+    if (type.vertices == 3 && type.places.empty()) {
+      // Triangles, and so most of the numbers of most files.
+      std::array<Tag, 3> tags{};
+      bool found = next_tags(numbers, tags);
+      for (std::size_t i = 0; i < tags.size() && found; ++i) {
+        const std::int64_t vertex = nodes_.find(static_cast<std::int64_t>(tags[i]));
+        found = vertex >= 0;
+        vertices[i] = static_cast<std::int32_t>(vertex);
+      }
+      return found;
+    }
+    for (std::size_t i = 0; i < type.vertices; ++i) {
+      std::int64_t tag = 0;
+      if (!next_tag<Tag>(numbers, tag)) {
+        return false;
+      }
+      const std::int64_t vertex = nodes_.find(tag);
+      if (vertex < 0) {
+        return false;
+      }
+      vertices[type.places.empty() ? i : type.places[i]] = static_cast<std::int32_t>(vertex);
+    }
+    return true;
   }
 
   void read_binary_group() {

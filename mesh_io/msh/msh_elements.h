@@ -15,7 +15,8 @@ namespace trismooth {
 /// The elements of a file. Their types and vertices are the document's cells.
 struct MshElements {
   MshTags tags;
-  std::vector<std::int32_t> physical;     ///< of every cell, the group that is named first; 0: none
+  // Of every cell, with cells at the end left out that have 0.
+  std::vector<std::int32_t> physical;     ///< the group that is named first; 0: none
   std::vector<std::int32_t> geometrical;  ///< the entity
   std::vector<std::int32_t> partition;    ///< 0: none
   /// Cells in groups beside the first one: by dimension and group, ascending.

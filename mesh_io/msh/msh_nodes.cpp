@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/msh/msh_nodes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,9 @@ namespace trismooth {
 namespace {
 
 constexpr std::size_t msh_real_bytes = sizeof(double);
+
+/// That a list of their own is worth.
+constexpr std::size_t least_even_nodes = 16;
 
 /// The columns of a list of nodes with so many parameters.
 std::vector<SiteColumn> site_columns(std::size_t parameters) {
@@ -102,6 +106,7 @@ class MshNodeReader {
 
   void read_parametric_rows() {
     input_.require_room("nodes", node_count_, 6, 3 * sizeof(std::int32_t) + 3 * msh_real_bytes);
+    document_.points.resize(3 * node_count_);
     for (; done_ < node_count_; ++done_) {
       tag_list_.push_back(input_.integer("the tag of a node", 0, largest_msh_int));
       std::array<std::uint64_t, 6> offsets{};
@@ -145,7 +150,7 @@ class MshNodeReader {
     count_offset_ = input_.number_offset();
     // Each takes more than its coordinates as text.
     input_.require_room("nodes", node_count_, 3, 3 * msh_real_bytes);
-    shared_resize(document_.points, 3 * node_count_, rows_.workers().workers);
+    shared_reserve(document_.points, 3 * node_count_, rows_.workers().workers);
   }
 
   [[noreturn]] void fail_count(const std::string& got) const {
@@ -160,7 +165,8 @@ class MshNodeReader {
 
   /// Nodes without parameters go on in one list, those of one entity with them in another.
   MshNodeList& list_for(MshParametricNodes nodes) {
-    const bool goes_on = !nodes_.lists.empty() && nodes_.lists.back().parametric.parameters == nodes.parameters &&
+    const bool goes_on = !nodes_.lists.empty() && !nodes_.lists.back().sites.even &&
+                         nodes_.lists.back().parametric.parameters == nodes.parameters &&
                          (nodes.parameters == 0 ||
                           (nodes_.lists.back().parametric.dimension == nodes.dimension &&
                            nodes_.lists.back().parametric.entity == nodes.entity && input_.header().version < 40));
@@ -175,18 +181,25 @@ class MshNodeReader {
   }
 
   void read_block(MshParametricNodes nodes, std::size_t count, bool tags_in_rows) {
+    if (!tags_in_rows) {
+      read_tags(count);
+      if (nodes.parameters == 0 && count >= least_even_nodes && read_even_rows(count)) {
+        done_ += count;
+        return;
+      }
+    }
     MshNodeList& list = list_for(std::move(nodes));
     const std::size_t parameters = list.parametric.parameters;
     const std::size_t columns = 3 + parameters;
     const std::size_t first_site = list.sites.size();
+    Workers& workers = rows_.workers().workers;
     if (parameters == 0 && first_site == 0 && nodes_.lists.size() == 1) {
-      shared_reserve(list.sites.offsets, 3 * node_count_, rows_.workers().workers);
+      shared_reserve(list.sites.offsets, 3 * node_count_, workers);
     }
-    grow_shared(list.sites.offsets, columns * (first_site + count), rows_.workers().workers);
+    grow_shared(document_.points, 3 * (done_ + count), list.sites.offsets, columns * (first_site + count), workers);
     list.parametric.values.resize(parameters * (first_site + count));
     const Block block{list, done_, first_site, count};
     if (!tags_in_rows) {
-      read_tags(count);
       if (!read_plain_rows(block, false)) {
         for (std::size_t node = 0; node < count; ++node) {
           read_row(block, node);
@@ -201,6 +214,30 @@ class MshNodeReader {
       nodes_.tags.add(tag_list_);
     }
     done_ += count;
+  }
+
+  /// Coordinates alone, of a binary file: a list of their own, whose sites need no memory. False where anything is
+  /// unusual: nothing has changed then.
+  bool read_even_rows(std::size_t count) {
+    if (!input_.header().binary) {
+      return false;
+    }
+    constexpr std::size_t row_bytes = 3 * msh_real_bytes;
+    const EvenSites even{input_.offset(), row_bytes, count};
+    document_.points.resize(3 * (done_ + count));
+    const bool plain =
+        rows_.read_binary({count, 3, row_bytes}, [&](auto& numbers, std::size_t first, std::size_t last) {
+          const auto values = std::span(document_.points).subspan(3 * (done_ + first), 3 * (last - first));
+          return numbers.next_all(values) && std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+        });
+    if (plain) {
+      MshNodeList& list = nodes_.lists.emplace_back();
+      list.first_vertex = done_;
+      list.sites.encoding = input_.header().encoding();
+      list.sites.columns = site_columns(0);
+      list.sites.even = even;
+    }
+    return plain;
   }
 
   /// Nodes of a list that are read now.
@@ -226,7 +263,7 @@ class MshNodeReader {
     const MshTagKind kind = tag_kind_of(input_.header());
     if (MshRowTags(kind, count)
             .read(rows_, input_, {count, 1, tag_bytes(kind)}, nodes_.tags,
-                  [](auto& /*numbers*/, std::size_t /*row*/) { return true; })) {
+                  [](auto& /*numbers*/, std::size_t /*row*/, auto /*type*/) { return true; })) {
       return;
     }
     tag_list_.clear();
@@ -239,7 +276,7 @@ class MshNodeReader {
   bool read_plain_rows(const Block& block, bool tags_in_rows) {
     const std::size_t columns = block.list.sites.columns.size();
     const std::size_t parameters = columns - 3;
-    const auto read_row = [&](auto& numbers, std::size_t row) {
+    const auto read_row = [&](auto& numbers, std::size_t row, auto /*type*/) {
       double* const point = document_.points.data() + 3 * (block.first_vertex + row);
       std::uint64_t* const offsets = block.list.sites.offsets.data() + columns * (block.first_site + row);
       bool plain = true;
@@ -264,7 +301,7 @@ class MshNodeReader {
                       [&](auto& numbers, std::size_t first, std::size_t last) {
                         bool plain = true;
                         for (std::size_t row = first; row < last && plain; ++row) {
-                          plain = read_row(numbers, row);
+                          plain = read_row(numbers, row, 0);
                         }
                         return plain;
                       });
@@ -275,9 +312,9 @@ class MshNodeReader {
       std::size_t vertex = *twice;
       for (const MshNodeList& list : nodes_.lists) {
         if (vertex < list.size()) {
-          input_.fail_at(list.sites.offsets[list.sites.columns.size() * vertex],
-                         "the tag of this node, number " + std::to_string(*twice + 1) + " of " +
-                             std::to_string(node_count_) + ", is that of another one before it");
+          input_.fail_at(list.sites.offset_of(vertex, 0), "the tag of this node, number " + std::to_string(*twice + 1) +
+                                                              " of " + std::to_string(node_count_) +
+                                                              ", is that of another one before it");
         }
         vertex -= list.size();
       }

@@ -173,7 +173,7 @@ class MshOriginal : public OriginalFile {
       order[i] = i;
     }
     // Fields may stand in front of the nodes.
-    std::ranges::sort(order, {}, [&lists](std::size_t i) { return lists[i].sites.offsets.front(); });
+    std::ranges::sort(order, {}, [&lists](std::size_t i) { return lists[i].sites.offset_of(0, 0); });
     std::vector<PatchedSites> ordered;
     ordered.reserve(lists.size());
     for (const std::size_t i : order) {

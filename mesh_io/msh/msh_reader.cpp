@@ -240,15 +240,18 @@ class MshReader {
   void add_cell_arrays() {
     const auto add = [this](const char* name, std::vector<std::int32_t>& values,
                             std::shared_ptr<const ArrayDescription> description = nullptr) {
-      values.resize(document_.cells.size());
       if (has_msh_label(values)) {
+        values.resize(document_.cells.size());
         DataArray array = make_data_array(name, 1, std::move(values));
         array.description = std::move(description);
         cell_names_.take(name);
         document_.cell_arrays.push_back(std::move(array));
       }
     };
-    all_physical_ = elements_.further_groups.empty() ? std::vector<std::int32_t>() : elements_.physical;
+    if (!elements_.further_groups.empty()) {
+      all_physical_ = elements_.physical;
+      all_physical_.resize(document_.cells.size());
+    }
     ArrayDescription description;
     description.value_names = value_names_;
     add("gmsh:physical", elements_.physical,

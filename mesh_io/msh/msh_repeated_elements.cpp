@@ -18,6 +18,9 @@ class MshRepeatedElements {
 
   void merge() {
     std::vector<std::int32_t> candidates = elements_of_entities_in_groups();
+    if (candidates.empty()) {
+      return;
+    }
     // By type and nodes, and those alike in the file's order.
     std::ranges::sort(candidates, [this](std::int32_t a, std::int32_t b) {
       const int order = compare(a, b);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/binary_numbers.h"
@@ -11,6 +14,7 @@
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/msh/msh_input.h"
 #include "trismooth/mesh_io/msh/msh_tags.h"
+#include "trismooth/mesh_io/text/plain_list_rows.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 
 namespace trismooth {
@@ -33,20 +37,27 @@ class MshRows {
   /// read the input stands behind them and the answer is true; else nothing has changed.
   template <class Body>
   bool read(const MshRowLayout& layout, const Body& body) {
-    if (workers_.part_bytes == FileWorkers::serial || layout.rows == 0) {
+    if (input_.header().binary) {
+      return read_binary(layout, body);
+    }
+    if (layout.rows == 0) {
+      return false;
+    }
+    const auto end = plain_.read(input_.offset(), layout.rows, layout.numbers, body);
+    if (end) {
+      input_.text().resume(end->last_number, end->offset);
+    }
+    return end.has_value();
+  }
+
+  /// The same of binary files alone: `numbers` are BinaryNumbers.
+  template <class Body>
+  bool read_binary(const MshRowLayout& layout, const Body& body) {
+    if (workers_.part_bytes == FileWorkers::serial || layout.rows == 0 ||
+        layout.rows > input_.bytes_left() / layout.bytes) {
       return false;
     }
     const std::size_t begin = input_.offset();
-    if (!input_.header().binary) {
-      const auto end = plain_.read(begin, layout.rows, layout.numbers, body);
-      if (end) {
-        input_.text().resume(end->last_number, end->offset);
-      }
-      return end.has_value();
-    }
-    if (layout.rows > input_.bytes_left() / layout.bytes) {
-      return false;
-    }
     const bool all = all_file_blocks(workers_, layout.rows, layout.bytes, [&](std::size_t first, std::size_t last) {
       BinaryNumbers numbers(input_.bytes(), begin + first * layout.bytes, input_.header().swapped);
       return body(numbers, first, last);
@@ -55,6 +66,16 @@ class MshRows {
       input_.seek(begin + layout.rows * layout.bytes);
     }
     return all;
+  }
+
+  /// The same for rows of a text that are a list each (see read_plain_lists).
+  template <class MakeRoom, class ReadPart>
+  bool read_lists(std::size_t rows, const PlainListShape& shape, const MakeRoom& make_room, const ReadPart& read_part) {
+    const auto end = read_plain_lists(plain_, input_.offset(), rows, shape, true, make_room, read_part);
+    if (end) {
+      input_.text().resume(end->last_number, end->offset);
+    }
+    return end.has_value();
   }
 
   void seek(std::size_t offset) { input_.seek(offset); }
@@ -66,7 +87,7 @@ class MshRows {
   PlainRows plain_;
 };
 
-/// The type whose numbers from 0 on are tags; a tag in a binary file is one of them.
+/// As what a tag is read. Before version 4.1 all numbers are ints, those of text too.
 enum class MshTagKind : std::uint8_t { int32, uint32, int64 };
 
 inline MshTagKind tag_kind_of(const MshHeader& header) {
@@ -80,21 +101,35 @@ constexpr std::size_t tag_bytes(MshTagKind kind) {
   return kind == MshTagKind::int64 ? 8 : 4;
 }
 
-/// The next tag of PlainNumbers or BinaryNumbers; false where it cannot be read or is none.
-template <class Numbers>
-bool next_tag(Numbers& numbers, MshTagKind kind, std::int64_t& tag) {
-  const auto next_as = [&](auto value) {
-    const bool read = numbers.next(value);
-    tag = static_cast<std::int64_t>(value);
-    return read && tag >= 0;
-  };
+/// Calls body(T{}) with the type that tags of that kind are read as, and answers what it does.
+template <class Body>
+bool visit_tag_type(MshTagKind kind, const Body& body) {
   switch (kind) {
     case MshTagKind::int32:
-      return next_as(std::int32_t{});
+      return body(std::int32_t{});
     case MshTagKind::uint32:
-      return next_as(std::uint32_t{});
+      return body(std::uint32_t{});
     default:
-      return next_as(std::int64_t{});
+      return body(std::int64_t{});
+  }
+}
+
+/// The next tag of PlainNumbers or BinaryNumbers, written as a Tag; false where it cannot be read or is negative.
+template <class Tag, class Numbers>
+bool next_tag(Numbers& numbers, std::int64_t& tag) {
+  Tag value{};
+  const bool read = numbers.next(value);
+  tag = static_cast<std::int64_t>(value);
+  return read && tag >= 0;
+}
+
+/// The next tags, of as many things as there are places; nothing is judged but that they can be read.
+template <class Tag, std::size_t count, class Numbers>
+bool next_tags(Numbers& numbers, std::array<Tag, count>& tags) {
+  if constexpr (std::is_same_v<Numbers, BinaryNumbers>) {
+    return numbers.next_all(std::span(tags));
+  } else {
+    return std::ranges::all_of(tags, [&numbers](Tag& tag) { return numbers.next(tag); });
   }
 }
 
@@ -103,50 +138,53 @@ class MshRowTags {
  public:
   MshRowTags(MshTagKind kind, std::size_t rows) : kind_(kind), rows_(rows) {}
 
-  /// Reads the rows of the layout, each a tag and what rest(numbers, row) reads behind it, and appends the tags to
-  /// `tags`. False where anything is unusual: nothing has changed then.
+  /// Reads the rows of the layout, each a tag and what rest(numbers, row, type) reads behind it, where a tag is of the
+  /// type of `type`, and appends the tags to `tags`. False where anything is unusual: nothing has changed then.
   template <class Rest>
   bool read(MshRows& rows, const MshInput& input, const MshRowLayout& layout, MshTags& tags, const Rest& rest) {
-    const bool begun = input.header().binary
-                           ? begin(BinaryNumbers(input.bytes(), input.offset(), input.header().swapped))
-                           : begin(PlainNumbers(input.bytes(), input.offset()));
-    if (!begun) {
-      return false;
-    }
-    const auto read_rows = [&] {
+    return read(rows, input, tags, [&](auto type) {
       return rows.read(layout, [&](auto& numbers, std::size_t first, std::size_t last) {
         bool plain = true;
         for (std::size_t row = first; row < last && plain; ++row) {
-          plain = next(numbers, row) && rest(numbers, row);
+          plain = next<decltype(type)>(numbers, row) && rest(numbers, row, type);
         }
         return plain;
       });
-    };
-    const std::size_t offset = input.offset();
-    bool plain = read_rows();
-    if (plain && !counts_on_) {
-      rows.seek(offset);
-      shared_resize(listed_, rows_, rows.workers().workers);
-      plain = read_rows();
-    }
-    if (plain && listed_.empty()) {
-      tags.add_run(first_, rows_);
-    } else if (plain) {
-      tags.add(listed_);
-    }
-    return plain;
+    });
   }
 
- private:
-  template <class Numbers>
-  bool begin(Numbers numbers) {
-    return next_tag(numbers, kind_, first_);
+  /// The same where read_rows(type) reads all rows, once or twice: it takes the tag of each by next<type of a tag>().
+  template <class ReadRows>
+  bool read(MshRows& rows, const MshInput& input, MshTags& tags, const ReadRows& read_rows) {
+    return visit_tag_type(kind_, [&](auto type) {
+      using Tag = decltype(type);
+      const bool begun = input.header().binary
+                             ? begin<Tag>(BinaryNumbers(input.bytes(), input.offset(), input.header().swapped))
+                             : begin<Tag>(PlainNumbers(input.bytes(), input.offset()));
+      if (!begun) {
+        return false;
+      }
+      const std::size_t offset = input.offset();
+      bool plain = read_rows(type);
+      if (plain && !counts_on_) {
+        rows.seek(offset);
+        shared_resize(listed_, rows_, rows.workers().workers);
+        plain = read_rows(type);
+      }
+      if (plain && listed_.empty()) {
+        tags.add_run(first_, rows_);
+      } else if (plain) {
+        tags.add(listed_);
+      }
+      return plain;
+    });
   }
 
-  template <class Numbers>
+  /// The tag of that row, which is the next number. False where it cannot be read.
+  template <class Tag, class Numbers>
   bool next(Numbers& numbers, std::size_t row) {
     std::int64_t tag = 0;
-    if (!next_tag(numbers, kind_, tag)) {
+    if (!next_tag<Tag>(numbers, tag)) {
       return false;
     }
     if (!listed_.empty()) {
@@ -157,6 +195,12 @@ class MshRowTags {
     return true;
   }
 
+ private:
+  template <class Tag, class Numbers>
+  bool begin(Numbers numbers) {
+    return next_tag<Tag>(numbers, first_);
+  }
+
   MshTagKind kind_;
   std::size_t rows_;
   std::int64_t first_ = 0;
@@ -164,13 +208,17 @@ class MshRowTags {
   std::vector<std::int64_t> listed_;
 };
 
-/// Makes room for more values at the end, in steps that double, by all workers.
-template <class T>
-void grow_shared(std::vector<T>& values, std::size_t size, Workers& workers) {
-  if (size > values.capacity()) {
-    shared_reserve(values, std::max(size, 2 * values.capacity()), workers);
-  }
-  values.resize(size);
+/// Makes room for more values at the end of two vectors, in steps that double, by all workers.
+template <class A, class B>
+void grow_shared(std::vector<A>& a, std::size_t size_of_a, std::vector<B>& b, std::size_t size_of_b, Workers& workers) {
+  const auto reserve = [&workers](auto& values, std::size_t size) {
+    if (size > values.capacity()) {
+      shared_reserve(values, std::max(size, 2 * values.capacity()), workers);
+    }
+  };
+  reserve(a, size_of_a);
+  reserve(b, size_of_b);
+  shared_resize(a, size_of_a, b, size_of_b, workers);
 }
 
 }  // namespace trismooth
