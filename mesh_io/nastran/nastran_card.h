@@ -18,7 +18,7 @@ struct NastranCard {
   /// blank or not there. A pair of lines in large field counts as a line.
   std::string_view field(std::size_t i) const;
   /// Fields up to the last that may be there.
-  std::size_t field_count() const { return most_nastran_fields * (rows_.size()); }
+  std::size_t field_count() const { return most_nastran_fields * rows_.size(); }
 
   /// Makes it the card of that line alone.
   void start(const NastranLine& line);

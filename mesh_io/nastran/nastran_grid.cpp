@@ -17,9 +17,6 @@ namespace {
 constexpr std::size_t first_coordinate = 2;
 constexpr std::size_t coordinates = 3;
 
-/// Columns of a line before its last field.
-constexpr std::size_t nastran_data_columns = 72;
-
 std::size_t offset_in(std::string_view text, std::string_view part) {
   return static_cast<std::size_t>(part.data() - text.data());
 }

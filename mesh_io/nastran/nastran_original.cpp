@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
-#include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -64,7 +66,10 @@ class NastranOriginal : public OriginalFile {
   }
 
   bool has_moved(const MeshDocument& document, std::size_t vertex) const {
-    return std::memcmp(document.points.data() + 3 * vertex, points_.data() + 3 * vertex, 3 * sizeof(double)) != 0;
+    const auto place = [vertex](const std::vector<double>& points) { return std::span(points).subspan(3 * vertex, 3); };
+    return !std::ranges::equal(place(document.points), place(points_), [](double a, double b) {
+      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    });
   }
 
   /// Whether a file in that folder that includes it means the same file.

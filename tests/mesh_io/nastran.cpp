@@ -259,10 +259,10 @@ TEST_CASE("Nastran: elements of all kinds are cells in the order of their cards,
   std::erase_if(types, [](std::uint8_t type) { return type == cell_type::vertex || type == cell_type::poly_vertex; });
   CHECK(again.cells.types == types);
   std::size_t next = 0;
-  for (std::size_t cell = 0; cell < expected.size(); ++cell) {
-    if (expected[cell].first != cell_type::vertex && expected[cell].first != cell_type::poly_vertex) {
+  for (const auto& [type, nodes_of_cell] : expected) {
+    if (type != cell_type::vertex && type != cell_type::poly_vertex) {
       const auto vertices = again.cells[next++];
-      CHECK(std::vector<std::int32_t>(vertices.begin(), vertices.end()) == expected[cell].second);
+      CHECK(std::vector<std::int32_t>(vertices.begin(), vertices.end()) == nodes_of_cell);
     }
   }
 }
@@ -417,13 +417,14 @@ TEST_CASE("Nastran: a mesh of another format is written in large field, with its
         "GRID*   3                               1.              -1.-9\n*       1.\n"
         "CTRIA3  1       4       1       2       3       \nCROD    2       1       1       2       \n"
         "CROD    3       2       2       3       \nENDDATA\n");
+  const std::string unnamed =
+      "Nastran has names of properties in comments, of lines, faces and solids, without quotation marks: not written "
+      "are a \"wall\"";
   CHECK(what_is_lost(document, FileFormat::nastran) ==
         std::vector<std::string>{
             "Nastran holds lines, faces and solids only: 1 cell of type vertex, 1 cell of type polygon are not written",
             "Nastran holds no cell arrays: heat is not written",
-            "Nastran holds no sets of points: inlet is not written",
-            "Nastran has names of properties in comments, of lines, faces and solids, without quotation marks: not "
-            "written are a \"wall\"",
+            "Nastran holds no sets of points: inlet is not written", unnamed,
             "Nastran numbers properties from 1 to 99999999, each of one dimension: changed are a \"wall\" 4 (as 1)"});
   const MeshDocument again = bdf.read(written);
   CHECK(properties_of(again) == std::vector<std::int64_t>{4, 1, 2});
