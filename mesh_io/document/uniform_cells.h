@@ -8,7 +8,8 @@
 
 namespace trismooth {
 
-/// Appends `count` cells of a type (a VTK number) with `vertices` vertices each, whose connectivity, the last `vertices`
+/// Appends `count` cells of a type (a VTK number) with `vertices` vertices each, whose connectivity, the last
+/// `vertices`
 /// * `count` numbers, is 0 and the reader's to fill. Returns the first one's index. O(count), by all workers.
 std::size_t append_uniform_cells(CellList& cells, std::uint8_t type, std::size_t vertices, std::size_t count,
                                  const FileWorkers& workers);

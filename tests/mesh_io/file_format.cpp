@@ -28,26 +28,16 @@ std::string upper(std::string_view text) {
 TEST_CASE("the extensions that the documentation lists name these formats") {
   // Short names of the formats, in the order in which the content of a file is asked.
   const std::map<std::string, std::vector<std::string>> documented{
-      {".off", {"off"}},
-      {".obj", {"obj"}},
-      {".ply", {"ply"}},
-      {".stl", {"stl"}},
-      {".vtk", {"vtk"}},
-      {".vtu", {"vtu"}},
-      {".vtp", {"vtp"}},
-      {".mesh", {"medit", "mfem"}},
-      {".su2", {"su2"}},
-      {".14", {"adcirc"}},
-      {".grd", {"adcirc"}},
-      {".gr3", {"adcirc"}},
-      {".meshb", {"medit"}},
-      {".msh", {"msh", "freefem"}},
-      {".node", {"triangle"}},
-      {".ele", {"triangle"}},
-      {".2dm", {"2dm"}},
-      {".inp", {"inp"}},
-      {".bdf", {"nastran"}},
-      {".nas", {"nastran"}},
+      {".off", {"off"}},       {".obj", {"obj"}},
+      {".ply", {"ply"}},       {".stl", {"stl"}},
+      {".vtk", {"vtk"}},       {".vtu", {"vtu"}},
+      {".vtp", {"vtp"}},       {".mesh", {"medit", "mfem"}},
+      {".su2", {"su2"}},       {".14", {"adcirc"}},
+      {".grd", {"adcirc"}},    {".gr3", {"adcirc"}},
+      {".meshb", {"medit"}},   {".msh", {"msh", "freefem"}},
+      {".node", {"triangle"}}, {".ele", {"triangle"}},
+      {".2dm", {"2dm"}},       {".inp", {"inp"}},
+      {".bdf", {"nastran"}},   {".nas", {"nastran"}},
   };
   std::set<std::string> extensions;
   for (const FileFormat format : all_formats()) {
