@@ -7,89 +7,89 @@ namespace trismooth {
 
 namespace {
 
-constexpr NastranShape one_node{cell_type::vertex, 1, 1};
-constexpr NastranShape line_shape{cell_type::line, 2, 2};
-constexpr NastranShape grounded_line{cell_type::line, 1, 2};
-constexpr NastranShape curve{cell_type::quadratic_edge, 2, 3};
-constexpr NastranShape triangle{cell_type::triangle, 3, 3};
-constexpr NastranShape curved_triangle{cell_type::quadratic_triangle, 3, 6};
-constexpr NastranShape alternate_triangle{cell_type::quadratic_triangle, 3, 6, true};
-constexpr NastranShape quad{cell_type::quad, 4, 4};
-constexpr NastranShape curved_quad{cell_type::quadratic_quad, 4, 8};
-constexpr NastranShape full_quad{cell_type::biquadratic_quad, 4, 9};
-constexpr NastranShape tetrahedron{cell_type::tetrahedron, 4, 4};
-constexpr NastranShape curved_tetrahedron{cell_type::quadratic_tetrahedron, 4, 10};
-constexpr NastranShape pyramid{cell_type::pyramid, 5, 5};
-constexpr NastranShape curved_pyramid{cell_type::quadratic_pyramid, 5, 13};
-constexpr NastranShape wedge{cell_type::wedge, 6, 6};
-constexpr NastranShape curved_wedge{cell_type::quadratic_wedge, 6, 15};
-constexpr NastranShape hexahedron{cell_type::hexahedron, 8, 8};
-constexpr NastranShape curved_hexahedron{cell_type::quadratic_hexahedron, 8, 20};
+constexpr NastranShape nastran_node{cell_type::vertex, 1, 1};
+constexpr NastranShape nastran_line{cell_type::line, 2, 2};
+constexpr NastranShape nastran_grounded_line{cell_type::line, 1, 2};
+constexpr NastranShape nastran_curve{cell_type::quadratic_edge, 2, 3};
+constexpr NastranShape nastran_triangle{cell_type::triangle, 3, 3};
+constexpr NastranShape nastran_curved_triangle{cell_type::quadratic_triangle, 3, 6};
+constexpr NastranShape nastran_alternate_triangle{cell_type::quadratic_triangle, 3, 6, true};
+constexpr NastranShape nastran_quad{cell_type::quad, 4, 4};
+constexpr NastranShape nastran_curved_quad{cell_type::quadratic_quad, 4, 8};
+constexpr NastranShape nastran_full_quad{cell_type::biquadratic_quad, 4, 9};
+constexpr NastranShape nastran_tetrahedron{cell_type::tetrahedron, 4, 4};
+constexpr NastranShape nastran_curved_tetrahedron{cell_type::quadratic_tetrahedron, 4, 10};
+constexpr NastranShape nastran_pyramid{cell_type::pyramid, 5, 5};
+constexpr NastranShape nastran_curved_pyramid{cell_type::quadratic_pyramid, 5, 13};
+constexpr NastranShape nastran_wedge{cell_type::wedge, 6, 6};
+constexpr NastranShape nastran_curved_wedge{cell_type::quadratic_wedge, 6, 15};
+constexpr NastranShape nastran_hexahedron{cell_type::hexahedron, 8, 8};
+constexpr NastranShape nastran_curved_hexahedron{cell_type::quadratic_hexahedron, 8, 20};
 
 /// Of the cards for one type of cells, the first is written.
-constexpr auto elements = std::to_array<NastranElement>({
-    {"CTRIA3", triangle},
-    {"CTRIA6", triangle, curved_triangle},
-    {"CQUAD4", quad},
-    {"CQUAD8", quad, curved_quad},
-    {"CROD", line_shape},
-    {"CBEAM3", line_shape, curve},
-    {"CTETRA", tetrahedron, curved_tetrahedron},
-    {"CPYRAM", pyramid, curved_pyramid},
-    {"CPENTA", wedge, curved_wedge},
-    {"CHEXA", hexahedron, curved_hexahedron},
-    {"CQUAD", quad, full_quad},
-    {"CTRIAR", triangle},
-    {"CQUADR", quad},
-    {"CSHEAR", quad},
-    {"CTRIAX", triangle, curved_triangle},
-    {"CTRIAX6", triangle, alternate_triangle},
-    {"CTRAX3", triangle},
-    {"CTRAX6", triangle, curved_triangle},
-    {"CQUADX", quad, full_quad},
-    {"CQUADX4", quad},
-    {"CQUADX8", quad, curved_quad},
-    {"CPLSTN3", triangle},
-    {"CPLSTN4", quad},
-    {"CPLSTN6", triangle, curved_triangle},
-    {"CPLSTN8", quad, curved_quad},
-    {"CPLSTS3", triangle},
-    {"CPLSTS4", quad},
-    {"CPLSTS6", triangle, curved_triangle},
-    {"CPLSTS8", quad, curved_quad},
-    {"CBAR", line_shape},
-    {"CBEAM", line_shape},
-    {"CBEND", line_shape},
-    {"CTUBE", line_shape},
-    {"CVISC", line_shape},
-    {"CGAP", line_shape},
-    {"CBUSH", one_node, grounded_line},
-    {"CBUSH1D", one_node, grounded_line},
-    {"CONROD", line_shape, {}, false},
-    {"PLOTEL", line_shape, {}, false},
-    {"CONM1", one_node, {}, false},
-    {"CONM2", one_node, {}, false},
-    {"CPYRA", pyramid, curved_pyramid},
-    {"CTRIA3FD", triangle, curved_triangle},
-    {"CTRIA6FD", triangle, curved_triangle},
-    {"CQUAD4FD", quad, full_quad},
-    {"CQUAD9FD", quad, full_quad},
+constexpr auto nastran_elements = std::to_array<NastranElement>({
+    {"CTRIA3", nastran_triangle},
+    {"CTRIA6", nastran_triangle, nastran_curved_triangle},
+    {"CQUAD4", nastran_quad},
+    {"CQUAD8", nastran_quad, nastran_curved_quad},
+    {"CROD", nastran_line},
+    {"CBEAM3", nastran_line, nastran_curve},
+    {"CTETRA", nastran_tetrahedron, nastran_curved_tetrahedron},
+    {"CPYRAM", nastran_pyramid, nastran_curved_pyramid},
+    {"CPENTA", nastran_wedge, nastran_curved_wedge},
+    {"CHEXA", nastran_hexahedron, nastran_curved_hexahedron},
+    {"CQUAD", nastran_quad, nastran_full_quad},
+    {"CTRIAR", nastran_triangle},
+    {"CQUADR", nastran_quad},
+    {"CSHEAR", nastran_quad},
+    {"CTRIAX", nastran_triangle, nastran_curved_triangle},
+    {"CTRIAX6", nastran_triangle, nastran_alternate_triangle},
+    {"CTRAX3", nastran_triangle},
+    {"CTRAX6", nastran_triangle, nastran_curved_triangle},
+    {"CQUADX", nastran_quad, nastran_full_quad},
+    {"CQUADX4", nastran_quad},
+    {"CQUADX8", nastran_quad, nastran_curved_quad},
+    {"CPLSTN3", nastran_triangle},
+    {"CPLSTN4", nastran_quad},
+    {"CPLSTN6", nastran_triangle, nastran_curved_triangle},
+    {"CPLSTN8", nastran_quad, nastran_curved_quad},
+    {"CPLSTS3", nastran_triangle},
+    {"CPLSTS4", nastran_quad},
+    {"CPLSTS6", nastran_triangle, nastran_curved_triangle},
+    {"CPLSTS8", nastran_quad, nastran_curved_quad},
+    {"CBAR", nastran_line},
+    {"CBEAM", nastran_line},
+    {"CBEND", nastran_line},
+    {"CTUBE", nastran_line},
+    {"CVISC", nastran_line},
+    {"CGAP", nastran_line},
+    {"CBUSH", nastran_node, nastran_grounded_line},
+    {"CBUSH1D", nastran_node, nastran_grounded_line},
+    {"CONROD", nastran_line, {}, false},
+    {"PLOTEL", nastran_line, {}, false},
+    {"CONM1", nastran_node, {}, false},
+    {"CONM2", nastran_node, {}, false},
+    {"CPYRA", nastran_pyramid, nastran_curved_pyramid},
+    {"CTRIA3FD", nastran_triangle, nastran_curved_triangle},
+    {"CTRIA6FD", nastran_triangle, nastran_curved_triangle},
+    {"CQUAD4FD", nastran_quad, nastran_full_quad},
+    {"CQUAD9FD", nastran_quad, nastran_full_quad},
 });
 
 }  // namespace
 
 const NastranElement* find_nastran_element(std::string_view name) {
-  const auto* const found = std::ranges::find(elements, name, &NastranElement::name);
-  return found == elements.end() ? nullptr : found;
+  const auto* const found = std::ranges::find(nastran_elements, name, &NastranElement::name);
+  return found == nastran_elements.end() ? nullptr : found;
 }
 
 const NastranElement* nastran_element_of_cell(std::uint8_t type) {
   // A vertex would need more than its card says.
-  const auto* const found = std::ranges::find_if(elements, [type](const NastranElement& element) {
+  const auto* const found = std::ranges::find_if(nastran_elements, [type](const NastranElement& element) {
     return element.has_property && type != cell_type::vertex &&
            (element.plain.type == type || element.curved.type == type);
   });
-  return found == elements.end() ? nullptr : found;
+  return found == nastran_elements.end() ? nullptr : found;
 }
 
 std::size_t NastranShape::place(std::size_t i) const {
