@@ -239,14 +239,14 @@ void add_stl_samples(std::vector<Sample>& all) {
 void add_msh_samples(std::vector<Sample>& all) {
   constexpr int nodes = 9;
   const auto add = [&all](const std::string& name, const std::string& version, const std::vector<std::string>& rows,
-                          int step = 1) {
+                          std::int64_t step = 1) {
     std::string text = "$MeshFormat\n" + version + " 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(nodes) + "\n";
     for (int i = 1; i <= nodes; ++i) {
       text += std::to_string(i) + " " + std::to_string(i) + ".5 " + std::to_string(i * i) + "e-1 0\n";
     }
     text += "$EndNodes\n$Elements\n" + std::to_string(3 * rows.size()) + "\n";
     for (std::size_t i = 0; i < 3 * rows.size(); ++i) {
-      text += std::to_string(static_cast<int>(i) * step + 7) + " " + rows[i % rows.size()] + "\n";
+      text += std::to_string(static_cast<std::int64_t>(i) * step + 7) + " " + rows[i % rows.size()] + "\n";
     }
     all.push_back({"MSH " + version + ": " + name, trismooth::msh_codec, text + "$EndElements\n"});
   };
