@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -34,23 +35,18 @@ class InpOriginal : public OriginalFile {
       throw WriteError(path, "the file that was read has " + std::to_string(points_.size() / 3) +
                                  " nodes, the mesh to write has " + std::to_string(document.point_count()));
     }
-    const Expansion expansion = plan(path, document);
-    if (!expansion.is_needed) {
+    const std::vector<bool> comes_in = sources_that_come_in(
+        sources_, path.parent_path(), [&](const InpSource& source) { return has_changed(source, document); });
+    if (std::ranges::find(comes_in, true) == comes_in.end() && !fills_gaps(sources_.front(), document)) {
       write_sites(path, sources_.front().bytes, sources_.front().sites, document, workers);
       return;
     }
     ExpandedInp expanded;
-    append(expanded, 0, expansion, document);
+    append(expanded, 0, comes_in, document);
     write_sites(path, expanded.text, expanded.sites, document, workers);
   }
 
  private:
-  /// Which sources cannot stay outside.
-  struct Expansion {
-    bool is_needed = false;
-    std::vector<bool> comes_in;  ///< one a source
-  };
-
   static void write_sites(const std::filesystem::path& path, std::string_view text,
                           const std::vector<NumberSites>& sites, const MeshDocument& document, Workers& workers) {
     std::vector<PatchedSites> lists;
@@ -62,29 +58,13 @@ class InpOriginal : public OriginalFile {
     write_patched(path, text, lists, {}, FileWorkers(workers));
   }
 
-  Expansion plan(const std::filesystem::path& path, const MeshDocument& document) const {
-    Expansion expansion;
-    expansion.comes_in.assign(sources_.size(), false);
-    // Those that are included stand behind those that include them: from inside out, what has changed ...
-    for (std::size_t i = sources_.size(); i-- > 0;) {
-      const InpSource& source = sources_[i];
-      const bool fills = std::ranges::any_of(
-          source.gaps, [&](const InpGap& gap) { return has_moved(document, gap.vertex, gap.component); });
-      const bool includes_changed = std::ranges::any_of(
-          source.includes, [&](const InpInclude& include) { return expansion.comes_in[include.source]; });
-      expansion.comes_in[i] = fills || includes_changed || (i > 0 && has_moved_sites(source, document));
-      expansion.is_needed = expansion.is_needed || expansion.comes_in[i];
-    }
-    // ... and from outside in, what would not be found any more.
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-      for (const InpInclude& include : sources_[i].includes) {
-        if ((i == 0 || expansion.comes_in[i]) && !is_found(path.parent_path(), include)) {
-          expansion.comes_in[include.source] = true;
-          expansion.is_needed = true;
-        }
-      }
-    }
-    return expansion;
+  bool has_changed(const InpSource& source, const MeshDocument& document) const {
+    return fills_gaps(source, document) || has_moved_sites(source, document);
+  }
+
+  bool fills_gaps(const InpSource& source, const MeshDocument& document) const {
+    return std::ranges::any_of(source.gaps,
+                               [&](const InpGap& gap) { return has_moved(document, gap.vertex, gap.component); });
   }
 
   bool has_moved_sites(const InpSource& source, const MeshDocument& document) const {
@@ -100,13 +80,8 @@ class InpOriginal : public OriginalFile {
     return document.points[i] != points_[i];
   }
 
-  /// Whether a file in that folder that includes it means the same file.
-  bool is_found(const std::filesystem::path& folder, const InpInclude& include) const {
-    std::error_code error;
-    return std::filesystem::equivalent(folder / include.name, sources_[include.source].path, error);
-  }
-
-  void append(ExpandedInp& out, std::size_t index, const Expansion& expansion, const MeshDocument& document) const {
+  void append(ExpandedInp& out, std::size_t index, const std::vector<bool>& comes_in,
+              const MeshDocument& document) const {
     const InpSource& source = sources_[index];
     const std::string_view bytes = source.bytes;
     std::size_t done = index > 0 && bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
@@ -149,7 +124,7 @@ class InpOriginal : public OriginalFile {
       }
     };
     for (const InpInclude& include : source.includes) {
-      if (!expansion.comes_in[include.source]) {
+      if (!comes_in[include.source]) {
         continue;
       }
       fill_gaps_until(include.cut_begin);
@@ -159,7 +134,7 @@ class InpOriginal : public OriginalFile {
       if (include.on_next_line) {
         out.text.append("\n");
       }
-      append(out, include.source, expansion, document);
+      append(out, include.source, comes_in, document);
       // The line end of the last line stands behind the place.
       const std::size_t text_end = out.text.find_last_not_of("\r\n") + 1;
       out.text.resize(text_end);

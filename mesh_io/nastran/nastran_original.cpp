@@ -11,6 +11,7 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/nastran/nastran_grid.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -34,7 +35,12 @@ class NastranOriginal : public OriginalFile {
       throw WriteError(path, "the file that was read has " + std::to_string(points_.size() / 3) +
                                  " nodes, the mesh to write has " + std::to_string(document.point_count()));
     }
-    const std::vector<bool> comes_in = sources_that_come_in(path, document);
+    const std::vector<bool> comes_in =
+        sources_that_come_in(sources_, path.parent_path(), [&](const NastranSource& source) {
+          return std::ranges::any_of(source.vertices, [&](std::int32_t vertex) {
+            return has_moved(document, static_cast<std::size_t>(vertex));
+          });
+        });
     BufferedWriter writer(path);
     OrderedBlocks blocks([&writer](std::string_view block) { writer.write(block); }, FileWorkers(workers));
     write_source(0, comes_in, document, blocks);
@@ -42,40 +48,11 @@ class NastranOriginal : public OriginalFile {
   }
 
  private:
-  /// Which sources cannot stay outside, one each.
-  std::vector<bool> sources_that_come_in(const std::filesystem::path& path, const MeshDocument& document) const {
-    std::vector<bool> comes_in(sources_.size(), false);
-    // Those that are included stand behind those that include them: from inside out, what has changed ...
-    for (std::size_t i = sources_.size(); i-- > 1;) {
-      const NastranSource& source = sources_[i];
-      comes_in[i] = std::ranges::any_of(source.includes,
-                                        [&](const NastranInclude& include) { return comes_in[include.source]; }) ||
-                    std::ranges::any_of(source.vertices, [&](std::int32_t vertex) {
-                      return has_moved(document, static_cast<std::size_t>(vertex));
-                    });
-    }
-    // ... and from outside in, what would not be found any more.
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-      for (const NastranInclude& include : sources_[i].includes) {
-        if ((i == 0 || comes_in[i]) && !is_found(path.parent_path(), include)) {
-          comes_in[include.source] = true;
-        }
-      }
-    }
-    return comes_in;
-  }
-
   bool has_moved(const MeshDocument& document, std::size_t vertex) const {
     const auto place = [vertex](const std::vector<double>& points) { return std::span(points).subspan(3 * vertex, 3); };
     return !std::ranges::equal(place(document.points), place(points_), [](double a, double b) {
       return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
     });
-  }
-
-  /// Whether a file in that folder that includes it means the same file.
-  bool is_found(const std::filesystem::path& folder, const NastranInclude& include) const {
-    std::error_code error;
-    return std::filesystem::equivalent(folder / include.name, sources_[include.source].path, error);
   }
 
   void write_source(std::size_t index, const std::vector<bool>& comes_in, const MeshDocument& document,
