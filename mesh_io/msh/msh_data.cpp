@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/msh/msh_row_tags.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 

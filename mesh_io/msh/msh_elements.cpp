@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
 #include "trismooth/mesh_io/msh/msh_repeated_elements.h"
+#include "trismooth/mesh_io/msh/msh_row_tags.h"
 
 namespace trismooth {
 
@@ -144,17 +146,25 @@ class MshElementReader {
     const std::size_t first_vertex = cells_.connectivity.size();
     Workers& workers = rows_.workers().workers;
     grow_shared(cells_.connectivity, first_vertex + count * type.vertices, cells_.offsets, first + 1 + count, workers);
-    grow_shared(cells_.types, first + count, elements_.geometrical, first + count, workers);
+    cells_.types.resize(first + count, type.cell);
     const auto begin_cell = [&](std::size_t row) {
       cells_.offsets[first + row + 1] = static_cast<std::int64_t>(first_vertex + (row + 1) * type.vertices);
-      cells_.types[first + row] = type.cell;
       return cells_.connectivity.data() + first_vertex + row * type.vertices;
     };
-    const bool plain = MshRowTags(kind, count)
-                           .read(rows_, input_, {count, numbers, numbers * tag_bytes(kind)}, elements_.tags,
-                                 [&](auto& row_numbers, std::size_t row, auto tag) {
-                                   return next_vertices<decltype(tag)>(row_numbers, type, begin_cell(row));
-                                 });
+    const MshRowLayout layout{count, numbers, numbers * tag_bytes(kind)};
+    MshRowTags tags(kind, count);
+    const std::optional<MshTags::Run> run = nodes_.only_run();
+    const bool plain =
+        run && is_triangle(type)
+            ? tags.read(rows_, input_, elements_.tags,
+                        [&](auto tag) {
+                          return rows_.read(layout, [&](auto& part, std::size_t begin, std::size_t end) {
+                            return next_triangles<decltype(tag)>(part, tags, *run, begin, end, begin_cell);
+                          });
+                        })
+            : tags.read(rows_, input_, layout, elements_.tags, [&](auto& row_numbers, std::size_t row, auto tag) {
+                return next_vertices<decltype(tag)>(row_numbers, type, begin_cell(row));
+              });
     if (!plain) {
       tag_list_.clear();
       for (std::size_t row = 0; row < count; ++row) {
@@ -163,7 +173,7 @@ class MshElementReader {
       }
       elements_.tags.add(tag_list_);
     }
-    std::fill_n(elements_.geometrical.begin() + static_cast<std::ptrdiff_t>(first), count, entity.geometrical);
+    add_label(elements_.geometrical, first, count, entity.geometrical);
     add_label(elements_.physical, first, count, entity.physical.empty() ? 0 : entity.physical.front());
     add_label(elements_.partition, first, count, entity.partition);
     for (std::size_t i = 1; i < entity.physical.size(); ++i) {
@@ -282,10 +292,12 @@ class MshElementReader {
       shared_resize(elements_.partition, element_count_, workers);
     };
     MshRowTags tags(MshTagKind::int32, element_count_);
-    const auto read_row = [&](PlainNumbers& numbers, std::size_t row, std::size_t& item, std::size_t last_item) {
+    using PartTags = MshRowTags::Part<std::int32_t>;
+    const auto read_row = [&](PlainNumbers& numbers, PartTags& part_tags, std::size_t row, std::size_t& item,
+                              std::size_t last_item) {
       std::int32_t number = 0;
       std::size_t count = 0;
-      if (!tags.next<std::int32_t>(numbers, row) || !numbers.next(number) || !numbers.next(count) || count != labels) {
+      if (!part_tags.next(numbers) || !numbers.next(number) || !numbers.next(count) || count != labels) {
         return false;
       }
       const MshElementType& type = msh_element_type(number);
@@ -300,10 +312,11 @@ class MshElementReader {
     };
     const bool plain = tags.read(rows_, input_, elements_.tags, [&](auto /*type*/) {
       return rows_.read_lists(element_count_, shape, make_room, [&](PlainNumbers& numbers, const auto& part) {
+        PartTags part_tags(tags, part.first);
         std::size_t item = part.first_item;
         bool read = true;
         for (std::size_t row = part.first; row < part.last && read; ++row) {
-          read = read_row(numbers, row, item, part.last_item);
+          read = read_row(numbers, part_tags, row, item, part.last_item);
         }
         return read && item == part.last_item;
       });
@@ -335,10 +348,34 @@ class MshElementReader {
     return true;
   }
 
+  static bool is_triangle(const MshElementType& type) { return type.vertices == 3 && type.places.empty(); }
+
+  /// Rows `first` to `last` - 1 of triangles whose nodes' tags count on, which are most: no branch depends on what they
+  /// are. False where one refers to a node that there is not.
+  template <class Tag, class Numbers, class BeginCell>
+  static bool next_triangles(Numbers& numbers, MshRowTags& tags, const MshTags::Run& nodes, std::size_t first,
+                             std::size_t last, const BeginCell& begin_cell) {
+    MshRowTags::Part<Tag> part_tags(tags, first);
+    std::uint64_t outside = 0;  // below 2^63 where nobody is
+    for (std::size_t row = first; row < last; ++row) {
+      std::array<Tag, 3> triangle{};
+      if (!part_tags.next(numbers) || !next_tags(numbers, triangle)) {
+        return false;
+      }
+      std::int32_t* const vertices = begin_cell(row);
+      for (std::size_t i = 0; i < triangle.size(); ++i) {
+        const std::uint64_t vertex = static_cast<std::uint64_t>(triangle[i]) - static_cast<std::uint64_t>(nodes.first);
+        outside |= vertex | (nodes.count - 1 - vertex);
+        vertices[i] = static_cast<std::int32_t>(vertex);
+      }
+    }
+    return outside >> 63 == 0;
+  }
+
   /// The vertices that the next tags of nodes stand for; false where one cannot be read, or is of no node.
   template <class Tag, class Numbers>
   bool next_vertices(Numbers& numbers, const MshElementType& type, std::int32_t* vertices) const {
-    if (type.vertices == 3 && type.places.empty()) {
+    if (is_triangle(type)) {
       // Triangles, and so most of the numbers of most files.
       std::array<Tag, 3> tags{};
       bool found = next_tags(numbers, tags);

@@ -9,6 +9,7 @@
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/msh/msh_entities.h"
 #include "trismooth/mesh_io/msh/msh_rows.h"
+#include "trismooth/mesh_io/msh/msh_tags.h"
 
 namespace trismooth {
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/mesh_io/msh/msh_row_tags.h"
+
 namespace trismooth {
 
 namespace {

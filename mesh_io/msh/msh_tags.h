@@ -32,20 +32,24 @@ class MshTags {
   std::size_t size() const { return count_; }
   /// The place of the one with that tag, or -1. Behind finish(). Constant time where tags are dense, else logarithmic.
   std::int64_t find(std::int64_t tag) const {
-    if (runs_.size() == 1) {
-      const std::uint64_t behind = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(runs_[0].first);
-      return behind < runs_[0].count ? static_cast<std::int64_t>(behind) : -1;
+    if (const std::optional<Run> run = only_run()) {
+      const std::uint64_t behind = static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(run->first);
+      return behind < run->count ? static_cast<std::int64_t>(behind) : -1;
     }
     return find_among_runs(tag);
   }
 
- private:
+  /// Tags that count on.
   struct Run {
     std::int64_t first;
     std::uint64_t count;
     std::uint64_t place;  ///< of the first
   };
 
+  /// All tags, where they count on: the place of each is how far it is behind the first.
+  std::optional<Run> only_run() const { return runs_.size() == 1 ? std::optional(runs_[0]) : std::nullopt; }
+
+ private:
   std::int64_t find_among_runs(std::int64_t tag) const;
   void make_table();
 

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <type_traits>
 
+#include "trismooth/mesh_io/text/decimal_counter.h"
+
 namespace trismooth {
 
 /// What separates numbers: blanks and line ends.
@@ -30,7 +32,7 @@ class PlainNumbers {
   /// The next number, across lines; what parse_number() or parse_integer_as() make of it. False where that is not
   /// plain to see; the reader is of no use any more then.
   template <class T>
-  bool next(T& value) {
+  [[gnu::always_inline]] bool next(T& value) {  // a call takes as long as the number
     while (at_ != end_ && is_white_space(*at_)) {
       ++at_;
     }
@@ -40,6 +42,25 @@ class PlainNumbers {
     } else {
       return next_integer(value);
     }
+  }
+
+  /// Passes the next number where it is written as `expected` has it, and nothing otherwise: next() may read it then.
+  bool next_is(const DecimalCounter& expected) {
+    if constexpr (std::endian::native == std::endian::little) {
+      while (at_ != end_ && is_white_space(*at_)) {
+        ++at_;
+      }
+      std::uint64_t characters = 0;
+      if (end_ - at_ > static_cast<std::ptrdiff_t>(sizeof(characters))) {
+        std::memcpy(&characters, at_, sizeof(characters));
+        if (expected.begins(characters) && is_white_space(at_[expected.length()])) {
+          token_ = at_;
+          at_ += expected.length();
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// True where nothing but blanks is left on this line (or in the text); stands behind the blanks then.
@@ -70,7 +91,7 @@ class PlainNumbers {
 
  private:
   template <class T>
-  bool next_integer(T& value) {
+  [[gnu::always_inline]] bool next_integer(T& value) {
     if constexpr (std::endian::native == std::endian::little) {
       std::uint64_t digits = 0;
       if (end_ - at_ > static_cast<std::ptrdiff_t>(sizeof(digits))) {
@@ -94,7 +115,7 @@ class PlainNumbers {
   }
 
   template <class T>
-  bool read(T& value) {
+  [[gnu::noinline]] bool read(T& value) {
     const auto [stop, error] = std::from_chars(at_, end_, value);
     at_ = stop;
     return error == std::errc() && (stop == end_ || is_white_space(*stop));

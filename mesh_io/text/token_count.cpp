@@ -1,7 +1,8 @@
 #include "trismooth/mesh_io/text/token_count.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <numeric>
 
 #include "trismooth/mesh_io/text/plain_numbers.h"
 
@@ -9,40 +10,38 @@ namespace trismooth {
 
 namespace {
 
-/// The highest bit of every byte of eight that is white space (see is_white_space).
-std::uint64_t white_space_in(const char* bytes) {
-  constexpr std::uint64_t each = 0x0101010101010101U;
-  constexpr std::uint64_t high = 0x80 * each;
-  std::uint64_t word = 0;
-  std::memcpy(&word, bytes, sizeof(word));
-  const std::uint64_t low = word & ~high;
-  const std::uint64_t is_no_blank = (low ^ (' ' * each)) + 0x7f * each;
-  const std::uint64_t from_tab = low + (0x80 - '\t') * each;
-  const std::uint64_t behind_return = low + (0x80 - '\r' - 1) * each;
-  return (~is_no_blank | (from_tab & ~behind_return)) & ~word & high;
+/// is_white_space() as the compiler turns it into wide registers: 1 or 0, without a branch.
+constexpr std::uint8_t white_space(char c) {
+  const auto behind_tab = static_cast<std::uint8_t>(c - '\t');
+  return static_cast<std::uint8_t>((c == ' ' ? 1 : 0) | (behind_tab <= '\r' - '\t' ? 1 : 0));
+}
+
+/// Tokens that begin in `rounds` times `width` bytes, 255 rounds at most. There is a byte before the first.
+constexpr std::size_t width = 32;
+std::uint64_t count_in_rounds(const char* bytes, std::size_t rounds) {
+  std::array<std::uint8_t, width> counts{};
+  for (std::size_t round = 0; round < rounds; ++round) {
+    const char* const at = bytes + width * round;
+    for (std::size_t i = 0; i < width; ++i) {
+      counts[i] = static_cast<std::uint8_t>(counts[i] + (white_space(*(at + i - 1)) & (1 - white_space(at[i]))));
+    }
+  }
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 }  // namespace
 
-// Eight bytes at a time, without branches.
 std::uint64_t count_tokens(std::string_view text, std::size_t begin, std::size_t end) {
   constexpr std::size_t most_rounds = 255;  // of counting in one byte
-  constexpr std::uint64_t even_bytes = 0x00FF00FF00FF00FFU;
   std::uint64_t count = 0;
   if (begin == 0 && begin < end) {
     count = is_white_space(text[0]) ? 0 : 1;
     begin = 1;
   }
-  while (end - begin >= 8) {
-    std::uint64_t counts = 0;  // one in each byte
-    const std::size_t rounds = std::min(most_rounds, (end - begin) / 8);
-    for (std::size_t round = 0; round < rounds; ++round) {
-      const char* const at = text.data() + begin + 8 * round;
-      counts += (white_space_in(at - 1) & ~white_space_in(at)) >> 7;
-    }
-    begin += 8 * rounds;
-    const std::uint64_t in_pairs = (counts & even_bytes) + (counts >> 8 & even_bytes);
-    count += in_pairs * 0x0001000100010001U >> 48;
+  while (end - begin >= width) {
+    const std::size_t rounds = std::min(most_rounds, (end - begin) / width);
+    count += count_in_rounds(text.data() + begin, rounds);
+    begin += width * rounds;
   }
   for (; begin < end; ++begin) {
     count += is_white_space(text[begin - 1]) && !is_white_space(text[begin]) ? 1 : 0;

@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/text/line_parts.h"
 
+#include <algorithm>
 #include <string>
 
 #include "trismooth/mesh_io/text/plain_numbers.h"
@@ -50,6 +51,28 @@ TEST_CASE("tokens of any stretch of a text are counted where they begin") {
         const bool begins = end < text.size() && !trismooth::is_white_space(text[end]) &&
                             (end == 0 || trismooth::is_white_space(text[end - 1]));
         expected += begins ? 1 : 0;
+      }
+    }
+  }
+}
+
+TEST_CASE("tokens of long texts are counted, however close they stand") {
+  Dice dice;
+  for (const std::string_view some : {near_line_ends, std::string_view(" x"), std::string_view("  \n9")}) {
+    const std::string text = random_text(dice, 40'000, some) + std::string(20'000, 'y');
+    std::string closest;
+    while (closest.size() < 50'000) {
+      closest += "1 ";
+    }
+    for (const std::string& long_text : {text, closest}) {
+      for (const std::size_t begin : {std::size_t{0}, std::size_t{1}, std::size_t{37}}) {
+        std::size_t expected = 0;
+        for (std::size_t i = std::min(begin, long_text.size()); i < long_text.size(); ++i) {
+          const bool begins =
+              !trismooth::is_white_space(long_text[i]) && (i == 0 || trismooth::is_white_space(long_text[i - 1]));
+          expected += begins ? 1 : 0;
+        }
+        REQUIRE(trismooth::count_tokens(long_text, begin, long_text.size()) == expected);
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "catch.h"
+#include "part_samples.h"
 #include "support/accepted_files.h"
 #include "support/dice.h"
 #include "support/one_file_codec.h"
@@ -16,19 +17,13 @@
 #include "vtk_legacy_files.h"
 
 using accepted_files::AcceptedFile;
+using part_samples::Sample;
 using test_support::Dice;
 using test_support::reading_and_sites_of;
-using trismooth::Codec;
 using trismooth::FileWorkers;
 using trismooth::Workers;
 
 namespace {
-
-struct Sample {
-  std::string name;
-  const Codec& codec;
-  std::string bytes;
-};
 
 std::string with_line_ends(const std::string& text, const std::string& line_end) {
   std::string changed;
@@ -235,105 +230,6 @@ void add_stl_samples(std::vector<Sample>& all) {
   }
 }
 
-/// Lists of elements of versions 2, which are of any type and have any number of labels.
-void add_msh_samples(std::vector<Sample>& all) {
-  constexpr int nodes = 9;
-  const auto add = [&all](const std::string& name, const std::string& version, const std::vector<std::string>& rows,
-                          std::int64_t step = 1) {
-    std::string text = "$MeshFormat\n" + version + " 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(nodes) + "\n";
-    for (int i = 1; i <= nodes; ++i) {
-      text += std::to_string(i) + " " + std::to_string(i) + ".5 " + std::to_string(i * i) + "e-1 0\n";
-    }
-    text += "$EndNodes\n$Elements\n" + std::to_string(3 * rows.size()) + "\n";
-    for (std::size_t i = 0; i < 3 * rows.size(); ++i) {
-      text += std::to_string(static_cast<std::int64_t>(i) * step + 7) + " " + rows[i % rows.size()] + "\n";
-    }
-    all.push_back({"MSH " + version + ": " + name, trismooth::msh_codec, text + "$EndElements\n"});
-  };
-  for (const std::string version : {"2", "2.1", "2.2"}) {
-    add("triangles", version, {"2 2 1 1 1 2 3", "2 2 1 2 3 2 5"});
-    add("triangles without labels", version, {"2 0 1 2 3", "2 0 3 2 5"});
-    add("lines, triangles and quadrilaterals", version, {"1 2 1 1 1 2", "2 2 2 1 1 2 3", "3 2 2 1 3 4 5 6"});
-    add("partitions", version, {"2 4 1 1 1 2 1 2 3", "1 4 1 1 1 -2 1 2"});
-    add("labels that differ in number", version, {"2 2 1 1 1 2 3", "2 3 1 1 1 4 5 6", "1 0 3 2"});
-    add("the same elements in several groups", version, {"2 2 1 1 1 2 3", "2 2 2 1 1 2 3"});
-    add("quadratic triangles", version, {"9 2 1 1 1 2 3 4 5 6"});
-    add("quadratic tetrahedra, whose middles stand in another order", version, {"11 2 1 1 1 2 3 4 5 6 7 8 9 1"});
-    add("polygons", version, {"2 2 1 1 1 2 3", "34 2 1 1 5 1 2 3 4 5"});
-    add("an unknown type", version, {"2 2 1 1 1 2 3", "999 2 1 1 1 2 3"});
-    add("elements over lines", version, {"2 2 1 1 1\n2 3", "1 2 1 1\n1 2"});
-    add("two elements in a line", version, {"2 2 1 1 1 2 3 70 2 2 1 1 1 2 3"});
-    add("a line and a quadrilateral that are as long as two triangles", version,
-        {"2 2 1 1 1 2 3", "1 2 1 1 1 2", "3 2 1 1 1 2 3 4"});
-    add("a node that there is not", version, {"2 2 1 1 1 2 3", "2 2 1 1 1 2 10"});
-    add("a label out of range", version, {"2 2 1 1 1 2 3", "2 2 1 -2147483648 1 2 3"});
-    add("large labels", version, {"2 2 -2147483647 2147483647 1 2 3"});
-    add("tags in steps", version, {"2 2 1 1 1 2 3", "1 2 1 1 1 2"}, 3);
-    add("tags that go down", version, {"2 2 1 1 1 2 3"}, -1);
-    add("tags given twice", version, {"2 2 1 1 1 2 3", "1 2 1 1 1 2"}, 0);
-    add("tags out of range", version, {"2 2 1 1 1 2 3", "1 2 1 1 1 2"}, 1'000'000'000);
-  }
-  const std::string large = "3000000000";
-  all.push_back({"MSH 2.2: a node's tag out of range", trismooth::msh_codec,
-                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n" + large +
-                     " 0 0 0\n$EndNodes\n$Elements\n0\n$EndElements\n"});
-  all.push_back({"MSH 4.1: a large tag", trismooth::msh_codec,
-                 "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 1 1 1\n2 1 0 1\n" + large +
-                     "\n0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n0 1 15 1\n" + large + " " + large + "\n$EndElements\n"});
-}
-
-/// Of version 4.1, with blocks of few nodes and of many.
-void add_binary_msh_samples(std::vector<Sample>& all) {
-  for (const bool swapped : {false, true}) {
-    for (const bool is_finite : {true, false}) {
-      std::string data = "$MeshFormat\n4.1 1 8\n";
-      const auto put = [&](auto number) {
-        const std::string stored(reinterpret_cast<const char*>(&number), sizeof(number));
-        data += swapped ? std::string(stored.rbegin(), stored.rend()) : stored;
-      };
-      const auto put_sizes = [&put](const std::vector<std::uint64_t>& numbers) {
-        for (const std::uint64_t number : numbers) {
-          put(number);
-        }
-      };
-      const std::vector<std::uint64_t> blocks{3, 40, 2, 20, 30};
-      put(1);
-      data += "\n$EndMeshFormat\n$Nodes\n";
-      put_sizes({blocks.size(), 95, 1, 95});
-      std::uint64_t tag = 0;
-      for (const std::uint64_t size : blocks) {
-        for (const int number : {2, static_cast<int>(size), 0}) {
-          put(number);
-        }
-        put(size);
-        for (std::uint64_t i = 0; i < size; ++i) {
-          put(++tag);
-        }
-        for (std::uint64_t i = 0; i < 3 * size; ++i) {
-          put(!is_finite && size == 20 && i == 7 ? std::numeric_limits<double>::infinity()
-                                                 : 0.25 * static_cast<double>(i + size));
-        }
-      }
-      data += "\n$EndNodes\n$Elements\n";
-      put_sizes({2, 12, 1, 12});
-      tag = 0;
-      for (const std::uint64_t corners : {3, 4}) {
-        for (const int number : {2, 40, static_cast<int>(corners) - 1}) {
-          put(number);
-        }
-        put(std::uint64_t{6});
-        for (std::uint64_t i = 0; i < 6; ++i) {
-          put(++tag);
-          for (std::uint64_t corner = 0; corner < corners; ++corner) {
-            put(1 + 15 * i + corner);
-          }
-        }
-      }
-      all.push_back({"MSH: binary", trismooth::msh_codec, data + "\n$EndElements\n"});
-    }
-  }
-}
-
 std::vector<Sample> samples() {
   using trismooth::off_codec;
   std::vector<Sample> all{
@@ -410,8 +306,7 @@ std::vector<Sample> samples() {
   add_binary_off_samples(all);
   add_ply_samples(all);
   add_stl_samples(all);
-  add_msh_samples(all);
-  add_binary_msh_samples(all);
+  part_samples::add_msh_samples(all);
   for (const bool with_offsets : {false, true}) {
     legacy_test::Builder file = legacy_test::grid_file(false, with_offsets);
     all.push_back({with_offsets ? "legacy VTK with offsets" : "legacy VTK", trismooth::vtk_legacy_codec, file.bytes()});
