@@ -11,19 +11,21 @@ namespace trismooth {
 namespace {
 
 /// is_white_space() as the compiler turns it into wide registers: 1 or 0, without a branch.
-constexpr std::uint8_t white_space(char c) {
+constexpr std::uint8_t white_space_bit(char c) {
   const auto behind_tab = static_cast<std::uint8_t>(c - '\t');
   return static_cast<std::uint8_t>((c == ' ' ? 1 : 0) | (behind_tab <= '\r' - '\t' ? 1 : 0));
 }
 
-/// Tokens that begin in `rounds` times `width` bytes, 255 rounds at most. There is a byte before the first.
-constexpr std::size_t width = 32;
+constexpr std::size_t counted_bytes = 32;  // in one round
+
+/// Tokens that begin in so many rounds, 255 at most, from `bytes` on. There is a byte before the first.
 std::uint64_t count_in_rounds(const char* bytes, std::size_t rounds) {
-  std::array<std::uint8_t, width> counts{};
+  std::array<std::uint8_t, counted_bytes> counts{};
   for (std::size_t round = 0; round < rounds; ++round) {
-    const char* const at = bytes + width * round;
-    for (std::size_t i = 0; i < width; ++i) {
-      counts[i] = static_cast<std::uint8_t>(counts[i] + (white_space(*(at + i - 1)) & (1 - white_space(at[i]))));
+    const char* const at = bytes + counted_bytes * round;
+    for (std::size_t i = 0; i < counted_bytes; ++i) {
+      counts[i] =
+          static_cast<std::uint8_t>(counts[i] + (white_space_bit(*(at + i - 1)) & (1 - white_space_bit(at[i]))));
     }
   }
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
@@ -38,10 +40,10 @@ std::uint64_t count_tokens(std::string_view text, std::size_t begin, std::size_t
     count = is_white_space(text[0]) ? 0 : 1;
     begin = 1;
   }
-  while (end - begin >= width) {
-    const std::size_t rounds = std::min(most_rounds, (end - begin) / width);
+  while (end - begin >= counted_bytes) {
+    const std::size_t rounds = std::min(most_rounds, (end - begin) / counted_bytes);
     count += count_in_rounds(text.data() + begin, rounds);
-    begin += width * rounds;
+    begin += counted_bytes * rounds;
   }
   for (; begin < end; ++begin) {
     count += is_white_space(text[begin - 1]) && !is_white_space(text[begin]) ? 1 : 0;
