@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <system_error>
@@ -66,6 +67,19 @@ std::string nastran_text(std::string_view scientific) {
   }
   digits.append(magnitude + 1 > digits.size() ? magnitude + 1 - digits.size() : 0, '0');
   return text + digits.insert(magnitude + 1, ".");
+}
+
+/// The text that `form` makes of the `scientific` form of a number, with as many of its digits as leave `most`
+/// characters: for numbers that would be infinite if they were rounded to the nearest.
+template <class Form>
+std::string cut_text(std::string scientific, std::size_t most, const Form& form) {
+  constexpr std::size_t shortest = std::string_view("-1.7").size();
+  std::string text = form(scientific);
+  for (std::size_t e = scientific.find('e'); text.size() > most && e > shortest; --e) {
+    scientific.erase(e - 1, 1);
+    text = form(scientific);
+  }
+  return text;
 }
 
 }  // namespace
@@ -135,6 +149,12 @@ std::size_t write_within(T value, std::size_t most, char* target) {
     length = static_cast<std::size_t>(
         std::to_chars(target, target + room, value, std::chars_format::general, digits).ptr - target);
   }
+  if (std::isfinite(value) && !std::isfinite(*parse_number<T>({target, length}))) {
+    length = static_cast<std::size_t>(std::to_chars(target, target + room, value, std::chars_format::scientific).ptr -
+                                      target);
+    const std::string text = cut_text({target, length}, most, [](const std::string& same) { return same; });
+    return static_cast<std::size_t>(std::ranges::copy(text, target).out - target);
+  }
   return length;
 }
 
@@ -151,6 +171,10 @@ std::size_t write_within(double value, std::size_t most, NumberForm form, char* 
   std::string text = nastran_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific).ptr});
   for (int digits = std::numeric_limits<double>::max_digits10; text.size() > most && digits > 0; --digits) {
     text = nastran_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific, digits - 1).ptr});
+  }
+  if (std::isfinite(value) && !std::isfinite(*parse_fortran_number<double>(text))) {
+    text =
+        cut_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific).ptr}, most, &nastran_text);
   }
   std::ranges::copy(text, target);
   return text.size();

@@ -321,6 +321,15 @@ TEST_CASE("Nastran: nodes of one rectangular system are taken as they are in it"
   CHECK(by_default.notes.back() == document.notes.back());
 }
 
+TEST_CASE("Nastran: a mesh of nothing is written and read back") {
+  const std::string empty = "BEGIN BULK\nENDDATA\n";
+  const MeshDocument document = bdf.read(empty);
+  CHECK(document.points.empty());
+  CHECK(document.cells.size() == 0);
+  CHECK(bdf.written(document) == empty);
+  CHECK(bdf.read(bdf.written(MeshDocument{})).points.empty());
+}
+
 TEST_CASE("Nastran: what is wrong is said with its line") {
   struct Fault {
     std::string text;

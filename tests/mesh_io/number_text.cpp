@@ -142,3 +142,22 @@ TEST_CASE("numbers in Nastran's form have a decimal point and no letter before t
   CHECK(text(1e-4 / 3) == "3.333333333333-5");
   CHECK(text(0.99999999999999999e-3) == ".001");
 }
+
+TEST_CASE("The largest numbers stay finite in few characters") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (const double value :
+       {largest, -largest, std::nextafter(largest, 0.0), 1.79769313486e308, -1.7976931348622e308}) {
+    for (const NumberForm form : {NumberForm::usual, NumberForm::nastran}) {
+      for (const std::size_t most : {16, 20}) {
+        CAPTURE(value, most);
+        const double rounded = rounded_to_characters(value, most, form);
+        CHECK(std::isfinite(rounded));
+        CHECK(std::abs(rounded / value - 1) < 1e-8);
+        CHECK(text_within(value, most, form).size() <= most);
+        CHECK(rounded_to_characters(rounded, most, form) == rounded);
+      }
+    }
+  }
+  CHECK(text_within(largest, 16, NumberForm::nastran) == "1.7976931348+308");
+  CHECK(text_within(-largest, 16, NumberForm::nastran) == "-1.797693134+308");
+}
