@@ -66,7 +66,7 @@ void MshTags::make_table() {
 }
 
 std::int64_t MshTags::largest() const {
-  return runs_.empty() ? 0 : runs_.back().first + static_cast<std::int64_t>(runs_.back().count) - 1;
+  return runs_.empty() ? 0 : runs_.back().first + static_cast<std::int64_t>(runs_.back().count - 1);
 }
 
 std::vector<std::int64_t> MshTags::listed() const {
