@@ -64,5 +64,6 @@ extern const Codec mfem_codec;
 extern const Codec triangle_codec;
 extern const Codec msh_codec;
 extern const Codec nastran_codec;
+extern const Codec unv_codec;
 
 }  // namespace trismooth

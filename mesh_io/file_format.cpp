@@ -38,6 +38,7 @@ constexpr auto format_names = std::to_array<FormatNames>({
     {FileFormat::mfem, "mfem", "MFEM", {".mesh"}},
     {FileFormat::triangle, "triangle", "Triangle", {".node", ".ele"}},
     {FileFormat::nastran, "nastran", "Nastran", {".bdf", ".nas"}},
+    {FileFormat::unv, "unv", "I-DEAS UNV", {".unv"}},
 });
 
 constexpr auto ordered_formats = [] {

@@ -28,7 +28,8 @@ enum class FileFormat : std::uint8_t {
   freefem,
   mfem,
   triangle,
-  nastran
+  nastran,
+  unv
 };
 
 /// The format's short name in options, reports and JSON: "off", "obj", ...

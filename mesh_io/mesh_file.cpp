@@ -53,6 +53,8 @@ const Codec& codec_of(FileFormat format) {
       return msh_codec;
     case FileFormat::nastran:
       return nastran_codec;
+    case FileFormat::unv:
+      return unv_codec;
     case FileFormat::vtu:
     case FileFormat::vtp:
       break;

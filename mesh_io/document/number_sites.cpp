@@ -50,6 +50,11 @@ class SitePatcher {
   template <class T>
   Patch patch_as(std::size_t offset, T value, char* target) const {
     if (sites_.encoding == NumberEncoding::text) {
+      if constexpr (std::is_same_v<T, double>) {
+        if (sites_.is_in_columns) {
+          return patch_columns(offset, value, target);
+        }
+      }
       T plain{};
       PlainNumbers numbers(bytes_, offset);
       if (numbers.next(plain)) {
@@ -81,6 +86,24 @@ class SitePatcher {
       std::reverse(target, target + sizeof(T));
     }
     return {sizeof(T), sizeof(T)};
+  }
+
+  /// Where the columns do not hold the new number, it takes more.
+  Patch patch_columns(std::size_t offset, double value, char* target) const {
+    const std::size_t begin = std::min(bytes_.find_first_not_of(" \t", offset), bytes_.size());
+    const std::size_t end = std::min(bytes_.find_first_of(token_ends, begin), bytes_.size());
+    const std::string_view token = bytes_.substr(begin, end - begin);
+    const auto stored = parse_fortran_number<double>(token);
+    if (stored && !differs(*stored, value)) {
+      return {end - offset, 0};
+    }
+    const std::size_t letter = token.find_first_of("dDeEqQ");
+    const std::string text = fortran_text(value, letter == std::string_view::npos ? 'E' : token[letter]);
+    const std::size_t blank = begin > offset ? 1 : 0;
+    const std::size_t columns = std::min(std::max(end - offset, text.size() + blank), most_number_bytes);
+    std::fill_n(target, columns - text.size(), ' ');
+    std::ranges::copy(text, target + (columns - text.size()));
+    return {end - offset, columns};
   }
 
   template <class T>

@@ -42,6 +42,9 @@ struct NumberSites {
   std::optional<EvenSites> even;         ///< instead of offsets, which are none then
   std::vector<std::int32_t> vertices;    ///< the vertex at each site; empty where site i is vertex i
   std::uint8_t most_characters = 0;      ///< that a new number may take as text; 0: any number of them
+  /// Text: each number stands right in columns, which begin at its offset, and a new one does so too, as Fortran writes
+  /// it (see fortran_text), with the letter of the old one's exponent, or E.
+  bool is_in_columns = false;
 
   /// Sites.
   std::size_t size() const { return even ? even->count : offsets.size() / columns.size(); }

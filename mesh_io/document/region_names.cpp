@@ -62,6 +62,8 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     "freefemlabel",
     "nastranref",
     "nastranpid",
+    "unvgroup",
+    "unvpid",
     "tetgenref",
     "netgenindex",
     "su2tag",

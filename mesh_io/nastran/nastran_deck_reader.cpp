@@ -50,7 +50,8 @@ void NastranDeckReader::read() {
   const NastranSource& main = model_.sources.front();
   is_in_bulk_ = !has_control_section(main.bytes, 0);
   read_source(0);
-  if (model_.node_ids.empty() && !has_bulk_) {
+  // A whole deck may be a mesh of nothing, one that is cut off is not.
+  if (model_.node_ids.empty() && !(has_bulk_ && has_ended_)) {
     throw ReadError(main.path, "is not a Nastran mesh: it has no GRID");
   }
   if (system_.value_or(0) != 0 && !rectangular_systems_.contains(*system_)) {

@@ -189,6 +189,16 @@ double rounded_to_characters(double value, std::size_t most, NumberForm form) {
   return parse_fortran_number<double>({text.data(), length}).value_or(value);
 }
 
+std::string fortran_text(double value, char exponent) {
+  std::array<char, 32> buffer{};
+  char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific,
+                                  std::numeric_limits<double>::max_digits10 - 1)
+                        .ptr;
+  std::string text(buffer.data(), end);
+  text[text.find('e')] = exponent;
+  return text;
+}
+
 std::optional<std::int64_t> parse_integer(std::string_view token) {
   return parse_integer_as<std::int64_t>(token);
 }

@@ -59,6 +59,10 @@ std::size_t write_within(double value, std::size_t most, NumberForm form, char* 
 /// The value that the text of write_within() reads back to; the value itself where `most` is 0.
 double rounded_to_characters(double value, std::size_t most, NumberForm form = NumberForm::usual);
 
+/// The finite `value` with 17 digits and an exponent of two or more behind `exponent` (D, E, ...), as Fortran writes it
+/// by 1PD25.16: "1.5000000000000000D+00". It reads back to the same value; 24 characters at most.
+std::string fortran_text(double value, char exponent);
+
 /// Appends the shortest text that reads back to the same value.
 void append_number(std::string& text, float value);
 void append_number(std::string& text, double value);

@@ -203,6 +203,17 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
   if (is_nastran && word.size() > std::max(field_of(file, place).size, place.size) && outcome.document) {
     return {};
   }
+  // A data set of another number is somebody else's, and that is told.
+  const bool is_elsewhere = std::ranges::any_of(outcome.document->notes, [](const std::string& note) {
+    return contains(note, "What the data sets") && contains(note, "UNV");
+  });
+  if (file.extension == ".unv" && is_elsewhere && outcome.document->cells.size() != whole.cells.size()) {
+    return {};
+  }
+  // Labels of elements are any numbers, no two alike, and members of groups may be missing.
+  if (file.extension == ".unv" && role == Role::structure && same_mesh && is_natural_number(word)) {
+    return {};
+  }
   // Where a range of Abaqus ends is any number: ranges have gaps.
   if (is_inp && role == Role::value && same_mesh && is_natural_number(word)) {
     return {};
@@ -228,7 +239,9 @@ std::string fault_of(const AcceptedFile& file, const MeshDocument& whole, const 
                          file.bytes.find("FIELD", place.begin) != std::string::npos;
   // OBJ counts from the last vertex too; colours of legacy files are cut to the range of colours.
   // A group with a minus is the same in MSH.
-  const bool may_be_same = ((file.extension == ".obj" || is_msh) && word == "-1") || is_colour;
+  // Elements of a universal file are of the family that their descriptor names, with as many nodes as they have.
+  const bool is_family = file.extension == ".unv" && word == "92";
+  const bool may_be_same = ((file.extension == ".obj" || is_msh) && word == "-1") || is_colour || is_family;
   return !may_be_same && difference(whole, *outcome.document).empty() ? "is accepted, and is what stood there before"
                                                                       : "";
 }

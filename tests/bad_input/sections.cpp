@@ -176,7 +176,7 @@ TEST_CASE("A file of another format under this extension is refused in one line"
   Faults faults;
   for (const AcceptedFile& file : accepted_files::all()) {
     for (const std::string extension : {".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".vtp", ".msh", ".su2", ".14",
-                                        ".2dm", ".inp", ".bdf", ".mesh"}) {
+                                        ".2dm", ".inp", ".bdf", ".unv", ".mesh"}) {
       const AcceptedFile other{file.name, extension, file.bytes};
       if (format_of(other) == format_of(file)) {
         continue;

@@ -631,7 +631,33 @@ bool is_whole_nastran(const AcceptedFile& file, std::size_t cut) {
   });
 }
 
+/// Universal files may end behind any data set; a mesh has nodes, all that its elements name.
+bool is_whole_unv(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes.substr(0, cut);
+  std::ranges::replace(text, '\r', '\n');
+  std::istringstream lines(text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  bool is_open = false;
+  bool has_nodes = false;
+  std::string number;
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> all = words(line);
+    if (all == std::vector<std::string>{"-1"}) {
+      has_nodes = has_nodes || (is_open && (number == "2411" || number == "781"));
+      is_open = !is_open;
+      number.clear();
+    } else if (is_open && number.empty() && !all.empty()) {
+      number = all.front();
+    } else if (!is_open && !all.empty()) {
+      return false;
+    }
+  }
+  return !is_open && has_nodes;
+}
+
 bool is_whole(const AcceptedFile& file, std::size_t cut) {
+  if (format_of(file) == trismooth::FileFormat::unv) {
+    return is_whole_unv(file, cut);
+  }
   if (format_of(file) == trismooth::FileFormat::freefem) {
     return is_whole_freefem(file, cut);
   }
@@ -716,7 +742,7 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
     // Only these formats can end after some of the cells.
     const bool all_cells = file.extension != ".obj" && !file.name.starts_with("stl_ascii") &&
                            !file.name.starts_with("medit") && !file.name.starts_with("2dm") &&
-                           !contains(file.name, "_poly_");
+                           !file.name.starts_with("unv") && !contains(file.name, "_poly_");
     const bool is_deck =
         format_of(file) == trismooth::FileFormat::inp || format_of(file) == trismooth::FileFormat::nastran;
     for (std::size_t cut = 0; cut < file.bytes.size(); cut += stride_of(file)) {

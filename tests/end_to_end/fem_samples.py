@@ -246,6 +246,17 @@ def sms():
     return sample.add("NS 1 2 -3 \"inlet\"\nGM \"kept\"\n")
 
 
+def unv():
+    sample = Sample(".unv")
+    sample.add("    -1\n   164\n         1  SI: of a test          2\n    -1\n    -1\n  2411\n")
+    for v in sample.points():
+        sample.add(f"{v + 1:10}         1         1        11\n ").coordinates(v).add(" 0\n")
+    sample.add("    -1\n    -1\n  2412\n")
+    for i, region, cell in sample.cells():
+        sample.add(f"{i + 1:10}        91{region:10}         0         7         3\n {ints(v + 1 for v in cell)}\n")
+    return sample.add("    -1\n")
+
+
 def freefem():
     sample = Sample(".msh")
     sample.lines = [(v, v + 1) for v in range(8)]
@@ -296,6 +307,6 @@ def every_sample():
                         f"msh 4.1 {order}": msh_blocks("4.1", order)})
         samples.update({f"meshb {version} {order}": medit_binary(version, order) for version in (1, 2, 3, 4)})
     samples.update({"medit": medit(), "medit CR LF": medit("\r\n"), "su2": su2(), "inp": inp(),
-                    "inp of parts": inp(True), "adcirc": adcirc(), "2dm": sms(), "freefem": freefem()})
+                    "inp of parts": inp(True), "adcirc": adcirc(), "2dm": sms(), "unv": unv(), "freefem": freefem()})
     samples.update({f"mfem {version}": mfem(version) for version in ("1.0", "1.3")})
     return samples

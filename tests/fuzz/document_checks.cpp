@@ -183,6 +183,11 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
                  cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
                  cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26, 27}};
       break;
+    case FileFormat::unv:
+      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
+                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
+                 cell_type::tetrahedron, cell_type::wedge, cell_type::hexahedron, 24, 25, 26}};
+      break;
     case FileFormat::mfem:
       groups = {{cell_type::triangle, cell_type::quad}, {cell_type::line}};
       break;

@@ -200,6 +200,22 @@ std::string mfem_attributes(int count) {
          "vertices\n5\n2\n" + rows(plate_points, &nothing_of, " ") + "mfem_mesh_end\n";
 }
 
+/// Groups that overlap, each with a point, and data sets of others.
+std::string unv_groups(int count) {
+  const auto set = [](const std::string& number, const std::string& records) {
+    return "    -1\n" + number + "\n" + records + "    -1\n";
+  };
+  return set("2411", rows(
+                         plate_points, [](std::size_t i) { return number_of(i) + "1 1 11\n"; }, " ")) +
+         set("2412", rows(
+                         plate_corners_from_1, [](std::size_t i) { return number_of(i) + "91 1 0 7 3\n"; }, " ")) +
+         set("2467", repeated(count,
+                              [](const auto& number) {
+                                return number + " 0 0 0 0 0 0 3\ng" + number + "\n8 1 0 0 8 2 0 0\n7 5 0 0\n";
+                              })) +
+         repeated(count, [&set](const auto& number) { return set("5" + number, "of others\n"); });
+}
+
 /// Attributes of its own for every triangle of a mesh in two files.
 GrowthCase triangle_regions() {
   return {"regions: node to node", 200, [](int count, const ScratchFolder& folder) {
@@ -228,6 +244,7 @@ std::vector<GrowthCase> fem_file_cases() {
                                                                                         {"freefem", "msh"},
                                                                                         {"mfem", "mesh"},
                                                                                         {"triangle", "node"},
+                                                                                        {"unv", "unv"},
                                                                                         {"off", "off.gz"}}) {
     cases.push_back(chain_in(name, extension));
   }
@@ -257,6 +274,8 @@ std::vector<GrowthCase> fem_file_cases() {
   cases.push_back(file_case("labels", 200, "msh", "mesh", &freefem_labels));
   cases.push_back(file_case("attributes and their sets", 100, "mesh", "msh", &mfem_attributes));
   cases.push_back(file_case("attributes and their sets", 100, "mesh", "vtu", &mfem_attributes));
+  cases.push_back(file_case("groups", 100, "unv", "unv", &unv_groups));
+  cases.push_back(file_case("groups", 100, "unv", "msh", &unv_groups));
   cases.push_back(triangle_regions());
   return cases;
 }

@@ -38,6 +38,7 @@ TEST_CASE("the extensions that the documentation lists name these formats") {
       {".node", {"triangle"}}, {".ele", {"triangle"}},
       {".2dm", {"2dm"}},       {".inp", {"inp"}},
       {".bdf", {"nastran"}},   {".nas", {"nastran"}},
+      {".unv", {"unv"}},
   };
   std::set<std::string> extensions;
   for (const FileFormat format : all_formats()) {

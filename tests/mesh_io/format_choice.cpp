@@ -160,7 +160,6 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
       {"\x89HDF\r\n\x1a\n....", "is HDF5"},
       {"CDF\x02....", "is NetCDF"},
       {"<?xml version=\"1.0\"?><Xdmf Version=\"3.0\">", "is XDMF"},
-      {"    -1\n  2411\n         1", "is I-DEAS universal (UNV)"},
       {"(0 \"GAMBIT to Fluent File\")\n", "is Ansys Fluent"},
       {"mesh3d\ndimension\n2\n", "is Netgen"},
   };

@@ -338,6 +338,7 @@ TEST_CASE("Nastran: what is wrong is said with its line") {
   const std::string plate = small_plate + small_triangles;
   for (const Fault& fault :
        {Fault{"", "mesh.bdf: is not a Nastran mesh: it has no GRID"},
+        {"BEGIN BULK\n", "mesh.bdf: is not a Nastran mesh: it has no GRID"},
         {"CTRIA3,1,1,1,2,3\n", "mesh.bdf: is not a Nastran mesh: it has no GRID"},
         {replace_all(plate, "2.      2.  ", "2.      2,  "), "mesh.bdf:3: "},
         {replace_all(plate, "2.      2.  ", "2.      2x  "),

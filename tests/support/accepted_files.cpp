@@ -21,6 +21,7 @@
 #include "support/accepted_ocean_files.h"
 #include "support/accepted_su2_files.h"
 #include "support/accepted_triangle_files.h"
+#include "support/accepted_unv_files.h"
 #include "support/accepted_vtk_files.h"
 
 namespace accepted_files {
@@ -463,6 +464,7 @@ std::vector<AcceptedFile> make_all() {
   add_mfem(files);
   add_triangle(files);
   add_nastran(files);
+  add_unv(files);
   msh::add(files);
   return files;
 }

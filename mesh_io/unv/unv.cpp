@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/text_mesh_writer.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+#include "trismooth/mesh_io/unv/unv_elements.h"
+#include "trismooth/mesh_io/unv/unv_reader.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::size_t unv_integer_columns = 10;
+constexpr std::size_t unv_number_columns = 25;
+
+TextBlock& unv_integer(TextBlock& text, std::int64_t value) {
+  const std::string digits = std::to_string(value);
+  // Between numbers of more digits than the format has columns for stands a blank.
+  text.text(std::string(std::max(unv_integer_columns, digits.size() + 1) - digits.size(), ' '));
+  return text.text(digits);
+}
+
+/// Integers, eight to a line.
+template <class Value>
+void unv_integers(TextBlock& text, std::size_t count, const Value& value) {
+  constexpr std::size_t most_in_line = 8;
+  for (std::size_t i = 0; i < count; ++i) {
+    unv_integer(text, value(i));
+    if (i + 1 == count || (i + 1) % most_in_line == 0) {
+      text.text('\n');
+    }
+  }
+}
+
+/// What a group is written with.
+struct WrittenGroup {
+  std::int64_t number = 0;
+  std::string name;
+  std::vector<std::int32_t> points;
+  std::vector<std::int32_t> elements;  ///< places among those that are written
+};
+
+/// A name stands on a line of its own, and is read without blanks around it.
+std::string unv_name(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return static_cast<unsigned char>(c) < ' '; }, '_');
+  const std::size_t first = name.find_first_not_of(' ');
+  return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of(' ') + 1 - first);
+}
+
+/// Cells that are written, and the place of each cell among them: -1 for others.
+struct WrittenElements {
+  std::vector<std::size_t> cells;
+  std::vector<std::int32_t> places;
+};
+
+WrittenElements written_elements(const CellList& cells) {
+  WrittenElements written;
+  written.places.assign(cells.size(), -1);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (unv_shape_of_cell(cells.types[cell]).nodes == cells[cell].size()) {
+      written.places[cell] = static_cast<std::int32_t>(written.cells.size());
+      written.cells.push_back(cell);
+    }
+  }
+  return written;
+}
+
+/// Groups of cells under their numbers; where these are taken, or none, as sets are, under further ones.
+std::vector<WrittenGroup> written_groups(const MeshDocument& document, const CellGroups& groups,
+                                         const WrittenElements& elements) {
+  std::vector<WrittenGroup> written;
+  std::set<std::int64_t> taken;
+  std::vector<std::size_t> of_group(groups.groups.size());
+  // One group where lines and faces share number and name.
+  for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+    const CellGroup& group = groups.groups[i];
+    const auto same = std::ranges::find_if(written, [&group](const WrittenGroup& other) {
+      return other.number == group.number && other.name == unv_name(group.name);
+    });
+    of_group[i] = static_cast<std::size_t>(same - written.begin());
+    if (same == written.end()) {
+      written.push_back({group.number, unv_name(group.name), {}, {}});
+    }
+  }
+  for (WrittenGroup& group : written) {
+    if (group.number < 1 || !taken.insert(group.number).second) {
+      group.number = 0;
+    }
+  }
+  for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
+    if (groups.of_cell[cell] >= 0 && elements.places[cell] >= 0) {
+      written[of_group[static_cast<std::size_t>(groups.of_cell[cell])]].elements.push_back(elements.places[cell]);
+    }
+  }
+  for (const NamedSet& set : document.cell_sets) {
+    WrittenGroup& group = written.emplace_back(0, unv_name(set.name), std::vector<std::int32_t>{});
+    for (const std::int32_t cell : set.members) {
+      if (elements.places[static_cast<std::size_t>(cell)] >= 0) {
+        group.elements.push_back(elements.places[static_cast<std::size_t>(cell)]);
+      }
+    }
+  }
+  for (const NamedSet& set : document.point_sets) {
+    written.push_back({0, unv_name(set.name), set.members, {}});
+  }
+  std::int64_t next = 1;
+  for (WrittenGroup& group : written) {
+    if (group.number == 0) {
+      while (!taken.insert(next).second) {
+        ++next;
+      }
+      group.number = next;
+    }
+  }
+  return written;
+}
+
+void write_group(TextMeshWriter& writer, const WrittenGroup& group) {
+  constexpr std::size_t members_in_line = 2;
+  const std::size_t members = group.points.size() + group.elements.size();
+  writer.write_rows(1, [&](TextBlock& text, std::size_t /*row*/) {
+    unv_integers(text, 8, [&](std::size_t i) {
+      return i == 0 ? group.number : i == 7 ? static_cast<std::int64_t>(members) : 0;
+    });
+    text.text(group.name.empty() ? "group " + std::to_string(group.number) : group.name).text('\n');
+  });
+  writer.write_rows((members + members_in_line - 1) / members_in_line, [&](TextBlock& text, std::size_t row) {
+    const std::size_t last = std::min(members, members_in_line * (row + 1));
+    for (std::size_t i = members_in_line * row; i < last; ++i) {
+      const bool is_point = i < group.points.size();
+      unv_integer(text, is_point ? 7 : 8);
+      unv_integer(text, 1 + std::int64_t{is_point ? group.points[i] : group.elements[i - group.points.size()]});
+      unv_integer(unv_integer(text, 0), 0);
+    }
+    text.text('\n');
+  });
+}
+
+void write_unv(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
+  const CellList& cells = document.cells;
+  const WrittenElements elements = written_elements(cells);
+  const CellGroups groups = find_cell_groups(document);
+  TextMeshWriter writer(path, workers);
+  writer.write_text("    -1\n  2411\n");
+  writer.write_rows(document.point_count(), [&points = document.points](TextBlock& text, std::size_t i) {
+    constexpr std::int64_t system = 1;
+    constexpr std::int64_t colour = 11;
+    unv_integer(unv_integer(text, static_cast<std::int64_t>(i) + 1), system);
+    unv_integer(unv_integer(text, system), colour).text('\n');
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string number = fortran_text(points[3 * i + axis], 'D');
+      text.text(std::string(unv_number_columns - number.size(), ' ')).text(number);
+    }
+    text.text('\n');
+  });
+  writer.write_text("    -1\n    -1\n  2412\n");
+  writer.write_rows(elements.cells.size(), [&](TextBlock& text, std::size_t i) {
+    const std::size_t cell = elements.cells[i];
+    const UnvShape& shape = unv_shape_of_cell(cells.types[cell]);
+    constexpr std::int64_t property = 1;
+    constexpr std::int64_t colour = 7;
+    const std::array<std::int64_t, 6> head{
+        static_cast<std::int64_t>(i) + 1,      shape.descriptor, property, property, colour,
+        static_cast<std::int64_t>(shape.nodes)};
+    unv_integers(text, head.size(), [&head](std::size_t k) { return head.at(k); });
+    if (is_unv_beam(shape.descriptor)) {
+      unv_integers(text, 3, [](std::size_t /*k*/) { return std::int64_t{0}; });
+    }
+    std::array<std::int64_t, most_unv_nodes> nodes{};
+    for (std::size_t k = 0; k < shape.nodes; ++k) {
+      nodes.at(shape.place(k)) = std::int64_t{cells[cell][k]} + 1;
+    }
+    unv_integers(text, shape.nodes, [&nodes](std::size_t k) { return nodes.at(k); });
+  });
+  writer.write_text("    -1\n");
+  if (const std::vector<WrittenGroup> written = written_groups(document, groups, elements); !written.empty()) {
+    writer.write_text("    -1\n  2467\n");
+    for (const WrittenGroup& group : written) {
+      write_group(writer, group);
+    }
+    writer.write_text("    -1\n");
+  }
+  writer.close();
+}
+
+std::vector<std::uint8_t> types_of_unv() {
+  std::vector<std::uint8_t> types;
+  for (int type = 0; type < 256; ++type) {
+    if (unv_shape_of_cell(static_cast<std::uint8_t>(type)).nodes > 0) {
+      types.push_back(static_cast<std::uint8_t>(type));
+    }
+  }
+  return types;
+}
+
+std::vector<std::string> lost_in_unv(const MeshDocument& document) {
+  const CellGroups groups = find_cell_groups(document);
+  MeshDocument lost;
+  lost.point_arrays = document.point_arrays;
+  lost.field_arrays = document.field_arrays;
+  std::ranges::copy_if(document.cell_arrays, std::back_inserter(lost.cell_arrays),
+                       [&](const DataArray& array) { return array.name != groups.array; });
+  std::vector<std::string> sentences =
+      describe_lost_cells("UNV", "lines, faces and solids", types_of_unv(), document.cells);
+  std::ranges::move(describe_lost_arrays("UNV", lost), std::back_inserter(sentences));
+  std::string renumbered;
+  for (const CellGroup& group : groups.groups) {
+    if (group.number < 1) {
+      renumbered.append(renumbered.empty() ? "" : ", ").append(std::to_string(group.number));
+    }
+  }
+  if (!renumbered.empty()) {
+    sentences.push_back("UNV numbers groups from 1 on: changed are " + renumbered);
+  }
+  return sentences;
+}
+
+/// A line -1, then the number of the first data set, as text.
+bool is_unv(std::string_view bytes) {
+  TextScanner scanner(bytes, {}, TextScanner::Comments::none,
+                      bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  if (scanner.peek_token() != "-1") {
+    return false;
+  }
+  scanner.next_token("-1");
+  if (!scanner.at_end_of_line() || scanner.at_end()) {
+    return false;
+  }
+  const auto number = parse_integer(scanner.next_token("the number of a data set"));
+  return number && *number > 0 && scanner.at_end_of_line();
+}
+
+}  // namespace
+
+const Codec unv_codec{&read_unv, &write_unv, &lost_in_unv, &is_unv};
+
+}  // namespace trismooth

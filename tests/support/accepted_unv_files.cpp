@@ -1,0 +1,108 @@
+#include "support/accepted_unv_files.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace accepted_files {
+
+namespace {
+
+/// How a universal file spells the mesh.
+struct UnvSpelling {
+  std::function<int(int)> id = [](int vertex) { return vertex + 1; };
+  std::string_view exponent = "D";
+  int nodes = 2411;
+  int elements = 2412;
+};
+
+std::string unv_data_set(int number, const std::string& records) {
+  return fmt::format("    -1\n{:6}\n{}    -1\n", number, records);
+}
+
+std::string unv_integers(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    text += fmt::format("{:10}", numbers[i]) + (i % 8 == 7 || i + 1 == numbers.size() ? "\n" : "");
+  }
+  return text;
+}
+
+std::string unv_nodes(const Mesh& mesh, const UnvSpelling& spelling) {
+  std::string text;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    text += unv_integers({spelling.id(static_cast<int>(i)), 1, 1, 11});
+    for (const double x : mesh.points[i]) {
+      std::string number = fmt::format("{:25.16E}", x);
+      text += number.replace(number.find('E'), 1, spelling.exponent);
+    }
+    text += "\n";
+  }
+  return unv_data_set(spelling.nodes, text);
+}
+
+std::string unv_element(const UnvSpelling& spelling, int label, int descriptor, const std::vector<int>& vertices) {
+  std::vector<int> head{label, descriptor, 1, 0, 7, static_cast<int>(vertices.size())};
+  if (spelling.elements == 780) {
+    head = {label, descriptor, 1, 1, 1, 0, 7, static_cast<int>(vertices.size())};
+  }
+  std::vector<int> ids;
+  for (const int vertex : vertices) {
+    ids.push_back(spelling.id(vertex));
+  }
+  return unv_integers(head) + (descriptor < 30 ? unv_integers({0, 0, 0}) : "") + unv_integers(ids);
+}
+
+std::string unv_triangles(const Mesh& mesh, const UnvSpelling& spelling, const std::string& more = "") {
+  std::string text;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const std::vector<int> face(mesh.faces[i].begin(), mesh.faces[i].end());
+    text += unv_element(spelling, static_cast<int>(i) + 101, 91, face);
+  }
+  return unv_data_set(spelling.elements, text + more);
+}
+
+std::string unv_group(int number, const std::string& name, const std::vector<int>& members) {
+  return unv_integers({number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size() / 4)}) + name + "\n" +
+         unv_integers(members);
+}
+
+}  // namespace
+
+void add_unv(std::vector<AcceptedFile>& files) {
+  const auto add = [&files](const std::string& name, std::string bytes) {
+    files.push_back({"unv_" + name, ".unv", std::move(bytes)});
+  };
+  const Mesh plate = mesh(false);
+  const auto spelled = [&plate](const UnvSpelling& spelling, const std::string& more = "") {
+    return unv_nodes(plate, spelling) + unv_triangles(plate, spelling, more);
+  };
+  const std::string groups = unv_data_set(2467, unv_group(3, "lower half", {8, 101, 0, 0, 8, 102, 0, 0}) +
+                                                    unv_group(5, "upper", {8, 103, 0, 0, 8, 104, 0, 0, 8, 102, 0, 0}) +
+                                                    unv_group(9, "corner", {7, 1, 0, 0}));
+  const std::string plain = spelled({}) + groups;
+  const auto with_line_ends = [](const std::string& text, std::string_view line_end) {
+    std::string changed;
+    for (const char c : text) {
+      changed += c == '\n' ? std::string(line_end) : std::string(1, c);
+    }
+    return changed;
+  };
+  add("plain", plain);
+  add("crlf", with_line_ends(plain, "\r\n"));
+  add("cr", with_line_ends(plain, "\r"));
+  add("mark", "\xEF\xBB\xBF" + plain);
+  add("no_groups", spelled({.exponent = "E"}));
+  add("old", spelled({.exponent = "e", .nodes = 781, .elements = 780}));
+  add("elements_first", unv_triangles(plate, {}) + unv_nodes(plate, {}));
+  add("sparse_ids", spelled({.id = [](int vertex) { return 1000 * (9 - vertex); }}));
+  add("units",
+      unv_data_set(151, "a model\nNONE\n") + unv_data_set(164, "         1  SI: Meter (newton)         2\n") + plain);
+  add("beams", spelled({}, unv_element({}, 7, 21, {0, 1}) + unv_element({}, 8, 11, {1, 2})));
+  add("unknown_elements", spelled({}, unv_element({}, 7, 161, {4}) + unv_element({}, 8, 136, {0, 2})));
+}
+
+}  // namespace accepted_files
