@@ -46,6 +46,7 @@ struct WrittenGroup {
   std::string name;
   std::vector<std::int32_t> points;
   std::vector<std::int32_t> elements;  ///< places among those that are written
+  bool is_apart = false;               ///< no other group that is apart has its elements
 };
 
 /// A name stands on a line of its own, and is read without blanks around it.
@@ -88,7 +89,7 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     });
     of_group[i] = static_cast<std::size_t>(same - written.begin());
     if (same == written.end()) {
-      written.push_back({group.number, unv_name(group.name), {}, {}});
+      written.push_back({group.number, unv_name(group.name), {}, {}, true});
     }
   }
   for (WrittenGroup& group : written) {
@@ -96,17 +97,23 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
       group.number = 0;
     }
   }
+  // Points that are cells are nodes of a group.
+  const auto add = [&](WrittenGroup& group, std::size_t cell) {
+    if (elements.places[cell] >= 0) {
+      group.elements.push_back(elements.places[cell]);
+    } else if (document.cells.types[cell] == cell_type::vertex) {
+      group.points.push_back(document.cells[cell][0]);
+    }
+  };
   for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
-    if (groups.of_cell[cell] >= 0 && elements.places[cell] >= 0) {
-      written[of_group[static_cast<std::size_t>(groups.of_cell[cell])]].elements.push_back(elements.places[cell]);
+    if (groups.of_cell[cell] >= 0) {
+      add(written[of_group[static_cast<std::size_t>(groups.of_cell[cell])]], cell);
     }
   }
   for (const NamedSet& set : document.cell_sets) {
     WrittenGroup& group = written.emplace_back(0, unv_name(set.name), std::vector<std::int32_t>{});
     for (const std::int32_t cell : set.members) {
-      if (elements.places[static_cast<std::size_t>(cell)] >= 0) {
-        group.elements.push_back(elements.places[static_cast<std::size_t>(cell)]);
-      }
+      add(group, static_cast<std::size_t>(cell));
     }
   }
   for (const NamedSet& set : document.point_sets) {
@@ -122,6 +129,17 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     }
   }
   return written;
+}
+
+/// The property of each element: the number of its group, or 0. Programs tell regions apart by it.
+std::vector<std::int64_t> written_properties(const std::vector<WrittenGroup>& groups, std::size_t elements) {
+  std::vector<std::int64_t> properties(elements);
+  for (const WrittenGroup& group : groups) {
+    for (const std::int32_t element : group.is_apart ? group.elements : std::vector<std::int32_t>()) {
+      properties[static_cast<std::size_t>(element)] = group.number;
+    }
+  }
+  return properties;
 }
 
 void write_group(TextMeshWriter& writer, const WrittenGroup& group) {
@@ -148,7 +166,8 @@ void write_group(TextMeshWriter& writer, const WrittenGroup& group) {
 void write_unv(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
   const CellList& cells = document.cells;
   const WrittenElements elements = written_elements(cells);
-  const CellGroups groups = find_cell_groups(document);
+  const std::vector<WrittenGroup> groups = written_groups(document, find_cell_groups(document), elements);
+  const std::vector<std::int64_t> properties = written_properties(groups, elements.cells.size());
   TextMeshWriter writer(path, workers);
   writer.write_text("    -1\n  2411\n");
   writer.write_rows(document.point_count(), [&points = document.points](TextBlock& text, std::size_t i) {
@@ -166,10 +185,10 @@ void write_unv(const std::filesystem::path& path, const MeshDocument& document, 
   writer.write_rows(elements.cells.size(), [&](TextBlock& text, std::size_t i) {
     const std::size_t cell = elements.cells[i];
     const UnvShape& shape = unv_shape_of_cell(cells.types[cell]);
-    constexpr std::int64_t property = 1;
+    constexpr std::int64_t material = 0;
     constexpr std::int64_t colour = 7;
     const std::array<std::int64_t, 6> head{
-        static_cast<std::int64_t>(i) + 1,      shape.descriptor, property, property, colour,
+        static_cast<std::int64_t>(i) + 1,      shape.descriptor, properties[i], material, colour,
         static_cast<std::int64_t>(shape.nodes)};
     unv_integers(text, head.size(), [&head](std::size_t k) { return head.at(k); });
     if (is_unv_beam(shape.descriptor)) {
@@ -182,9 +201,10 @@ void write_unv(const std::filesystem::path& path, const MeshDocument& document, 
     unv_integers(text, shape.nodes, [&nodes](std::size_t k) { return nodes.at(k); });
   });
   writer.write_text("    -1\n");
-  if (const std::vector<WrittenGroup> written = written_groups(document, groups, elements); !written.empty()) {
-    writer.write_text("    -1\n  2467\n");
-    for (const WrittenGroup& group : written) {
+  if (!groups.empty()) {
+    // Of the data sets for groups, which are alike, the one that Gmsh reads.
+    writer.write_text("    -1\n  2477\n");
+    for (const WrittenGroup& group : groups) {
       write_group(writer, group);
     }
     writer.write_text("    -1\n");

@@ -25,6 +25,8 @@ TEXT_DIALECTS = {
     "su2": (".su2", {"Binary": 0}),
     "inp": (".inp", {"Binary": 0, "SaveGroupsOfNodes": 1}),
     "nastran_free": (".bdf", {"BdfFieldFormat": 0}),
+    "unv": (".unv", {"SaveGroupsOfNodes": 0}),
+    "unv_nodes": (".unv", {"SaveGroupsOfNodes": 1}),
 }
 COLUMN_DIALECTS = {
     "nastran_small": (".bdf", {"BdfFieldFormat": 1}),
@@ -159,6 +161,25 @@ class OpenedByGmsh(GmshTest):
                     self.assertGreater(moved, 100)
                     if model.get("order", 1) == 1:
                         self.assertEqual(moved, report["smoothing"]["moved_vertices"])
+
+    def test_groups_and_elements_of_unv_are_in_place(self):
+        for dialect in ("unv", "unv_nodes"):
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    extension, options = EVERY_DIALECT[dialect]
+                    gmsh_model.build(**model)
+                    # Gmsh writes no elements of points, and does not survive reading a group of them.
+                    gmsh.model.removePhysicalGroups([(0, 11)])
+                    name = dialect + extension
+                    gmsh_model.write(self.path(name), **options)
+                    output, report = self.smooth(name)
+                    before, after = self.open_both(name, output)
+                    moved = sum(before[tag] != after[tag] for tag in before)
+                    self.assertGreater(moved, 100)
+                    if model.get("order", 1) == 1:
+                        self.assertEqual(moved, report["smoothing"]["moved_vertices"])
+                    names = {name for name, _ in gmsh_model.everything_but_points()["groups"].values()}
+                    self.assertLessEqual({"air", "steel_core", "inlet", "outlet", "walls", "hole"}, names)
 
     def test_partitions_and_ghosts_are_in_place(self):
         gmsh_model.build()
@@ -317,6 +338,28 @@ class OtherFormatsBecomeMsh(GmshTest):
                 self.assertLessEqual(set(expected), set(found))
                 for key, cells in expected.items():
                     self.assertEqual(len(found[key]), len(cells), key)
+
+
+class MshBecomesUnv(GmshTest):
+
+    def test_groups_names_and_elements_reach_gmsh(self):
+        for model in ({}, {"order": 2}, {"quads": True}):
+            with self.subTest(**model):
+                name = self.write_model("msh41", **model)
+                gmsh_model.open_file(self.path(name))
+                expected = {key: cells for key, cells in gmsh_model.group_cells().items() if key[0] > 0}
+                self.assertEqual(len(expected), 6)
+                held = self.hold_everything(self.report("quality", name)["input"]["vertices"])
+                self.run_tool("smooth", name, "converted.unv", *held)
+                gmsh_model.open_file(self.path("converted.unv"))
+                found = gmsh_model.group_cells()
+                for (dimension, name), cells in expected.items():
+                    # Gmsh reads a name up to its first blank.
+                    self.assertEqual(self.rounded(found[dimension, name.split()[0]]), self.rounded(cells), name)
+
+    def rounded(self, cells):
+        """Gmsh itself lays periodic nodes of MSH files on each other, to the last digit."""
+        return sorted(tuple(sorted(tuple(round(float(x), 12) for x in place) for place in cell)) for cell in cells)
 
 
 if __name__ == "__main__":
