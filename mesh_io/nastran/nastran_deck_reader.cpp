@@ -167,10 +167,10 @@ void NastranDeckReader::read_card(std::size_t begin) {
     } else if (card_.name == "GRID") {
       read_grid(begin);
       return;
-    } else if (const NastranHolder* const holder = find_nastran_holder(card_.name)) {
-      read_held(*holder);
-      return;
     } else {
+      if (const NastranHolder* const holder = find_nastran_holder(card_.name)) {
+        read_held(*holder);
+      }
       read_other();
       return;
     }
@@ -310,7 +310,6 @@ void NastranDeckReader::read_held(const NastranHolder& holder) {
   const std::string name = holder.has_set ? card_.name + " " + std::string(card_.field(0)) : card_.name;
   std::vector<NastranRange>& all = model_.held[name];
   all.insert(all.end(), ranges.begin(), ranges.end());
-  model_.other_cards.insert(card_.name);
 }
 
 /// Numbers from 0 on.

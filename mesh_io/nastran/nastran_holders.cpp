@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <optional>
 
 #include "trismooth/mesh_io/text/number_text.h"
@@ -10,35 +11,50 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::uint8_t fields(std::uint8_t a, std::uint8_t b = 0, std::uint8_t c = 0, std::uint8_t d = 0,
-                              std::uint8_t e = 0) {
-  return static_cast<std::uint8_t>((1U << a) | (1U << (b == 0 ? a : b)) | (1U << (c == 0 ? a : c)) |
-                                   (1U << (d == 0 ? a : d)) | (1U << (e == 0 ? a : e)));
+constexpr std::uint8_t fields(std::initializer_list<unsigned> numbers) {
+  unsigned bits = 0;
+  for (const unsigned number : numbers) {
+    bits |= 1U << number;
+  }
+  return static_cast<std::uint8_t>(bits);
 }
 
 constexpr auto holders = std::to_array<NastranHolder>({
-    {"SPC", true, 0, fields(1, 4)},
-    {"SPCD", true, 0, fields(1, 4)},
+    {"SPC", true, 0, fields({1, 4})},
+    {"SPCD", true, 0, fields({1, 4})},
     {"SPC1", true, 2},
-    {"MPC", true, 0, fields(1, 4), true},
-    {"FORCE", true, 0, fields(1)},
-    {"FORCE1", true, 0, fields(1, 3, 4)},
-    {"FORCE2", true, 0, fields(1, 3, 4, 5, 6)},
-    {"MOMENT", true, 0, fields(1)},
-    {"MOMENT1", true, 0, fields(1, 3, 4)},
-    {"MOMENT2", true, 0, fields(1, 3, 4, 5, 6)},
-    {"SUPORT", false, 0, fields(0, 2, 4, 6), true},
-    {"SUPORT1", true, 0, fields(1, 3, 5)},
-    {"RBAR", false, 0, fields(1, 2)},
-    {"RROD", false, 0, fields(1, 2)},
-    {"RBE2", false, 3, fields(1)},
-    {"RBE3", false, 0, fields(2)},
-    {"CELAS1", false, 0, fields(2, 4)},
-    {"CELAS2", false, 0, fields(2, 4)},
-    {"CDAMP1", false, 0, fields(2, 4)},
-    {"CDAMP2", false, 0, fields(2, 4)},
-    {"CMASS1", false, 0, fields(2, 4)},
-    {"CMASS2", false, 0, fields(2, 4)},
+    {"MPC", true, 0, fields({1, 4}), true},
+    {"FORCE", true, 0, fields({1})},
+    {"FORCE1", true, 0, fields({1, 3, 4})},
+    {"FORCE2", true, 0, fields({1, 3, 4, 5, 6})},
+    {"MOMENT", true, 0, fields({1})},
+    {"MOMENT1", true, 0, fields({1, 3, 4})},
+    {"MOMENT2", true, 0, fields({1, 3, 4, 5, 6})},
+    {"PLOAD", true, 0, fields({2, 3, 4, 5})},
+    {"TEMP", true, 0, fields({1, 3, 5})},
+    {"DAREA", true, 0, fields({1, 4})},
+    {"SUPORT", false, 0, fields({0, 2, 4, 6}), true},
+    {"SUPORT1", true, 0, fields({1, 3, 5})},
+    {"RBAR", false, 0, fields({1, 2})},
+    {"RBAR1", false, 0, fields({1, 2})},
+    {"RROD", false, 0, fields({1, 2})},
+    {"RJOINT", false, 0, fields({1, 2})},
+    {"RTRPLT", false, 0, fields({1, 2, 3})},
+    {"RTRPLT1", false, 0, fields({1, 2, 3})},
+    {"RBE1", false, 0, fields({1, 3, 5}), true},
+    {"RSPLINE", false, 0, fields({2})},
+    {"RBE2", false, 3, fields({1})},
+    {"RBE3", false, 0, fields({2})},
+    {"CELAS1", false, 0, fields({2, 4})},
+    {"CELAS2", false, 0, fields({2, 4})},
+    {"CDAMP1", false, 0, fields({2, 4})},
+    {"CDAMP2", false, 0, fields({2, 4})},
+    {"CMASS1", false, 0, fields({2, 4})},
+    {"CMASS2", false, 0, fields({2, 4})},
+    // Nodes that coordinate systems are stated by: one system or two.
+    {"CORD1R", false, 0, fields({1, 2, 3, 5, 6, 7})},
+    {"CORD1C", false, 0, fields({1, 2, 3, 5, 6, 7})},
+    {"CORD1S", false, 0, fields({1, 2, 3, 5, 6, 7})},
 });
 
 void add_list(const NastranCard& card, std::size_t first, std::vector<NastranRange>& ranges) {
@@ -80,6 +96,15 @@ void add_weighted(const NastranCard& card, std::vector<NastranRange>& ranges) {
   }
 }
 
+/// Behind the first two nodes: components and a node, in turn.
+void add_spline(const NastranCard& card, std::vector<NastranRange>& ranges) {
+  for (std::size_t i = 3; i < card.field_count(); i += 2) {
+    if (const auto number = parse_integer(card.field(i))) {
+      ranges.push_back({*number, *number});
+    }
+  }
+}
+
 }  // namespace
 
 const NastranHolder* find_nastran_holder(std::string_view name) {
@@ -100,6 +125,8 @@ std::vector<NastranRange> nodes_of_nastran_card(const NastranHolder& holder, con
   }
   if (holder.name == "RBE3") {
     add_weighted(card, ranges);
+  } else if (holder.name == "RSPLINE") {
+    add_spline(card, ranges);
   }
   return ranges;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
@@ -285,6 +286,26 @@ TEST_CASE("Nastran: what constraints and loads name is a set of points, with the
                                                      {"SPC 4", {1, 3}},
                                                      {"SPC1 3", {0, 1, 2, 4}},
                                                      {"SPCD 4", {0}}});
+}
+
+TEST_CASE("Nastran: rigid elements, pressures and coordinate systems of every kind hold the nodes that they name") {
+  const std::vector<std::pair<std::string, NamedSet>> cards{
+      {"RBAR1,901,1,5,123456\n", {"RBAR1", {0, 4}}},
+      {"RJOINT,901,1,5,123456\n", {"RJOINT", {0, 4}}},
+      {"RTRPLT,901,1,2,5,123456\n", {"RTRPLT", {0, 1, 4}}},
+      {"RTRPLT1,901,1,2,5,123456\n", {"RTRPLT1", {0, 1, 4}}},
+      {"RBE1,901,1,123,3,456,,,,+\n+,UM,5,12,2,3\n", {"RBE1", {0, 1, 2, 4}}},
+      {"RSPLINE,901,.1,1,2,,3,123,5,+\n+,,4\n", {"RSPLINE", {0, 1, 2, 3, 4}}},
+      {"PLOAD,6,1.,1,2,5\n", {"PLOAD 6", {0, 1, 4}}},
+      {"TEMP,6,1,20.,5,21.\n", {"TEMP 6", {0, 4}}},
+      {"DAREA,6,1,3,1.,5,1,2.\n", {"DAREA 6", {0, 4}}},
+      {"CORD1R,7,1,2,5\n", {"CORD1R", {0, 1, 4}}},
+      {"CORD1C,7,1,2,5,8,3,4,5\n", {"CORD1C", {0, 1, 2, 3, 4}}},
+  };
+  for (const auto& [card, set] : cards) {
+    CAPTURE(card);
+    CHECK(bdf.read(small_plate + small_triangles + card).point_sets == std::vector<NamedSet>{set});
+  }
 }
 
 TEST_CASE("Nastran: comments of preprocessors name properties") {
