@@ -43,10 +43,10 @@ void unv_integers(TextBlock& text, std::size_t count, const Value& value) {
 /// What a group is written with.
 struct WrittenGroup {
   std::int64_t number = 0;
-  std::string name;
-  std::vector<std::int32_t> points;
-  std::vector<std::int32_t> elements;  ///< places among those that are written
-  bool is_apart = false;               ///< no other group that is apart has its elements
+  std::string name = {};
+  std::vector<std::int32_t> points = {};
+  std::vector<std::int32_t> elements = {};  ///< places among those that are written
+  bool is_apart = false;                    ///< no other group that is apart has its elements
 };
 
 /// A name stands on a line of its own, and is read without blanks around it.
@@ -89,7 +89,7 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     });
     of_group[i] = static_cast<std::size_t>(same - written.begin());
     if (same == written.end()) {
-      written.push_back({group.number, unv_name(group.name), {}, {}, true});
+      written.push_back({.number = group.number, .name = unv_name(group.name), .is_apart = true});
     }
   }
   for (WrittenGroup& group : written) {
@@ -111,13 +111,14 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     }
   }
   for (const NamedSet& set : document.cell_sets) {
-    WrittenGroup& group = written.emplace_back(0, unv_name(set.name), std::vector<std::int32_t>{});
+    WrittenGroup& group = written.emplace_back();
+    group.name = unv_name(set.name);
     for (const std::int32_t cell : set.members) {
       add(group, static_cast<std::size_t>(cell));
     }
   }
   for (const NamedSet& set : document.point_sets) {
-    written.push_back({0, unv_name(set.name), set.members, {}});
+    written.push_back({.name = unv_name(set.name), .points = set.members});
   }
   std::int64_t next = 1;
   for (WrittenGroup& group : written) {
