@@ -149,7 +149,7 @@ std::size_t write_within(T value, std::size_t most, char* target) {
     length = static_cast<std::size_t>(
         std::to_chars(target, target + room, value, std::chars_format::general, digits).ptr - target);
   }
-  if (std::isfinite(value) && !std::isfinite(*parse_number<T>({target, length}))) {
+  if (std::isfinite(value) && !std::isfinite(parse_number<T>({target, length}).value_or(value))) {
     length = static_cast<std::size_t>(std::to_chars(target, target + room, value, std::chars_format::scientific).ptr -
                                       target);
     const std::string text = cut_text({target, length}, most, [](const std::string& same) { return same; });
@@ -172,7 +172,7 @@ std::size_t write_within(double value, std::size_t most, NumberForm form, char* 
   for (int digits = std::numeric_limits<double>::max_digits10; text.size() > most && digits > 0; --digits) {
     text = nastran_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific, digits - 1).ptr});
   }
-  if (std::isfinite(value) && !std::isfinite(*parse_fortran_number<double>(text))) {
+  if (std::isfinite(value) && !std::isfinite(parse_fortran_number<double>(text).value_or(value))) {
     text =
         cut_text({begin, std::to_chars(begin, limit, value, std::chars_format::scientific).ptr}, most, &nastran_text);
   }

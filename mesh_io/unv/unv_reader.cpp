@@ -141,10 +141,9 @@ class UnvReader {
     const std::int64_t system = next_in_line("the coordinate system of a node");
     next_in_line("the system of a node's displacements");
     next_in_line("the colour of a node");
-    if (systems_.empty() || systems_.back().first != system) {
-      if (known_systems_.insert(system).second) {
-        systems_.emplace_back(system, offset);
-      }
+    const bool is_another = systems_.empty() || systems_.back().first != system;
+    if (is_another && known_systems_.insert(system).second) {
+      systems_.emplace_back(system, offset);
     }
     end_line();
     for (const char* const what : {"x of a node", "y of a node", "z of a node"}) {

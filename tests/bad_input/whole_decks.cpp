@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "input_checks.h"

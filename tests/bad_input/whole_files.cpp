@@ -1,9 +1,5 @@
 #include "whole_files.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <map>
-#include <optional>
 #include <regex>
 #include <sstream>
 #include <string>

@@ -1,9 +1,4 @@
 #include <algorithm>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <regex>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +7,6 @@
 #include "whole_files.h"
 
 using accepted_files::AcceptedFile;
-using trismooth::FileFormat;
 
 namespace whole_files {
 

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <string_view>

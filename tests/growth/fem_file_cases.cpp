@@ -34,7 +34,7 @@ std::string number_of(std::size_t i) {
   return std::to_string(i + 1) + " ";
 }
 std::string nothing_of(std::size_t /*i*/) {
-  return "";
+  return {};
 }
 
 constexpr std::string_view msh_4_begin = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";

@@ -154,7 +154,7 @@ void add_block_samples(std::vector<Sample>& all) {
       }
       add("tags from " + nodes[0], nodes, triangles);
       std::vector<std::string> behind = triangles;
-      behind[6] += "0";
+      behind[6] += '0';
       add("a node behind the last, tags from " + nodes[0], nodes, behind);
       behind[6] = "1 " + nodes[0] + " " + nodes[1] + " " + std::to_string(first - 1);
       add("a node before the first, tags from " + nodes[0], nodes, behind);

@@ -39,7 +39,7 @@ std::string unv_nodes(const Mesh& mesh, const UnvSpelling& spelling) {
       std::string number = fmt::format("{:25.16E}", x);
       text += number.replace(number.find('E'), 1, spelling.exponent);
     }
-    text += "\n";
+    text += '\n';
   }
   return unv_data_set(spelling.nodes, text);
 }
