@@ -60,6 +60,9 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     // meshio: format:name
     "meditref",
     "freefemlabel",
+    "2dmmaterial",
+    "mfemattribute",
+    "triangleattribute",
     "nastranref",
     "nastranpid",
     "unvgroup",

@@ -173,7 +173,21 @@ TEST_CASE("what programs call regions is known, in whatever case and however the
                                  "PartID",
                                  "su2:tag",
                                  "nastran:ref",
-                                 "avsucd:material"}) {
+                                 "avsucd:material",
+                                 // What the readers here call them.
+                                 "gmsh:physical",
+                                 "gmsh:geometrical",
+                                 "medit:ref",
+                                 "freefem:label",
+                                 "su2:zone",
+                                 "su2:marker",
+                                 "abaqus:elset",
+                                 "nastran:pid",
+                                 "2dm:material",
+                                 "mfem:attribute",
+                                 "triangle:attribute",
+                                 "unv:group",
+                                 "unv:pid"}) {
     std::string upper = name;
     std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     for (const std::string& written : {std::string(name), upper}) {
