@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/line_parts.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -14,15 +15,11 @@ char upper_case_of_inp(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-bool is_blank_of_inp(char c) {
-  return blanks.find(c) != std::string_view::npos;
-}
-
 /// In upper case, without blanks.
 std::string squeezed(std::string_view text) {
   std::string changed;
   for (const char c : text) {
-    if (!is_blank_of_inp(c)) {
+    if (!is_blank(c)) {
       changed += upper_case_of_inp(c);
     }
   }
@@ -68,7 +65,7 @@ InpLines::InpLines(std::string_view text)
 /// The next line without its end.
 std::string_view InpLines::raw_line() {
   const std::size_t begin = at_;
-  const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
+  const std::size_t end = find_line_end(text_, begin);
   at_ = end;
   if (at_ < text_.size()) {
     at_ += text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n' ? 2 : 1;
@@ -151,7 +148,7 @@ std::string inp_label(std::string_view text) {
     return std::string(text.substr(1, text.size() - 2));
   }
   std::string label(text);
-  std::erase_if(label, is_blank_of_inp);
+  std::erase_if(label, is_blank);
   return label;
 }
 

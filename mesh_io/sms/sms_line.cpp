@@ -13,7 +13,9 @@ SmsLine::SmsLine(TextScanner& scanner)
     : scanner_(scanner), offset_(scanner.offset()), line_(scanner.next_line()), word_offset_(offset_) {}
 
 std::optional<std::string_view> SmsLine::next_word() {
-  at_ = std::min(line_.find_first_not_of(blanks, at_), line_.size());
+  while (at_ < line_.size() && is_blank(line_[at_])) {
+    ++at_;
+  }
   word_offset_ = offset_ + at_;
   is_quoted_ = at_ < line_.size() && line_[at_] == '"';
   if (at_ == line_.size() || line_[at_] == '#') {
@@ -29,7 +31,10 @@ std::optional<std::string_view> SmsLine::next_word() {
     at_ = end + 1;
     return word;
   }
-  const std::size_t end = std::min(line_.find_first_of(" \t\v\f#", at_), line_.size());
+  std::size_t end = at_;
+  while (end < line_.size() && !is_blank(line_[end]) && line_[end] != '#') {
+    ++end;
+  }
   const std::string_view word = line_.substr(at_, end - at_);
   at_ = end;
   return word;

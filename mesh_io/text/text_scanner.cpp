@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 
 namespace trismooth {
@@ -35,9 +36,6 @@ constexpr std::array<unsigned char, 256> classes = make_classes();
 
 constexpr unsigned class_of(char c) {
   return classes[static_cast<unsigned char>(c)];
-}
-constexpr bool is_blank(char c) {
-  return class_of(c) == blank;
 }
 constexpr bool is_line_end(char c) {
   return class_of(c) == line_end;
