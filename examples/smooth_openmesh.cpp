@@ -24,7 +24,7 @@ trismooth::TriangleMesh load(const char* path) {
   }
   for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
     const auto corners = document.cells[cell];
-    if (corners.size() == 3) {
+    if (document.cells.types[cell] == trismooth::cell_type::triangle) {
       mesh.add_face(mesh.vertex_handle(corners[0]), mesh.vertex_handle(corners[1]), mesh.vertex_handle(corners[2]));
     }
   }

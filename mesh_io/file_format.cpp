@@ -20,7 +20,7 @@ struct FormatNames {
 };
 
 /// In the order of the enumeration.
-constexpr auto format_names = std::to_array<FormatNames>({
+constexpr auto names_of_formats = std::to_array<FormatNames>({
     {FileFormat::off, "off", "OFF", {".off"}},
     {FileFormat::obj, "obj", "OBJ", {".obj"}},
     {FileFormat::ply, "ply", "PLY", {".ply"}},
@@ -42,8 +42,8 @@ constexpr auto format_names = std::to_array<FormatNames>({
 });
 
 constexpr auto ordered_formats = [] {
-  std::array<FileFormat, format_names.size()> all{};
-  std::ranges::transform(format_names, all.begin(), &FormatNames::format);
+  std::array<FileFormat, names_of_formats.size()> all{};
+  std::ranges::transform(names_of_formats, all.begin(), &FormatNames::format);
   return all;
 }();
 
@@ -52,7 +52,7 @@ static_assert(std::ranges::all_of(ordered_formats, [](FileFormat format) {
 }));
 
 const FormatNames& names_of(FileFormat format) {
-  return format_names[static_cast<std::size_t>(format)];
+  return names_of_formats[static_cast<std::size_t>(format)];
 }
 
 std::string last_extension(const std::filesystem::path& path) {
@@ -106,8 +106,8 @@ std::optional<FileFormat> format_of(const std::filesystem::path& path) {
 }
 
 std::optional<FileFormat> format_named(std::string_view name) {
-  const auto* const found = std::ranges::find(format_names, name, &FormatNames::name);
-  return found == format_names.end() ? std::nullopt : std::optional(found->format);
+  const auto* const found = std::ranges::find(names_of_formats, name, &FormatNames::name);
+  return found == names_of_formats.end() ? std::nullopt : std::optional(found->format);
 }
 
 bool is_available(FileFormat format) {
@@ -123,6 +123,16 @@ std::string format_list() {
         listed.push_back(extension);
         list.append(list.empty() ? "" : ", ").append(extension);
       }
+    }
+  }
+  return list;
+}
+
+std::string format_names() {
+  std::string list;
+  for (const FileFormat format : ordered_formats) {
+    if (is_available(format)) {
+      list.append(list.empty() ? "" : ", ").append(to_string(format));
     }
   }
   return list;

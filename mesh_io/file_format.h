@@ -70,6 +70,9 @@ std::string format_list();
 /// "OFF (.off), OBJ (.obj), ...": the available formats with their extensions, for messages.
 std::string titled_format_list();
 
+/// "off, obj, ...": the short names of the available formats, for messages about options.
+std::string format_names();
+
 /// True for the formats that hold named arrays and take annotations (vtk, vtu, vtp, msh), false for those that do not.
 bool has_arrays(FileFormat format);
 

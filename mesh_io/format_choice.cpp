@@ -71,7 +71,7 @@ std::optional<FileFormat> only_one_recognised(std::string_view bytes) {
   const bool is_stream = path == shown_input("-");
   throw ReadError(path, (is_stream ? "the content does not show its format"
                                    : describe_unknown_extension(path) + ", and the content does not show one") +
-                            "; --format NAME tells it; known are " + titled_format_list());
+                            "; --format NAME tells it: " + format_names() + "; known are " + titled_format_list());
 }
 
 /// "as its name says", "as was told".
@@ -153,8 +153,7 @@ FileFormat output_format(const std::filesystem::path& path, std::optional<FileFo
     return *format;
   }
   if (is_standard_stream(path)) {
-    throw WriteError(shown_output(path),
-                     "nothing says its format; --format NAME tells it; known are " + titled_format_list());
+    throw WriteError(shown_output(path), "nothing says its format; --format NAME tells it: " + format_names());
   }
   if (const auto unread = unread_format_of(path)) {
     throw WriteError(path, describe_unwritten(*unread));

@@ -6,12 +6,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/document/straight_cells.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/format_choice.h"
@@ -88,6 +91,23 @@ bool holds_strips(FileFormat format) {
   return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
 }
 
+bool holds_curved_cells(FileFormat format) {
+  switch (format) {
+    case FileFormat::off:
+    case FileFormat::obj:
+    case FileFormat::ply:
+    case FileFormat::stl:
+    case FileFormat::vtp:
+    case FileFormat::su2:
+    case FileFormat::adcirc:
+    case FileFormat::freefem:
+    case FileFormat::mfem:
+      return false;
+    default:
+      return true;
+  }
+}
+
 /// What has_strips() as a format holds it that has no strips.
 std::string describe_strips(const MeshDocument& document, const MeshDocument& expanded, FileFormat target) {
   std::string name(to_string(target));
@@ -96,6 +116,34 @@ std::string describe_strips(const MeshDocument& document, const MeshDocument& ex
   const std::size_t triangles = expanded.cells.size() + static_cast<std::size_t>(strips) - document.cells.size();
   return name + " holds no triangle strips: " + std::to_string(strips) + (strips == 1 ? " is" : " are") +
          " written as " + std::to_string(triangles) + (triangles == 1 ? " triangle" : " triangles");
+}
+
+/// What has_curved_cells() as a format holds it that has straight ones only.
+std::string describe_straight(const MeshDocument& document, const MeshDocument& straight, FileFormat target) {
+  std::size_t cells = 0;
+  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
+    cells += document.cells.types[cell] == straight.cells.types[cell] ? 0 : 1;
+  }
+  const std::size_t points = document.point_count() - straight.point_count();
+  return std::string(title_of(target)) + " holds straight cells only: " + std::to_string(cells) +
+         (cells == 1 ? " curved one is" : " curved ones are") + " written by their corners" +
+         (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
+}
+
+/// The document as the target can hold it, where it cannot hold strips or curved cells that the document has; what
+/// changes thereby is added to `losses`.
+std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat target, std::vector<std::string>& losses) {
+  std::optional<MeshDocument> changed;
+  if (!holds_strips(target) && has_strips(document)) {
+    changed = with_strips_as_triangles(document);
+    losses.push_back(describe_strips(document, *changed, target));
+  }
+  if (const MeshDocument& now = changed ? *changed : document; !holds_curved_cells(target) && has_curved_cells(now)) {
+    MeshDocument straight = with_straight_cells(now);
+    losses.push_back(describe_straight(now, straight, target));
+    changed = std::move(straight);
+  }
+  return changed;
 }
 
 std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target) {
@@ -117,17 +165,17 @@ void write_plain(const std::filesystem::path& path, FileFormat format, const Mes
     return;
   }
   const bool adds = takes_added_arrays(document, format) && !(added.point_arrays.empty() && added.cell_arrays.empty());
-  const bool expands = !holds_strips(format) && has_strips(document);
-  if (!adds && !expands) {
-    codec_of(format).write_shared(path, document, FileWorkers(workers));
-    return;
-  }
-  MeshDocument changed = document;
+  std::optional<MeshDocument> changed;
   if (adds) {
-    replace_annotations(changed.point_arrays, added.point_arrays);
-    replace_annotations(changed.cell_arrays, added.cell_arrays);
+    changed = document;
+    replace_annotations(changed->point_arrays, added.point_arrays);
+    replace_annotations(changed->cell_arrays, added.cell_arrays);
   }
-  codec_of(format).write_shared(path, expands ? with_strips_as_triangles(changed) : changed, FileWorkers(workers));
+  std::vector<std::string> losses;  // said by what_is_lost()
+  if (auto held = adapted(changed ? *changed : document, format, losses)) {
+    changed = std::move(held);
+  }
+  codec_of(format).write_shared(path, changed ? *changed : document, FileWorkers(workers));
 }
 
 }  // namespace
@@ -184,12 +232,9 @@ std::vector<std::string> what_is_lost(const MeshDocument& document, FileFormat t
   if (is_written_back(document, target)) {
     return {};
   }
-  if (holds_strips(target) || !has_strips(document)) {
-    return lost_in(document, target);
-  }
-  const MeshDocument expanded = with_strips_as_triangles(document);
-  std::vector<std::string> lost{describe_strips(document, expanded, target)};
-  std::ranges::move(lost_in(expanded, target), std::back_inserter(lost));
+  std::vector<std::string> lost;
+  const std::optional<MeshDocument> changed = adapted(document, target, lost);
+  std::ranges::move(lost_in(changed ? *changed : document, target), std::back_inserter(lost));
   return lost;
 }
 

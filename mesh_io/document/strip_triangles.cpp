@@ -1,27 +1,11 @@
 #include "trismooth/mesh_io/document/strip_triangles.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
+#include "trismooth/mesh_io/document/array_rows.h"
+
 namespace trismooth {
-
-namespace {
-
-/// The array with a row for each of `rows`, which number rows of `array`.
-DataArray with_rows(const DataArray& array, std::span<const std::size_t> rows) {
-  const std::size_t row_bytes = array.components * size_of(array.type);
-  std::vector<std::byte> bytes;
-  bytes.reserve(rows.size() * row_bytes);
-  for (const std::size_t row : rows) {
-    const auto from = array.bytes.subspan(row * row_bytes, row_bytes);
-    bytes.insert(bytes.end(), from.begin(), from.end());
-  }
-  const auto owner = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
-  return {array.name, array.type, array.components, *owner, owner};
-}
-
-}  // namespace
 
 bool has_strips(const MeshDocument& document) {
   return std::ranges::find(document.cells.types, cell_type::triangle_strip) != document.cells.types.end();

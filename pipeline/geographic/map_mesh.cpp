@@ -134,10 +134,14 @@ bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document) {
   if (format != "adcirc" && format != "2dm") {
     return false;
   }
+  // Large as an ocean, or far from where the axes of a basin in metres meet.
   constexpr double least_extent = 3;
+  constexpr double least_distance = 3;  // in extents
   const DegreeRange range = range_of(mesh, document);
+  const double extent = std::max(range.east - range.west, range.north - range.south);
+  const double distance = std::max(std::abs(range.east + range.west), std::abs(range.north + range.south)) / 2;
   return range.west >= -180 && range.east <= 360 && range.south >= -90 && range.north <= 90 &&
-         std::max(range.east - range.west, range.north - range.south) > least_extent;
+         (extent > least_extent || distance > least_distance * extent);
 }
 
 }  // namespace trismooth

@@ -301,6 +301,9 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
       rows.emplace_back("sizes by array", escape_html(*options.size_array));
     }
   }
+  if (options.geographic) {
+    rows.emplace_back("map", "longitude and latitude; shapes and angles are those on the sphere");
+  }
   if (options.fixed_array) {
     rows.emplace_back("fixed by array", escape_html(*options.fixed_array));
   }

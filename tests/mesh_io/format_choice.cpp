@@ -140,8 +140,8 @@ TEST_CASE("what no format recognises is left to the format of the extension, who
 TEST_CASE("an unknown extension is told with all that are known, and the one that may be meant") {
   CHECK(refusal("mesh.foo", "?") ==
         "mesh.foo: the extension '.foo' names no format, and the content does not show one; "
-        "--format NAME tells it; known are " +
-            trismooth::titled_format_list());
+        "--format NAME tells it: " +
+            trismooth::format_names() + "; known are " + trismooth::titled_format_list());
   CHECK(says(refusal("mesh.offf", "?"), "the extension '.offf' names no format (did you mean '.off'?)"));
   CHECK(says(refusal("mesh", "?"), "mesh: has no extension that names a format"));
   CHECK(says(trismooth::titled_format_list(), "OFF (.off), OBJ (.obj), PLY (.ply), STL (.stl), legacy VTK (.vtk)"));

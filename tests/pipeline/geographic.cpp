@@ -99,6 +99,9 @@ TEST_CASE("a mesh of the oceans' formats that looks like degrees gets a note wit
     CAPTURE(extension);
     CHECK(is_noted(degrees, extension, false));
     CHECK_FALSE(is_noted(degrees, extension, true));
+    // A bay, to the east and to the west.
+    CHECK(is_noted(patch(10, 58, 1, 0.4), extension, false));
+    CHECK(is_noted(patch(-71, 41, 0.5, 0.5), extension, false));
     // A basin of some metres, and one of kilometres.
     CHECK_FALSE(is_noted(patch(0, 0, 2, 1), extension, false));
     MeshDocument kilometres = degrees;

@@ -1,0 +1,93 @@
+#include "trismooth/mesh_io/document/straight_cells.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_file.h"
+
+#include "catch.h"
+#include "support/text_format.h"
+
+using trismooth::FileFormat;
+using trismooth::find_array;
+using trismooth::make_data_array;
+using trismooth::MeshDocument;
+using trismooth::NamedSet;
+using trismooth::what_is_lost;
+
+namespace cell_type = trismooth::cell_type;
+
+namespace {
+
+/// A square of two triangles of six nodes, an edge of three at its bottom, and a straight line at one of its middles.
+/// Points 0 to 3 are corners.
+MeshDocument square() {
+  MeshDocument document;
+  document.points = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 1, 0, 9, 9, 0};
+  document.cells.append(cell_type::quadratic_triangle, std::vector<std::int32_t>{0, 1, 2, 4, 5, 6});
+  document.cells.append(cell_type::quadratic_triangle, std::vector<std::int32_t>{0, 2, 3, 6, 7, 8});
+  document.cells.append(cell_type::quadratic_edge, std::vector<std::int32_t>{0, 1, 4});
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{7, 3});
+  document.point_arrays.push_back(
+      make_data_array("depth", 1, std::vector<double>{0, 10, 20, 30, 40, 50, 60, 70, 80, 90}));
+  document.cell_arrays.push_back(make_data_array("region", 1, std::vector<std::int32_t>{1, 2, 3, 3}));
+  document.point_sets = {{"some", {1, 5, 7}}, {"middles", {4, 6}}};
+  return document;
+}
+
+}  // namespace
+
+TEST_CASE("curved cells become those of their corners, without the points in the middle of their sides alone") {
+  const MeshDocument straight = with_straight_cells(square());
+  CHECK(straight.cells.types ==
+        std::vector<std::uint8_t>{cell_type::triangle, cell_type::triangle, cell_type::line, cell_type::line});
+  // Point 7 is that of a line too, and 9 was of no cell before.
+  CHECK(straight.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 0, 1, 4, 3});
+  CHECK(straight.points == std::vector<double>{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 2, 0, 9, 9, 0});
+  const auto depths = find_array(straight.point_arrays, "depth")->as<double>();
+  CHECK(std::vector<double>(depths.begin(), depths.end()) == std::vector<double>{0, 10, 20, 30, 70, 90});
+  CHECK(straight.point_sets == std::vector<NamedSet>{{"some", {1, 4}}, {"middles", {}}});
+  CHECK(find_array(straight.cell_arrays, "region")->rows() == 4);
+}
+
+TEST_CASE("quadrilaterals of eight and nine nodes become those of four, and straight meshes stay as they are") {
+  MeshDocument document;
+  document.points.resize(27);
+  document.cells.append(cell_type::quadratic_quad, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7});
+  document.cells.append(cell_type::biquadratic_quad, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8});
+  CHECK(has_curved_cells(document));
+  const MeshDocument straight = with_straight_cells(document);
+  CHECK(straight.cells.types == std::vector<std::uint8_t>{cell_type::quad, cell_type::quad});
+  CHECK(straight.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 3, 0, 1, 2, 3});
+  CHECK(straight.point_count() == 4);
+  CHECK_FALSE(has_curved_cells(straight));
+}
+
+TEST_CASE("formats that hold straight cells only get the triangles of a curved mesh, and a note says so") {
+  for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl, FileFormat::su2,
+                                  FileFormat::adcirc, FileFormat::freefem, FileFormat::mfem}) {
+    CAPTURE(title_of(format));
+    const TextFormat text{std::string(extensions_of(format).front())};
+    MeshDocument curved = square();
+    curved.format = format;
+    const MeshDocument read = text.read(text.written(curved));
+    std::size_t triangles = 0;
+    for (const std::uint8_t type : read.cells.types) {
+      triangles += type == cell_type::triangle ? 1 : 0;
+    }
+    CHECK(triangles == 2);
+    CHECK(what_is_lost(curved, format).front() ==
+          std::string(title_of(format)) +
+              " holds straight cells only: 3 curved ones are written by their corners, without 4 points in the middle "
+              "of sides");
+  }
+  for (const FileFormat format : {FileFormat::msh, FileFormat::vtk, FileFormat::medit, FileFormat::inp, FileFormat::sms,
+                                  FileFormat::nastran, FileFormat::unv}) {
+    CAPTURE(title_of(format));
+    const TextFormat text{std::string(extensions_of(format).front())};
+    const MeshDocument read = text.read(text.written(square()));
+    CHECK(std::count(read.cells.types.begin(), read.cells.types.end(), cell_type::quadratic_triangle) == 2);
+  }
+}
