@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
+#include "trismooth/mesh_io/msh/msh_fields.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
@@ -33,6 +36,7 @@ class MshEntityPlanner {
   MshEntityPlan plan() {
     find_element_types();
     plan_groups();
+    rename_groups();
     find_geometrical();
     find_entities();
     classify_points();
@@ -97,6 +101,24 @@ class MshEntityPlanner {
           place = place_of_set(set.name, dimension, free_tag);
         }
         groups_of_cells_[cell].push_back(place);
+      }
+    }
+  }
+
+  /// Names stand between quotation marks, on one line. Those that are changed stay apart from all others.
+  void rename_groups() {
+    std::map<int, FreeNames> names;
+    const auto is_held = [](const std::string& name) { return plain_msh_name(name) == name; };
+    for (const MshPlannedGroup& group : plan_.groups) {
+      if (is_held(group.name)) {
+        names[group.dimension].take(group.name);
+      }
+    }
+    for (MshPlannedGroup& group : plan_.groups) {
+      if (!is_held(group.name)) {
+        std::string name = names[group.dimension].claim(plain_msh_name(group.name));
+        plan_.renamed.push_back(trismooth::quoted(group.name) + " (as " + name + ")");
+        group.name = std::move(name);
       }
     }
   }

@@ -33,6 +33,7 @@ struct MshEntityPlan {
   std::string group_array;                 ///< the cell array that the groups are from; empty: none
   bool keeps_entities = false;             ///< the tags are those of the array gmsh:geometrical
   bool renumbers_groups = false;           ///< some group's number is none that Gmsh can have
+  std::vector<std::string> renamed{};      ///< "'a"b' (as a_b)": groups whose names Gmsh cannot have
 };
 
 /// Complexity: n log g in the cells and their groups.

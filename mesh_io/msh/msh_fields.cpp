@@ -58,12 +58,15 @@ std::size_t msh_components(const DataArray& array) {
   }
 }
 
+std::string plain_msh_name(std::string_view name) {
+  std::string plain(name);
+  std::ranges::replace_if(
+      plain, [](char c) { return c == '"' || static_cast<unsigned char>(c) < ' '; }, '_');
+  return plain;
+}
+
 std::string quoted_msh_name(std::string_view name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    text += c == '"' || static_cast<unsigned char>(c) < ' ' ? '_' : c;
-  }
-  return text + '"';
+  return '"' + plain_msh_name(name) + '"';
 }
 
 void write_msh_field(OrderedBlocks& blocks, const MshHeader& header, const MshFieldRows& rows, const DataArray& array) {

@@ -27,7 +27,10 @@ std::size_t msh_components(const DataArray& array);
 /// where msh_components() is 0.
 void write_msh_field(OrderedBlocks& blocks, const MshHeader& header, const MshFieldRows& rows, const DataArray& array);
 
-/// The name between quotes, within which nothing else may stand.
+/// The name as a file can have it: without quotation marks, on one line.
+std::string plain_msh_name(std::string_view name);
+
+/// The same between quotation marks.
 std::string quoted_msh_name(std::string_view name);
 
 }  // namespace trismooth

@@ -277,6 +277,13 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
     sentences.push_back("MSH holds fields of floating point: " + array_names(rounded) +
                         (rounded.size() == 1 ? " is rounded" : " are rounded"));
   }
+  if (!plan.renamed.empty()) {
+    std::string names;
+    for (const std::string& name : plan.renamed) {
+      names.append(names.empty() ? "" : ", ").append(name);
+    }
+    sentences.push_back("MSH holds names without quotation marks: changed are " + names);
+  }
   if (plan.renumbers_groups) {
     sentences.push_back("MSH numbers groups from 1: those of " + plan.group_array + " with other numbers get new ones");
   }

@@ -30,6 +30,13 @@ constexpr auto holders = std::to_array<NastranHolder>({
     {"MOMENT", true, 0, fields({1})},
     {"MOMENT1", true, 0, fields({1, 3, 4})},
     {"MOMENT2", true, 0, fields({1, 3, 4, 5, 6})},
+    {"SPCR", true, 0, fields({1, 4})},
+    {"SLOAD", true, 0, fields({1, 3, 5})},
+    {"BNDGRID", false, 1},
+    {"TEMPBC", true, 0, fields({3, 5, 7})},
+    {"QHBDY", true, 4},
+    {"CHBDYP", false, 0, fields({5, 6, 7})},
+    {"ACCEL1", true, 8},
     {"PLOAD", true, 0, fields({2, 3, 4, 5})},
     {"TEMP", true, 0, fields({1, 3, 5})},
     {"DAREA", true, 0, fields({1, 4})},
@@ -43,6 +50,7 @@ constexpr auto holders = std::to_array<NastranHolder>({
     {"RTRPLT1", false, 0, fields({1, 2, 3})},
     {"RBE1", false, 0, fields({1, 3, 5}), true},
     {"RSPLINE", false, 0, fields({2})},
+    {"RSSCON", false, 0, fields({2, 3, 4, 5, 6, 7})},
     {"RBE2", false, 3, fields({1})},
     {"RBE3", false, 0, fields({2})},
     {"CELAS1", false, 0, fields({2, 4})},
@@ -114,6 +122,9 @@ const NastranHolder* find_nastran_holder(std::string_view name) {
 
 std::vector<NastranRange> nodes_of_nastran_card(const NastranHolder& holder, const NastranCard& card) {
   std::vector<NastranRange> ranges;
+  if (holder.name == "RSSCON" && nastran_key(card.field(1)) != "GRID") {
+    return ranges;  // it names elements
+  }
   for (std::size_t i = 0; i < card.field_count() && (holder.every_row || i < most_nastran_fields); ++i) {
     const auto number = parse_integer(card.field(i));
     if (number && ((holder.nodes_of_row >> (i % most_nastran_fields)) & 1U) != 0) {

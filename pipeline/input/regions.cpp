@@ -15,6 +15,7 @@
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
+#include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
@@ -28,6 +29,7 @@ constexpr double most_edges_of_others = 1.0 / 3;
 struct Candidate {
   DataArray array;
   const LabelArray* labels = nullptr;
+  ValueNames names{array, 2};
 
   /// The value in a row, or what it is called; `with_value`: both.
   std::string text(std::size_t row, bool with_value) const {
@@ -35,7 +37,7 @@ struct Candidate {
       return labels->labels[static_cast<std::size_t>(labels->of_row[row])];
     }
     std::string value = value_text(array, row);
-    const std::string name = value_name(array, 2, value);
+    const std::string name = names.of(value);
     if (name.empty()) {
       return value;
     }

@@ -91,17 +91,6 @@ bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const
   });
 }
 
-std::string value_name(const DataArray& array, int dimension, std::string_view value) {
-  if (array.description != nullptr) {
-    for (const ValueName& name : array.description->value_names) {
-      if (name.dimension == dimension && std::to_string(name.value) == value) {
-        return name.name;
-      }
-    }
-  }
-  return {};
-}
-
 std::string value_text(const DataArray& array, std::size_t row) {
   return visit_scalar_type(array.type, [&](auto zero) {
     const auto value = stored_value<decltype(zero)>(array, row);

@@ -31,9 +31,6 @@ ValueNumbers number_pairs(const ValueNumbers& first, const ValueNumbers& second)
 /// Whether every value is a whole number.
 bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const ValueNumbers& numbers);
 
-/// What the array calls `value`, as value_text() writes it, at cells of that dimension; empty where it has no name.
-std::string value_name(const DataArray& array, int dimension, std::string_view value);
-
 /// The value at a row of a one-component array as text, exact: "7", "0.5", "nan".
 std::string value_text(const DataArray& array, std::size_t row);
 

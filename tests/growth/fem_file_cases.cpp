@@ -206,7 +206,7 @@ std::string unv_groups(int count) {
     return "    -1\n" + number + "\n" + records + "    -1\n";
   };
   return set("2411", rows(
-                         plate_points, [](std::size_t i) { return number_of(i) + "1 1 11\n"; }, " ")) +
+                         plate_points, [](std::size_t i) { return number_of(i) + "1 1 11\n"; }, " ", " 0\n")) +
          set("2412", rows(
                          plate_corners_from_1, [](std::size_t i) { return number_of(i) + "91 1 0 7 3\n"; }, " ")) +
          set("2467", repeated(count,

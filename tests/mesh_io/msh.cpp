@@ -333,6 +333,26 @@ TEST_CASE("a document from elsewhere becomes an MSH file with entities for its g
   CHECK(again.cell_sets == document.cell_sets);
 }
 
+TEST_CASE("names of groups with quotation marks are changed, stay apart from each other, and are told") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  for (int i = 0; i < 4; ++i) {
+    document.cells.append(trismooth::cell_type::triangle, std::vector<std::int32_t>{0, 1, 2});
+  }
+  document.cell_sets = {{"a_b", {0}}, {"a\"b", {1}}, {"a\nb", {2}}, {"plain", {3}}};
+  const MeshDocument read = read_msh_text(written_as_msh(document));
+  std::vector<std::string> names;
+  for (const trismooth::ValueName& name : find_array(read.cell_arrays, "gmsh:physical")->description->value_names) {
+    names.push_back(name.name);
+  }
+  CHECK(names == std::vector<std::string>{"a_b", "a_b_1", "a_b_2", "plain"});
+  CHECK(msh_codec.what_is_lost(document) ==
+        std::vector<std::string>{"MSH holds names without quotation marks: changed are 'a\"b' (as a_b_1), 'a?b' (as "
+                                 "a_b_2)"});
+  document.cell_sets = {{"plain", {3}}};
+  CHECK(msh_codec.what_is_lost(document).empty());
+}
+
 TEST_CASE("tags of any kind are found, and those given twice") {
   trismooth::MshTags tags;
   tags.add(std::vector<std::int64_t>{7, 8, 9, 1000000000000, 3, 4});

@@ -296,6 +296,14 @@ TEST_CASE("Nastran: rigid elements, pressures and coordinate systems of every ki
       {"RTRPLT1,901,1,2,5,123456\n", {"RTRPLT1", {0, 1, 4}}},
       {"RBE1,901,1,123,3,456,,,,+\n+,UM,5,12,2,3\n", {"RBE1", {0, 1, 2, 4}}},
       {"RSPLINE,901,.1,1,2,,3,123,5,+\n+,,4\n", {"RSPLINE", {0, 1, 2, 3, 4}}},
+      {"RSSCON,901,GRID,1,2,5\n", {"RSSCON", {0, 1, 4}}},
+      {"SPCR,6,1,3,1.,5,1,2.\n", {"SPCR 6", {0, 4}}},
+      {"SLOAD,6,1,3.,5,1.\n", {"SLOAD 6", {0, 4}}},
+      {"BNDGRID,123,1,THRU,3\n", {"BNDGRID", {0, 1, 2}}},
+      {"TEMPBC,6,STAT,20.,1,21.,5\n", {"TEMPBC 6", {0, 4}}},
+      {"QHBDY,6,AREA4,1.,.1,1,2,5\n", {"QHBDY 6", {0, 1, 4}}},
+      {"CHBDYP,6,7,LINE,,,1,2\n", {"CHBDYP", {0, 1}}},
+      {"ACCEL1,6,0,1.,0.,0.,1.,,,+\n+,1,THRU,2\n", {"ACCEL1 6", {0, 1}}},
       {"PLOAD,6,1.,1,2,5\n", {"PLOAD 6", {0, 1, 4}}},
       {"TEMP,6,1,20.,5,21.\n", {"TEMP 6", {0, 4}}},
       {"DAREA,6,1,3,1.,5,1,2.\n", {"DAREA 6", {0, 4}}},
@@ -306,6 +314,7 @@ TEST_CASE("Nastran: rigid elements, pressures and coordinate systems of every ki
     CAPTURE(card);
     CHECK(bdf.read(small_plate + small_triangles + card).point_sets == std::vector<NamedSet>{set});
   }
+  CHECK(bdf.read(small_plate + small_triangles + "RSSCON,901,ELEM,1,2,4\n").point_sets.empty());
 }
 
 TEST_CASE("Nastran: comments of preprocessors name properties") {
