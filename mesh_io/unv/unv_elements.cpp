@@ -15,7 +15,7 @@ enum class UnvFamily : std::uint8_t { none, line, triangle, quadrilateral, tetra
 
 constexpr std::array<std::uint8_t, 3> edge_places{0, 2, 1};
 constexpr std::array<std::uint8_t, 6> triangle_places{0, 2, 4, 1, 3, 5};
-constexpr std::array<std::uint8_t, 9> quadrilateral_places{0, 2, 4, 6, 1, 3, 5, 7, 8};
+constexpr std::array<std::uint8_t, 8> quadrilateral_places{0, 2, 4, 6, 1, 3, 5, 7};
 constexpr std::array<std::uint8_t, 10> tetrahedron_places{0, 2, 4, 9, 1, 3, 5, 6, 7, 8};
 constexpr std::array<std::uint8_t, 15> wedge_places{0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8};
 constexpr std::array<std::uint8_t, 20> hexahedron_places{0, 2, 4,  6,  12, 14, 16, 18, 1,  3,
@@ -34,7 +34,8 @@ constexpr auto unv_shapes = std::to_array<UnvFamilyShape>({
     {UnvFamily::triangle, {cell_type::quadratic_triangle, 6, 92, triangle_places.data()}},
     {UnvFamily::quadrilateral, {cell_type::quad, 4, 94}},
     {UnvFamily::quadrilateral, {cell_type::quadratic_quad, 8, 95, quadrilateral_places.data()}},
-    {UnvFamily::quadrilateral, {cell_type::biquadratic_quad, 9, 94, quadrilateral_places.data()}},
+    // No element of the format: Gmsh writes it corners first, and reads these alone.
+    {UnvFamily::quadrilateral, {cell_type::biquadratic_quad, 9, 94}},
     {UnvFamily::tetrahedron, {cell_type::tetrahedron, 4, 111}},
     {UnvFamily::tetrahedron, {cell_type::quadratic_tetrahedron, 10, 118, tetrahedron_places.data()}},
     {UnvFamily::wedge, {cell_type::wedge, 6, 112}},

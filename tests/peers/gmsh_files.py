@@ -357,6 +357,29 @@ class MshBecomesUnv(GmshTest):
                     # Gmsh reads a name up to its first blank.
                     self.assertEqual(self.rounded(found[dimension, name.split()[0]]), self.rounded(cells), name)
 
+    def test_quadrilaterals_of_nine_nodes_keep_their_order(self):
+        gmsh_model.build(order=2, quads=True)
+        expected = self.quadrilaterals()
+        self.assertGreater(len(expected), 10)
+        gmsh_model.write(self.path("nine.unv"))
+        gmsh_model.write(self.path("nine.msh"), MshFileVersion=4.1)
+        held = self.hold_everything(self.report("quality", "nine.msh")["input"]["vertices"])
+        self.run_tool("smooth", "nine.unv", "from_unv.msh", *held)
+        gmsh_model.open_file(self.path("from_unv.msh"))
+        self.assertEqual(self.quadrilaterals(), expected)
+        # Gmsh reads the corners of such elements, which have to be these.
+        self.run_tool("smooth", "nine.msh", "to.unv", *held)
+        gmsh_model.open_file(self.path("to.unv"))
+        self.assertEqual(self.quadrilaterals(kind=3), sorted(cell[:4] for cell in expected))
+
+    def quadrilaterals(self, kind=10):
+        """Their nodes' places, in the order of Gmsh: corners first."""
+        where = gmsh_model.points()
+        elements, nodes = gmsh.model.mesh.getElementsByType(kind)
+        places = [tuple(round(float(x), 12) for x in where[int(node)]) for node in nodes]
+        each = len(places) // len(elements)
+        return sorted(tuple(places[i:i + each]) for i in range(0, len(places), each))
+
     def rounded(self, cells):
         """Gmsh itself lays periodic nodes of MSH files on each other, to the last digit."""
         return sorted(tuple(sorted(tuple(round(float(x), 12) for x in place) for place in cell)) for cell in cells)
