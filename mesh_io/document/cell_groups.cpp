@@ -35,15 +35,17 @@ const DataArray* group_array(const MeshDocument& document) {
   return nullptr;
 }
 
-std::string name_of(const DataArray& array, int dimension, std::int64_t value) {
+using GroupKey = std::pair<int, std::int64_t>;  // dimension and value
+
+/// The names of values: the first of each.
+std::map<GroupKey, std::string> names_of(const DataArray& array) {
+  std::map<GroupKey, std::string> names;
   if (array.description != nullptr) {
     for (const ValueName& name : array.description->value_names) {
-      if (name.dimension == dimension && name.value == value) {
-        return name.name;
-      }
+      names.try_emplace({name.dimension, name.value}, name.name);
     }
   }
-  return {};
+  return names;
 }
 
 std::vector<std::int64_t> values_of(const DataArray& array) {
@@ -62,22 +64,23 @@ CellGroups find_cell_groups(const MeshDocument& document) {
   if (array == nullptr) {
     return {};
   }
-  using Key = std::pair<int, std::int64_t>;
   const std::vector<std::int64_t> values = values_of(*array);
   const CellList& cells = document.cells;
-  std::map<Key, std::int32_t> places;
+  std::map<GroupKey, std::int32_t> places;
   // Cells of one group stand together, mostly.
-  Key last{-1, 0};
+  GroupKey last{-1, 0};
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    if (const Key key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
+    if (const GroupKey key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
       places.emplace(last = key, 0);
     }
   }
+  const std::map<GroupKey, std::string> names = names_of(*array);
   CellGroups found;
   found.array = array->name;
   for (auto& [key, place] : places) {
     const auto& [dimension, value] = key;
-    CellGroup group{dimension, value, name_of(*array, dimension, value)};
+    const auto name = names.find(key);
+    CellGroup group{dimension, value, name == names.end() ? std::string() : name->second};
     const auto first = places.lower_bound({dimension, std::numeric_limits<std::int64_t>::min()});
     const bool alone =
         first->first == key && (std::next(first) == places.end() || std::next(first)->first.first != dimension);
@@ -92,7 +95,7 @@ CellGroups find_cell_groups(const MeshDocument& document) {
   last = {-1, 0};
   std::int32_t place = -1;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    if (const Key key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
+    if (const GroupKey key{cell_type::dimension(cells.types[cell]), values[cell]}; key != last) {
       place = places.at(last = key);
     }
     found.of_cell[cell] = place;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -82,13 +83,12 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
   std::set<std::int64_t> taken;
   std::vector<std::size_t> of_group(groups.groups.size());
   // One group where lines and faces share number and name.
+  std::map<std::pair<std::int64_t, std::string>, std::size_t> known;
   for (std::size_t i = 0; i < groups.groups.size(); ++i) {
     const CellGroup& group = groups.groups[i];
-    const auto same = std::ranges::find_if(written, [&group](const WrittenGroup& other) {
-      return other.number == group.number && other.name == unv_name(group.name);
-    });
-    of_group[i] = static_cast<std::size_t>(same - written.begin());
-    if (same == written.end()) {
+    const auto [place, is_new] = known.try_emplace({group.number, unv_name(group.name)}, written.size());
+    of_group[i] = place->second;
+    if (is_new) {
       written.push_back({.number = group.number, .name = unv_name(group.name), .is_apart = true});
     }
   }
