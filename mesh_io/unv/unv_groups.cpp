@@ -27,13 +27,105 @@ bool names_others(const std::vector<std::int64_t>& ids, const PointIds& known) {
   return std::ranges::any_of(ids, [&known](std::int64_t id) { return !known.find(id); });
 }
 
+using Dimensions = std::array<bool, 4>;
+
+std::size_t dimension_of(const CellList& cells, std::int32_t cell) {
+  return static_cast<std::size_t>(cell_type::dimension(cells.types[static_cast<std::size_t>(cell)]));
+}
+
+Dimensions dimensions_of(const CellList& cells, const std::vector<std::int32_t>& members) {
+  Dimensions dimensions{};
+  for (const std::int32_t cell : members) {
+    dimensions.at(dimension_of(cells, cell)) = true;
+  }
+  return dimensions;
+}
+
+/// The value that stands for each group: its number, where no group before it has that for cells of such a dimension
+/// (lines and faces may be numbered by themselves), else one that no group has.
+std::vector<std::int64_t> values_of_groups(const std::vector<UnvGroup>& groups,
+                                           const std::vector<Dimensions>& dimensions) {
+  std::set<std::int64_t> numbers{0};
+  for (const UnvGroup& group : groups) {
+    numbers.insert(group.number);
+  }
+  std::array<std::set<std::int64_t>, 4> taken;
+  std::vector<std::int64_t> values;
+  std::int64_t next = 1;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::int64_t value = groups[i].number;
+    bool is_free = value != 0;
+    for (std::size_t dimension = 0; dimension < taken.size(); ++dimension) {
+      is_free = is_free && !(dimensions[i].at(dimension) && taken.at(dimension).contains(value));
+    }
+    if (!is_free) {
+      while (!numbers.insert(next).second) {
+        ++next;
+      }
+      value = next;
+    }
+    for (std::size_t dimension = 0; dimension < taken.size(); ++dimension) {
+      if (dimensions[i].at(dimension)) {
+        taken.at(dimension).insert(value);
+      }
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+/// Gives each cell the value of the smallest group that it is in: a group of all faces is no region beside those of the
+/// materials, wherever it stands. The others become sets of cells. `cells` are those of each group.
+void add_regions(const std::vector<UnvGroup>& groups, std::vector<std::vector<std::int32_t>> cells,
+                 MeshDocument& document) {
+  std::vector<Dimensions> dimensions;
+  std::vector<std::size_t> by_size;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    dimensions.push_back(dimensions_of(document.cells, cells[i]));
+    if (!cells[i].empty()) {
+      by_size.push_back(i);
+    }
+  }
+  if (by_size.empty()) {
+    return;
+  }
+  const std::vector<std::int64_t> values = values_of_groups(groups, dimensions);
+  std::ranges::stable_sort(by_size, {}, [&cells](std::size_t i) { return cells[i].size(); });
+  std::vector<std::int64_t> of_cell(document.cells.size());
+  std::vector<bool> is_whole(groups.size(), true);
+  std::vector<Dimensions> named(groups.size(), Dimensions{});
+  for (const std::size_t i : by_size) {
+    for (const std::int32_t cell : cells[i]) {
+      std::int64_t& value = of_cell[static_cast<std::size_t>(cell)];
+      if (value == 0) {
+        value = values[i];
+        named[i].at(dimension_of(document.cells, cell)) = true;
+      } else {
+        is_whole[i] = false;
+      }
+    }
+  }
+  ArrayDescription description;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (std::size_t dimension = 0; dimension < named[i].size(); ++dimension) {
+      if (named[i].at(dimension)) {
+        description.value_names.push_back({values[i], static_cast<int>(dimension), groups[i].name});
+      }
+    }
+    if (!is_whole[i]) {
+      document.cell_sets.push_back({groups[i].name, std::move(cells[i])});
+    }
+  }
+  DataArray array = make_data_array("unv:group", 1, std::move(of_cell));
+  array.description = std::make_shared<const ArrayDescription>(std::move(description));
+  document.cell_arrays.push_back(std::move(array));
+}
+
 }  // namespace
 
 void add_unv_groups(std::vector<UnvGroup> groups, const PointIds& nodes, const PointIds& elements,
                     MeshDocument& document) {
-  std::vector<std::int64_t> of_cell;
-  std::set<std::int64_t> numbers;
-  ArrayDescription description;
+  std::vector<std::vector<std::int32_t>> cells;
   std::string with_others;
   for (UnvGroup& group : groups) {
     if (group.name.empty()) {
@@ -45,38 +137,9 @@ void add_unv_groups(std::vector<UnvGroup> groups, const PointIds& nodes, const P
     if (std::vector<std::int32_t> points = places_of(group.nodes, nodes); !points.empty()) {
       document.point_sets.push_back({group.name, std::move(points)});
     }
-    std::vector<std::int32_t> cells = places_of(group.elements, elements);
-    if (cells.empty()) {
-      continue;
-    }
-    of_cell.resize(document.cells.size());
-    bool is_apart = group.number != 0 && numbers.insert(group.number).second;
-    if (is_apart) {
-      std::array<bool, 4> dimensions{};
-      for (const std::int32_t cell : cells) {
-        std::int64_t& value = of_cell[static_cast<std::size_t>(cell)];
-        is_apart = is_apart && value == 0;
-        if (value == 0) {
-          value = group.number;
-          dimensions.at(static_cast<std::size_t>(
-              cell_type::dimension(document.cells.types[static_cast<std::size_t>(cell)]))) = true;
-        }
-      }
-      for (std::size_t dimension = 0; dimension < dimensions.size(); ++dimension) {
-        if (dimensions.at(dimension)) {
-          description.value_names.push_back({group.number, static_cast<int>(dimension), group.name});
-        }
-      }
-    }
-    if (!is_apart) {
-      document.cell_sets.push_back({group.name, std::move(cells)});
-    }
+    cells.push_back(places_of(group.elements, elements));
   }
-  if (std::ranges::any_of(of_cell, [](std::int64_t value) { return value != 0; })) {
-    DataArray array = make_data_array("unv:group", 1, std::move(of_cell));
-    array.description = std::make_shared<const ArrayDescription>(std::move(description));
-    document.cell_arrays.push_back(std::move(array));
-  }
+  add_regions(groups, std::move(cells), document);
   if (!with_others.empty()) {
     document.notes.push_back("Groups name nodes or elements that are not in the file: " + with_others + ".");
   }

@@ -17,9 +17,9 @@ struct UnvGroup {
   std::vector<std::int64_t> elements;
 };
 
-/// Adds to the document, whose cells are there, the array unv:group of the first group of each cell, groups that hold
-/// cells of another one too as sets of cells, nodes as sets of points, and a note where a group names what is not
-/// there. `nodes` and `elements` tell the places of ids. Complexity: linear in all members.
+/// Adds to the document, whose cells are there, the array unv:group of the smallest group of each cell (the first of
+/// these), groups of which others have cells as sets of cells, nodes as sets of points, and a note where a group names
+/// what is not there. `nodes` and `elements` tell the places of ids. Complexity: n log n in all members.
 void add_unv_groups(std::vector<UnvGroup> groups, const PointIds& nodes, const PointIds& elements,
                     MeshDocument& document);
 

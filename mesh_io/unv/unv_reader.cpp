@@ -1,5 +1,6 @@
 // Universal files (I-deas): data sets between lines with -1. Read are the nodes (2411, 781), the elements (2412, 780)
-// and the groups (2435, 2452, 2467, 2477) as the reference of the format describes their records.
+// and the groups (2435, 2452, 2467, 2477, and the older 2417, 2429, 2430, 2432) as the reference of the format
+// describes their records.
 #include "trismooth/mesh_io/unv/unv_reader.h"
 
 #include <algorithm>
@@ -69,7 +70,9 @@ class UnvReader {
     } else if (number == "2412" || number == "780") {
       read_records([this, is_old = number == "780"] { read_element(is_old); });
     } else if (number == "2435" || number == "2452" || number == "2467" || number == "2477") {
-      read_records([this] { read_group(); });
+      read_records([this] { read_group(false); });
+    } else if (number == "2417" || number == "2429" || number == "2430" || number == "2432") {
+      read_records([this] { read_group(true); });
     } else if (number == "2420") {
       read_systems();
     } else if (number == "15" || number == "71") {
@@ -189,6 +192,9 @@ class UnvReader {
   }
 
   void read_element(bool is_old) {
+    if (element_ids_.size() == std::numeric_limits<std::int32_t>::max()) {
+      scanner_.fail("has more elements than 32-bit indices can tell apart");
+    }
     element_ids_.push_back(scanner_.next_integer("the label of an element", 0, any_unv_integer));
     element_offsets_.push_back(scanner_.token_offset());
     const std::int64_t descriptor = next_in_line("the descriptor of an element");
@@ -239,7 +245,8 @@ class UnvReader {
     document_.cells.offsets.push_back(static_cast<std::int64_t>(references_.size()));
   }
 
-  void read_group() {
+  /// Members of old groups are a kind and a number, others have two numbers more.
+  void read_group(bool is_old) {
     UnvGroup& group = groups_.emplace_back();
     group.number = scanner_.next_integer("the number of a group", 0, any_unv_integer);
     constexpr std::size_t other_numbers = 6;  // of sets of constraints, loads and so on
@@ -247,19 +254,20 @@ class UnvReader {
       next_in_line("a number of a group");
     }
     const std::int64_t members = next_in_line("the number of members of a group", 0);
-    // Four numbers each.
-    require_room(scanner_.path(), "members of a group", static_cast<std::uint64_t>(members), 8,
+    require_room(scanner_.path(), "members of a group", static_cast<std::uint64_t>(members), is_old ? 4 : 8,
                  scanner_.text().size() - scanner_.offset() + 1);
     end_line();
     group.name = std::string(trimmed(scanner_.next_line()));
     for (std::int64_t i = 0; i < members; ++i) {
-      if (i > 0 && i % 2 == 0) {
+      // Two to a line, or four; some programs write one.
+      if (i > 0 && scanner_.at_end_of_line()) {
         end_line();
       }
       const std::int64_t kind = next_in_line("the kind of a member of a group");
       const std::int64_t id = next_in_line("a member of a group");
-      next_in_line("a number of a member of a group");
-      next_in_line("a number of a member of a group");
+      for (int k = 0; k < 2 && !is_old; ++k) {
+        next_in_line("a number of a member of a group");
+      }
       constexpr std::int64_t node = 7;
       constexpr std::int64_t element = 8;
       if (kind == node || kind == element) {

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -76,12 +78,12 @@ TEST_CASE("UNV: nodes, elements of all families and groups are read, and written
   CHECK(document.points == plate_points);
   CHECK(document.cells.types == std::vector<std::uint8_t>{5, 5, 5, 5, cell_type::line});
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 1});
-  CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:group") == std::vector<std::int64_t>{4, 4, 6, 6, 4});
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:group") == std::vector<std::int64_t>{4, 7, 6, 6, 4});
   CHECK(find_array(document.cell_arrays, "unv:group")->description->value_names ==
-        std::vector<ValueName>{{4, 1, "steel core"}, {4, 2, "steel core"}, {6, 2, "air"}});
+        std::vector<ValueName>{{4, 1, "steel core"}, {4, 2, "steel core"}, {6, 2, "air"}, {7, 2, "upper half"}});
   CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:pid") == std::vector<std::int64_t>{1, 1, 2, 2, 3});
-  // Cells of another group first.
-  CHECK(document.cell_sets == std::vector<NamedSet>{{"upper half", {1, 2}}});
+  // Groups of which smaller ones have cells.
+  CHECK(document.cell_sets == std::vector<NamedSet>{{"steel core", {0, 1, 4}}, {"upper half", {1, 2}}});
   CHECK(document.point_sets == std::vector<NamedSet>{{"supports", {0, 1}}});
   CHECK(document.notes.empty());
   CHECK(unv.written(document) == plate);
@@ -127,6 +129,61 @@ TEST_CASE("UNV: the data sets of before are read likewise") {
   for (const char* const groups : {"2435", "2452", "2477"}) {
     CHECK(unv.read(replace_all(plate, "2467", groups)).point_sets.size() == 1);
   }
+}
+
+TEST_CASE("UNV: a group of all cells tells no regions apart, wherever it stands") {
+  const std::string all =
+      "         1         0         0         0         0         0         0         5\nall\n"
+      "         8        11         0         0         8        12         0         0\n"
+      "         8        13         0         0         8        14         0         0\n"
+      "         8        15         0         0\n";
+  const std::string materials =
+      "         4         0         0         0         0         0         0         2\nsteel\n"
+      "         8        11         0         0         8        12         0         0\n"
+      "         6         0         0         0         0         0         0         2\nair\n"
+      "         8        13         0         0         8        14         0         0\n";
+  for (const std::string& groups : {all + materials, materials + all}) {
+    const MeshDocument document = unv.read(plate_nodes + plate_elements + "    -1\n  2467\n" + groups + "    -1\n");
+    CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:group") == std::vector<std::int64_t>{4, 4, 6, 6, 1});
+    CHECK(document.cell_sets == std::vector<NamedSet>{{"all", {0, 1, 2, 3, 4}}});
+  }
+}
+
+TEST_CASE("UNV: groups that share a number are told apart") {
+  const auto groups_of = [](const std::string& groups) {
+    return unv.read(plate_nodes + plate_elements + "    -1\n  2477\n" + groups + "    -1\n");
+  };
+  // Lines and faces have numbers of their own, in Gmsh.
+  const std::string rim = " 4 0 0 0 0 0 0 1\nrim\n 8 15 0 0\n";
+  const std::string steel = " 4 0 0 0 0 0 0 2\nsteel\n 8 11 0 0 8 12 0 0\n";
+  const std::string air = " 4 0 0 0 0 0 0 2\nair\n 8 13 0 0 8 14 0 0\n";
+  const MeshDocument document = groups_of(rim + steel + air);
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:group") == std::vector<std::int64_t>{4, 4, 1, 1, 4});
+  CHECK(find_array(document.cell_arrays, "unv:group")->description->value_names ==
+        std::vector<ValueName>{{4, 1, "rim"}, {4, 2, "steel"}, {1, 2, "air"}});
+  CHECK(document.cell_sets.empty());
+  const std::string largest = "9223372036854775807 0 0 0 0 0 0 1\n";
+  CHECK(values_of<std::int64_t>(groups_of(largest + "a\n 8 11 0 0\n" + largest + "b\n 8 12 0 0\n").cell_arrays,
+                                "unv:group") ==
+        std::vector<std::int64_t>{std::numeric_limits<std::int64_t>::max(), 1, 0, 0, 0});
+}
+
+TEST_CASE("UNV: groups of older data sets list pairs, and members may stand a line each") {
+  const std::string pairs =
+      " 4 0 0 0 0 0 0 5\nsteel\n 8 11 8 12 7 1 7 2\n 8 15\n"
+      " 6 0 0 0 0 0 0 1\nair\n 8 13\n";
+  for (const char* const number : {"2417", "2429", "2430", "2432"}) {
+    const std::string text = plate_nodes + plate_elements + "    -1\n  " + number + "\n" + pairs + "    -1\n";
+    const MeshDocument document = unv.read(text);
+    CHECK(values_of<std::int64_t>(document.cell_arrays, "unv:group") == std::vector<std::int64_t>{4, 4, 6, 0, 4});
+    CHECK(document.point_sets == std::vector<NamedSet>{{"steel", {0, 1}}});
+    CHECK(unv.written(document) == text);
+  }
+  const std::string lines = replace_all(plate, "         8        11         0         0         8        12",
+                                        "         8        11         0         0\n         8        12");
+  CHECK(unv.read(lines).cell_sets == unv.read(plate).cell_sets);
+  CHECK(unv.failure_of(replace_all(plate, "8        15         0         0\n", "8        15         0\n")) ==
+        "mesh.unv:33: expected a number of a member of a group, got the end of the line");
 }
 
 TEST_CASE("UNV: nodes along the sides of an element are corners first in a cell, and go back the same way") {
