@@ -65,8 +65,9 @@ std::string unv_triangles(const Mesh& mesh, const UnvSpelling& spelling, const s
   return unv_data_set(spelling.elements, text + more);
 }
 
-std::string unv_group(int number, const std::string& name, const std::vector<int>& members) {
-  return unv_integers({number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size() / 4)}) + name + "\n" +
+/// Of so many numbers a member.
+std::string unv_group(int number, const std::string& name, const std::vector<int>& members, std::size_t each = 4) {
+  return unv_integers({number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size() / each)}) + name + "\n" +
          unv_integers(members);
 }
 
@@ -99,6 +100,7 @@ void add_unv(std::vector<AcceptedFile>& files) {
   add("old", spelled({.exponent = "e", .nodes = 781, .elements = 780}));
   add("elements_first", unv_triangles(plate, {}) + unv_nodes(plate, {}));
   add("sparse_ids", spelled({.id = [](int vertex) { return 1000 * (9 - vertex); }}));
+  add("old_groups", spelled({}) + unv_data_set(2432, unv_group(3, "lower half", {8, 101, 8, 102, 7, 1, 8, 103}, 2)));
   add("units",
       unv_data_set(151, "a model\nNONE\n") + unv_data_set(164, "         1  SI: Meter (newton)         2\n") + plain);
   add("beams", spelled({}, unv_element({}, 7, 21, {0, 1}) + unv_element({}, 8, 11, {1, 2})));
