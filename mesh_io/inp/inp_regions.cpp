@@ -125,7 +125,7 @@ void add_inp_sets(const InpModel& model, MeshDocument& document) {
   const std::vector<std::string> node_names = unique_names(model, model.node_sets);
   for (std::size_t set = 0; set < model.node_sets.size(); ++set) {
     // Conditions that name sets alone, no nodes by number, are no set of their own.
-    const bool is_set = !model.node_sets[set].members.empty() || !model.node_sets[set].name.starts_with("*");
+    const bool is_set = !model.node_sets[set].members.empty() || !model.node_sets[set].name.starts_with('*');
     if (is_set) {
       document.point_sets.push_back({node_names[set], model.node_sets[set].members});
     }
