@@ -90,7 +90,7 @@ void add_regions(const std::vector<UnvGroup>& groups, std::vector<std::vector<st
     return;
   }
   const std::vector<std::int64_t> values = values_of_groups(groups, dimensions);
-  std::ranges::stable_sort(by_size, {}, [&cells](std::size_t i) { return cells[i].size(); });
+  std::ranges::sort(by_size, {}, [&cells](std::size_t i) { return std::pair(cells[i].size(), i); });
   std::vector<std::int64_t> of_cell(document.cells.size());
   std::vector<bool> is_whole(groups.size(), true);
   std::vector<Dimensions> named(groups.size(), Dimensions{});
