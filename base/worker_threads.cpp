@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include <pthread.h>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -92,6 +93,8 @@ int startable_threads() {
 
 std::atomic<int> most_allowed{std::numeric_limits<int>::max()};
 
+std::atomic<bool> lost_threads{false};
+
 }  // namespace
 
 int most_threads() {
@@ -109,6 +112,7 @@ int checked_threads(int threads) {
 
 int start_worker_threads(int count) {
   static std::atomic<int> known{1};
+  expect_fork();
   if (count > known) {
     static std::mutex mutex;
     static std::unique_ptr<tbb::global_control> limit;
@@ -125,6 +129,15 @@ int start_worker_threads(int count) {
     }
   }
   return allowed_threads(count);
+}
+
+void expect_fork() {
+  static const int refused = pthread_atfork(nullptr, nullptr, [] { lost_threads = true; });
+  (void)refused;  // for want of memory: a child may wait for ever then, as it would without this
+}
+
+bool has_lost_threads() {
+  return lost_threads.load(std::memory_order_relaxed);
 }
 
 int allowed_threads(int count) {

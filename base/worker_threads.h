@@ -19,4 +19,11 @@ int start_worker_threads(int count);
 /// `count`, or what is left of it where the system has refused threads before.
 int allowed_threads(int count);
 
+/// From this call on fork() is watched: TBB's threads are at work, or about to be.
+void expect_fork();
+
+/// True in a process that fork() has made of one that expected it: TBB waits for ever there for threads that have not
+/// come along.
+bool has_lost_threads();
+
 }  // namespace trismooth

@@ -19,7 +19,10 @@ namespace trismooth {
 namespace {
 
 int threads_for(int wanted) {
-  return allowed_threads(checked_threads(wanted) > 0 ? wanted : tbb::this_task_arena::max_concurrency());
+  if (checked_threads(wanted) == 1 || has_lost_threads()) {
+    return 1;
+  }
+  return allowed_threads(wanted > 0 ? wanted : tbb::this_task_arena::max_concurrency());
 }
 
 /// Runs work of TBB. It may want one thread more than start_worker_threads() has started, long after that: where one is
@@ -64,10 +67,19 @@ void Workers::start() {
 }
 
 void Workers::enter(const Callee<>& function) {
+  if (has_lost_threads()) {
+    function();
+    return;
+  }
+  expect_fork();
   execute(arena_->arena, [&] { function(); });
 }
 
 void Workers::share_out(std::int64_t size, std::int64_t grain, const Callee<std::int64_t, std::int64_t>& body) {
+  if (has_lost_threads()) {
+    body(std::int64_t{0}, size);
+    return;
+  }
   start();
   execute(arena_->arena, [&] {
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, static_cast<std::size_t>(grain)),

@@ -7,9 +7,10 @@
 namespace trismooth {
 
 /// A number of threads to run loops on. No result of this project depends on the number: loops write to places of
-/// their own, and sums go over fixed blocks in a fixed order. The threads are TBB's, whose headers workers.cpp and
-/// worker_threads.cpp alone include; one more source, mesh_io/vtk_xml/vtk_xml_writer.cpp, does so to hold VTK to one
-/// thread.
+/// their own, and sums go over fixed blocks in a fixed order. In a process that fork() has made of one whose threads
+/// were at work, loops run on the calling thread: fork() takes that thread along and no other. The threads are TBB's,
+/// whose headers workers.cpp and worker_threads.cpp alone include; one more source,
+/// mesh_io/vtk_xml/vtk_xml_writer.cpp, does so to hold VTK to one thread.
 class Workers {
  public:
   /// `threads` = 0: one for each core that the process may use. More threads than cores are really started,

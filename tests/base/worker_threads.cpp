@@ -55,6 +55,33 @@ bool loops_visit_everything(int threads) {
 
 }  // namespace
 
+TEST_CASE("loops in a forked process visit everything, where threads were at work before") {
+  Workers workers(4);
+  const auto visits_all = [](Workers& these) {
+    std::atomic<std::int64_t> sum{0};
+    these.for_blocks(10000, 10, [&](std::int64_t begin, std::int64_t end) { sum += end - begin; });
+    these.run([&] { these.for_blocks(10000, 10, [&](std::int64_t begin, std::int64_t end) { sum += end - begin; }); });
+    std::int64_t in_order = 0;
+    these.for_blocks_in_order(
+        100, 3, [&](std::size_t, std::size_t) { ++sum; },
+        [&](std::size_t block, std::size_t) { in_order += static_cast<std::int64_t>(block); });
+    return sum == 20100 && in_order == 4950;
+  };
+  REQUIRE(visits_all(workers));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(60);  // ends it where it hangs
+    Workers later(4);
+    ::_exit(visits_all(workers) && visits_all(later) && trismooth::has_lost_threads() ? 0 : 1);
+  }
+  int status = -1;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  CHECK_FALSE(trismooth::has_lost_threads());
+  CHECK(visits_all(workers));
+}
+
 TEST_CASE("threads that the system does not refuse may all be asked for") {
   CHECK(trismooth::start_worker_threads(1) == 1);
   CHECK(trismooth::start_worker_threads(5) == 5);
