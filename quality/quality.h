@@ -1,8 +1,14 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
 #include "trismooth/base/array_layout.h"
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/point_view.h"
+#include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_report.h"
 
 namespace trismooth {
@@ -22,6 +28,35 @@ namespace trismooth {
 /// vertex. The report is the same to the bit for every number of threads.
 [[nodiscard]] QualityReport quality(const ConstPointView& points, const IndexView& triangles,
                                     const QualityOptions& options = {});
+
+/// Where the caller wants the values of a metric: for every triangle one, in the order of the triangles; or nothing.
+/// Indexed by Metric.
+using ElementValues = std::array<std::span<double>, metric_count>;
+
+/// The same, with the value of each metric asked for of every triangle: what the report sums up. Areas are in the
+/// caller's units; values may be infinite (see evaluate()), never NaN. The caller owns `values`; throws
+/// std::invalid_argument unless each is empty or has one place a triangle.
+QualityReport quality(const ConstPointView& points, const IndexView& triangles, const ElementValues& values,
+                      const QualityOptions& options = {});
+
+/// A mesh whose triangles are analysed once, and whose quality is asked for as often as its points change. Owns a copy
+/// of the triangles. Several threads may ask at the same time.
+class MeshQuality {
+ public:
+  /// Throws as quality() does for triangles, and for `threads` (0: all).
+  MeshQuality(std::int64_t vertex_count, const IndexView& triangles, int threads = 0);
+  MeshQuality(MeshQuality&&) noexcept;
+  MeshQuality& operator=(MeshQuality&&) noexcept;
+  ~MeshQuality();
+
+  /// What quality() gives for these points, one for every vertex; std::invalid_argument for another number of them.
+  /// Linear.
+  [[nodiscard]] QualityReport report(const ConstPointView& points, const QualityOptions& options = {}) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// A plain array does not say whether it holds x and y or x, y and z of a vertex: say xy_points(array) or
 /// xyz_points(array).

@@ -185,3 +185,46 @@ TEST_CASE("what is no mesh, or no plane, has no quality, and the message says wh
   CHECK(refusal([&] { static_cast<void>(quality(tilted, both)); }).starts_with("mesh: points: z runs from 0 to 1"));
   CHECK(refusal([&] { static_cast<void>(quality(points, both, {.threads = -1})); }).starts_with("argument: "));
 }
+
+TEST_CASE("each triangle has its value of each metric, in its place") {
+  const test_meshes::Mesh mesh = test_meshes::partly_reversed(test_meshes::jittered_grid(40, 30, 0.5, 4), 2);
+  const std::size_t count = mesh.triangles.size();
+  std::vector<double> shapes(count, -7);
+  std::vector<double> areas(count, -7);
+  trismooth::ElementValues values{};
+  values[static_cast<std::size_t>(Metric::shape)] = shapes;
+  values[static_cast<std::size_t>(Metric::area)] = areas;
+  const QualityReport report = quality(mesh.points, mesh.triangles, values, {.threads = 3});
+  require_equal(report, quality(mesh.points, mesh.triangles));
+  double total = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    REQUIRE(std::abs(shapes[t]) == Approx(std::abs(shape_by_definition(mesh, mesh.triangles[t]))).epsilon(1e-12));
+    REQUIRE((shapes[t] > 0) == (areas[t] > 0));
+    total += areas[t];
+  }
+  CHECK(total == Approx(1).epsilon(1e-12));  // of the unit square
+  CHECK(*std::ranges::min_element(shapes) == report[Metric::shape].min);
+  CHECK(*std::ranges::max_element(areas) == report[Metric::area].max);
+  shapes.pop_back();
+  values[static_cast<std::size_t>(Metric::shape)] = shapes;
+  CHECK(refusal([&] { quality(mesh.points, mesh.triangles, values); }) ==
+        "argument: the values of shape: " + std::to_string(count - 1) + " places for " + std::to_string(count) +
+            " triangles");
+}
+
+TEST_CASE("triangles analysed once have the quality of those analysed each time") {
+  test_meshes::Mesh mesh = test_meshes::jittered_grid(12, 9, 0.3, 4);
+  auto triangles = mesh.triangles;
+  const trismooth::MeshQuality analysed(mesh.vertex_count(), triangles);
+  std::ranges::fill(triangles, trismooth::Triangle{});  // they are copied
+  for (int step = 0; step < 3; ++step) {
+    require_equal(analysed.report(mesh.points), quality(mesh.points, mesh.triangles));
+    for (auto& [x, y] : mesh.points) {
+      x += 0.4 * y * y;
+    }
+  }
+  mesh.points.pop_back();
+  CHECK(refusal([&] { static_cast<void>(analysed.report(mesh.points)); }) ==
+        "argument: points: 107 of them, expected one for each of 108 vertices");
+  CHECK(refusal([&] { trismooth::MeshQuality(2, mesh.triangles); }).starts_with("mesh: triangle 0 names vertex"));
+}
