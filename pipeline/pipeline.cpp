@@ -58,6 +58,37 @@ class Run {
     require_known_formats(options_);
     starting_ = start_backend(options_);
     timed(Stage::read, timings.read, read_input);
+    check_and_smooth();
+    if (const auto& path = options_.written()) {
+      timed(Stage::write, timings.write,
+            [&](RunState& run) { write_output(run, *path, !options_.output || options_.annotate); });
+    }
+    return result_after(watch);
+  }
+
+  /// The stages between reading and writing, on `document`, which is as it was where they fail.
+  PipelineResult run_on(MeshDocument& document) {
+    const Stopwatch watch;
+    options_.smoothing.validate();
+    const std::vector<double> points = document.points;
+    const std::vector<DataArray> point_arrays = document.point_arrays;
+    state_.document = std::move(document);
+    take_input(state_);
+    try {
+      check_and_smooth();
+    } catch (...) {
+      document = std::move(state_.document);
+      document.points = points;
+      document.point_arrays = point_arrays;
+      throw;
+    }
+    document = std::move(state_.document);
+    return result_after(watch);
+  }
+
+ private:
+  void check_and_smooth() {
+    PipelineTimings& timings = state_.result.timings_ms;
     timed(Stage::topology, timings.topology, connect_mesh);
     timed(Stage::check_before, timings.check_before, check_before);
     if (options_.output) {
@@ -66,16 +97,14 @@ class Run {
       smooth_mesh(state_);
       timed(Stage::check_after, timings.check_after, check_after);
     }
-    if (const auto& path = options_.written()) {
-      timed(Stage::write, timings.write,
-            [&](RunState& run) { write_output(run, *path, !options_.output || options_.annotate); });
-    }
-    timings.total = watch.milliseconds();
+  }
+
+  PipelineResult result_after(const Stopwatch& watch) {
+    state_.result.timings_ms.total = watch.milliseconds();
     state_.result.peak_memory_bytes = peak_memory_bytes();
     return std::move(state_.result);
   }
 
- private:
   void begin(Stage stage) const {
     if (options_.stage_started && options_.stage_started(stage) == Progress::stop) {
       throw Cancelled();
@@ -117,6 +146,19 @@ void require_known_formats(const PipelineOptions& options) {
 
 PipelineResult run_pipeline(const PipelineOptions& options) {
   return Run(options).run();
+}
+
+PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options) {
+  PipelineOptions own = options;
+  own.output = std::filesystem::path("document").replace_extension(extensions_of(document.format).front());
+  own.format = document.format;
+  return Run(own).run_on(document);
+}
+
+PipelineResult check_document(MeshDocument& document, const PipelineOptions& options) {
+  PipelineOptions own = options;
+  own.output.reset();
+  return Run(own).run_on(document);
 }
 
 }  // namespace trismooth

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/file_groups.h"
 #include "trismooth/pipeline/held_vertices.h"
 #include "trismooth/pipeline/moving_fields.h"
@@ -49,6 +50,7 @@ struct PipelineOptions {
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
+  std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
   /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
   /// smoothing.mean_ratio.target_lengths.
   std::optional<std::string> size_array;
@@ -146,5 +148,14 @@ void require_known_formats(const PipelineOptions& options);
 /// cannot be read or is no planar triangle mesh, WriteError for an output that cannot be written,
 /// std::invalid_argument for options that do not fit the input, Cancelled.
 PipelineResult run_pipeline(const PipelineOptions& options);
+
+/// The same on a mesh that has been read: all stages but reading and writing. `document` is as it was wherever this
+/// throws, else its points, and the point arrays that follow the mesh, are those of the result: write_mesh() writes
+/// them. `options.input` names the mesh in messages; `options.output` and `options.format` mean nothing: what follows
+/// the mesh is chosen for the format that the mesh was read from. The result has no hash, time or loss of writing.
+PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options);
+
+/// The quality of a mesh that has been read, by the stages up to the smoothing.
+PipelineResult check_document(MeshDocument& document, const PipelineOptions& options);
 
 }  // namespace trismooth

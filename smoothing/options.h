@@ -141,6 +141,13 @@ struct EnumText<TargetShape> {
       {{TargetShape::uniform, "uniform"}, {TargetShape::input, "input-shape"}}};
 };
 
+template <>
+struct EnumText<Evaluation> {
+  static constexpr std::string_view what = "evaluation";
+  static constexpr std::array<std::pair<Evaluation, std::string_view>, 2> texts{
+      {{Evaluation::changed, "changed"}, {Evaluation::all, "all"}}};
+};
+
 /// What steers Method::mean_ratio alone.
 struct MeanRatioOptions {
   /// How much the sizes of triangles count beside their shapes, from 0. Without target_lengths it is multiplied by the

@@ -8,4 +8,7 @@ struct RunState;
 /// the losses.
 void read_input(RunState& run);
 
+/// Takes the document that the run has been given: what the result says of the input.
+void take_input(RunState& run);
+
 }  // namespace trismooth

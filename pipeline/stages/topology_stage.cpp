@@ -49,6 +49,16 @@ void add_vertices(std::vector<std::uint8_t>& flags, const std::vector<std::int32
   }
 }
 
+/// Throws std::invalid_argument for a number that is none of the vertices.
+void require_vertices(const std::vector<std::int32_t>& numbers, std::int64_t count) {
+  for (const std::int32_t v : numbers) {
+    if (v < 0 || v >= count) {
+      throw std::invalid_argument("fixed: vertex " + std::to_string(v) + " is not one of the " + std::to_string(count) +
+                                  " vertices");
+    }
+  }
+}
+
 /// The vertices by what holds them, but for the middles that follow their sides.
 ReasonCounts count_vertices(RunState& run) {
   ReasonCounts counts = count_reasons(run.found.fixed, run.workers);
@@ -147,11 +157,14 @@ void connect_mesh(RunState& run) {
   HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, run.regions.of_triangle);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
-  const std::vector<std::int32_t> ids =
+  std::vector<std::int32_t> ids =
       options.fixed_ids ? read_vertex_ids(*options.fixed_ids, input.vertices) : std::vector<std::int32_t>{};
+  input.fixed_ids_vertices = count_different(ids);
   if (options.fixed_ids && ids.empty()) {
     run.warn(options.fixed_ids->string() + ": names no vertices, so it holds none");
   }
+  require_vertices(options.fixed_vertices, input.vertices);
+  std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
     settle_middles(mesh, fixed);
@@ -170,7 +183,6 @@ void connect_mesh(RunState& run) {
   input.cell_sets = summarise_cell_sets(document);
   input.line_groups = find_line_groups(document);
   input.fixed_ids = options.fixed_ids.value_or(std::filesystem::path{});
-  input.fixed_ids_vertices = count_different(ids);
   find_fields(run);
 }
 
