@@ -1,5 +1,6 @@
 # What is built. On its own the project builds all its parts; as a part of another project (add_subdirectory,
-# FetchContent) the libraries base, quality and smoothing alone, which need TBB and nothing else.
+# FetchContent) the libraries base, quality and smoothing alone, which need TBB and nothing else. The same, with the
+# Python module, where it is built as a Python package (scikit-build-core says SKBUILD).
 
 if(PROJECT_IS_TOP_LEVEL)
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -9,10 +10,20 @@ if(PROJECT_IS_TOP_LEVEL)
   check_language(CUDA)
 endif()
 
-# trismooth_part(<option> <help> [<option that it needs>...]): on where the project stands alone and what it needs is on.
-# Who asks for a part without what it needs is told so.
-function(trismooth_part option help)
-  set(default ${PROJECT_IS_TOP_LEVEL})
+if(SKBUILD)
+  option(TRISMOOTH_PYTHON_FILES "Have the Python package read and write files, and be the program as well" OFF)
+  set(files_by_default ${TRISMOOTH_PYTHON_FILES})
+  set(all_by_default OFF)
+  set(python_by_default ON)
+else()
+  set(files_by_default ${PROJECT_IS_TOP_LEVEL})
+  set(all_by_default ${PROJECT_IS_TOP_LEVEL})
+  set(python_by_default OFF)
+endif()
+
+# trismooth_part(<option> <default> <help> [<option that it needs>...]): off by default where what it needs is off. Who
+# asks for a part without what it needs is told so.
+function(trismooth_part option default help)
   set(missing)
   foreach(needed IN LISTS ARGN)
     if(NOT ${needed})
@@ -27,21 +38,23 @@ function(trismooth_part option help)
   endif()
 endfunction()
 
-trismooth_part(TRISMOOTH_MESH_IO "Build the component mesh_io: reading and writing of files")
-trismooth_part(TRISMOOTH_VTK "Have mesh_io read and write .vtu and .vtp (needs VTK and Expat)" TRISMOOTH_MESH_IO)
-trismooth_part(TRISMOOTH_HALFEDGE "Build the component halfedge: OpenMesh meshes (needs OpenMesh and Eigen)")
-trismooth_part(TRISMOOTH_PIPELINE "Build the component pipeline: from file to file (needs fmt and xxHash)"
+trismooth_part(TRISMOOTH_MESH_IO ${files_by_default} "Build the component mesh_io: reading and writing of files")
+trismooth_part(TRISMOOTH_VTK ${files_by_default} "Have mesh_io read and write .vtu and .vtp (needs VTK and Expat)"
+               TRISMOOTH_MESH_IO)
+trismooth_part(TRISMOOTH_HALFEDGE ${files_by_default} "Build the component halfedge: OpenMesh meshes (needs OpenMesh and Eigen)")
+trismooth_part(TRISMOOTH_PIPELINE ${files_by_default} "Build the component pipeline: from file to file (needs fmt and xxHash)"
                TRISMOOTH_MESH_IO TRISMOOTH_HALFEDGE)
-trismooth_part(TRISMOOTH_CLI "Build the program (needs CLI11, nlohmann_json and fmt)" TRISMOOTH_PIPELINE)
+trismooth_part(TRISMOOTH_CLI ${files_by_default} "Build the program (needs CLI11, nlohmann_json and fmt)" TRISMOOTH_PIPELINE)
 if(CMAKE_CUDA_COMPILER)
-  trismooth_part(TRISMOOTH_CUDA "Build the component cuda (needs nvcc)")
+  trismooth_part(TRISMOOTH_CUDA ${all_by_default} "Build the component cuda (needs nvcc)")
 else()
   option(TRISMOOTH_CUDA "Build the component cuda (needs nvcc)" OFF)
 endif()
-trismooth_part(TRISMOOTH_INSTALL "Make the rules that install the project")
-trismooth_part(TRISMOOTH_TESTS "Build the tests" TRISMOOTH_CLI TRISMOOTH_VTK)
-trismooth_part(TRISMOOTH_EXAMPLES "Build the example programs")
-trismooth_part(TRISMOOTH_BENCHMARKS "Build the benchmark programs" TRISMOOTH_CLI)
+trismooth_part(TRISMOOTH_INSTALL ${all_by_default} "Make the rules that install the project")
+trismooth_part(TRISMOOTH_TESTS ${all_by_default} "Build the tests" TRISMOOTH_CLI TRISMOOTH_VTK)
+trismooth_part(TRISMOOTH_EXAMPLES ${all_by_default} "Build the example programs")
+trismooth_part(TRISMOOTH_BENCHMARKS ${all_by_default} "Build the benchmark programs" TRISMOOTH_CLI)
+option(TRISMOOTH_PYTHON "Build the Python module (needs Python 3.9 and nanobind)" ${python_by_default})
 option(TRISMOOTH_FUZZ "Build the fuzz targets (needs Clang)" OFF)
 option(TRISMOOTH_PACKAGE_TESTS "Put the test programs into the portable package" OFF)
 option(TRISMOOTH_WERROR "Treat compiler warnings as errors" OFF)

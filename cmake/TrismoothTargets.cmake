@@ -8,6 +8,7 @@ file(MAKE_DIRECTORY "${trismooth_headers}")
 foreach(folder IN ITEMS base quality smoothing mesh_io pipeline cuda)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${trismooth_headers}/${folder}" SYMBOLIC)
 endforeach()
+file(CREATE_LINK "${PROJECT_SOURCE_DIR}/python/src" "${trismooth_headers}/python" SYMBOLIC)
 configure_file("${CMAKE_CURRENT_LIST_DIR}/version.h.in" "${trismooth_headers}/version.h" @ONLY)
 configure_file("${CMAKE_CURRENT_LIST_DIR}/trismooth.h" "${trismooth_headers}/trismooth.h" COPYONLY)
 

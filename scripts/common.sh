@@ -7,6 +7,10 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck disable=SC2034
 build=$project/build/release
 
+# The virtual environment of scripts/python.sh.
+# shellcheck disable=SC2034
+python_environment=$project/build/python
+
 # Warnings are errors with the compiler that the project is developed with. Another one may warn of other things, and
 # that must not keep anybody from building. TRISMOOTH_WERROR=ON or OFF in the environment decides otherwise.
 warnings_as_errors() {
@@ -46,6 +50,15 @@ configure() {
     "-DCMAKE_CUDA_ARCHITECTURES=$(cuda_architectures)" --no-warn-unused-cli \
     "-DCMAKE_CXX_FLAGS=${CXXFLAGS:-} $(patient_garbage_collection)" \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "$@")
+}
+
+# The options that have the Python module built, where its environment is there.
+python_options() {
+  if [[ -f $python_environment/requirements.txt ]]; then
+    echo "-DTRISMOOTH_PYTHON=ON -DPython_EXECUTABLE=$python_environment/bin/python"
+  else
+    echo "-DTRISMOOTH_PYTHON=OFF"
+  fi
 }
 
 build_target() {

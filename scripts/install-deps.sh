@@ -2,7 +2,8 @@
 # Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries
-#   scripts/install-deps.sh --tests    also what single tests need: a locale, strace, valgrind, a browser, what Gmsh links
+#   scripts/install-deps.sh --tests    also what single tests need: a locale, strace, valgrind, a browser, Python's headers,
+#                                      what Gmsh links
 #   scripts/install-deps.sh --package  also what the target `package` makes a .deb with
 #   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and a venv for clang-tidy
 #   scripts/install-deps.sh --docs     also Doxygen
@@ -21,7 +22,7 @@ case "${1:-}" in
     # The last two lines are for Gmsh from PyPI.
     packages+=(
       dpkg-dev locales strace valgrind
-      python3-venv libgl1 libglu1-mesa libgomp1 libfontconfig1 libfreetype6 libx11-6 libxcursor1 libxext6 libxfixes3
+      python3-venv python3-dev libgl1 libglu1-mesa libgomp1 libfontconfig1 libfreetype6 libx11-6 libxcursor1 libxext6 libxfixes3
       libxft2 libxinerama1 libxrender1
     )
     # Ubuntu has it as a snap only: there that test is skipped.

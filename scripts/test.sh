@@ -12,9 +12,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 SECONDS=0
 "$project/scripts/install-deps.sh" --tests
-"$project/scripts/peers.sh"
+"$project/scripts/python.sh"
 # -U: as CMake finds it, whatever scripts/demo.sh has said.
-configure -UTRISMOOTH_CUDA -DTRISMOOTH_BENCHMARKS=OFF "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)"
+# shellcheck disable=SC2046 # several options
+configure -UTRISMOOTH_CUDA -DTRISMOOTH_BENCHMARKS=OFF "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)" \
+  $(python_options)
 configured=$SECONDS
 build_target all
 built=$SECONDS

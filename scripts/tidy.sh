@@ -44,7 +44,8 @@ fi
 
 # A configuration of its own: every source has its own compile command.
 build=$project/build/tidy
-cmake --preset release -B "$build" --log-level=ERROR -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+# shellcheck disable=SC2046 # several options
+cmake --preset release -B "$build" --log-level=ERROR -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON $(python_options)
 tidy=$build/tool/bin/clang-tidy
 if [[ $("$tidy" --version 2>/dev/null) != *"$version"* ]]; then
   python3 -m venv "$build/tool"

@@ -36,6 +36,7 @@ for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", 
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below
 MAY_USE["pipeline"] = list(MAY_USE)
+MAY_USE["python"] = list(MAY_USE)
 
 INCLUDE = re.compile(r'^#include "trismooth/([^"]+)"', re.MULTILINE)
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth::python {
+
+/// Sets options.backend to the one of that name, "auto", "cpu" or "cuda", as the program does. Raises ValueError for
+/// another name or where options need another backend; throws DeviceError where the build has no CUDA or the machine no
+/// device.
+void choose_backend(const std::string& name, SmoothingOptions& options);
+
+/// What the build has of CUDA and finds on this machine, as lines for people; empty in a build without.
+std::string cuda_text();
+
+}  // namespace trismooth::python

@@ -1,0 +1,324 @@
+#include "trismooth/python/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <cuda_runtime_api.h>
+#include <nanobind/stl/string.h>
+
+#include "trismooth/base/heights.h"
+#include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/python/device_array.h"
+#include "trismooth/python/errors.h"
+#include "trismooth/python/host_array.h"
+#include "trismooth/python/interruption.h"
+#include "trismooth/python/options.h"
+#include "trismooth/python/results.h"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace trismooth::python {
+
+namespace {
+
+/// Makes a device the current one of this thread until it is destroyed.
+class CurrentDevice {
+ public:
+  explicit CurrentDevice(int device) {
+    TRISMOOTH_CUDA_CHECK(cudaGetDevice(&before_));
+    TRISMOOTH_CUDA_CHECK(cudaSetDevice(device));
+  }
+  CurrentDevice(const CurrentDevice&) = delete;
+  CurrentDevice& operator=(const CurrentDevice&) = delete;
+  ~CurrentDevice() { cudaSetDevice(before_); }
+
+ private:
+  int before_ = 0;
+};
+
+cudaStream_t stream_of(std::uintptr_t number) {
+  // DLPack's number of the default stream.
+  constexpr std::uintptr_t default_stream = 1;
+  return number == default_stream ? nullptr : reinterpret_cast<cudaStream_t>(number);
+}
+
+void require_list(const DeviceArray& array, std::int64_t count, const char* of_what) {
+  if (array.dimensions() != 1 || static_cast<std::int64_t>(array.extent(0)) != count) {
+    array.raise_value("shape " + array.shape_text() + "; expected (" + std::to_string(count) + ",), one for each " +
+                      of_what);
+  }
+}
+
+void require_points(const DeviceArray& points) {
+  if (points.kind() != 'f' || (points.item_size() != sizeof(float) && points.item_size() != sizeof(double))) {
+    points.raise_type("float64 or float32 is needed, not " + points.type_text());
+  }
+  if (points.dimensions() != 2 || (points.extent(1) != 2 && points.extent(1) != 3)) {
+    points.raise_value("shape " + points.shape_text() + "; expected (N, 2) or (N, 3), a vertex a row");
+  }
+}
+
+bool is_integer(const DeviceArray& array) {
+  return array.kind() == 'i' || array.kind() == 'u';
+}
+
+/// A smoothing plan over arrays on a device. It keeps those that it reads again: the triangles, where they are int32
+/// one behind the other; all others are copied on the device.
+class DevicePlan {
+ public:
+  DevicePlan(nb::handle triangles_capsule, std::int64_t vertex_count, nb::handle regions, nb::handle fixed,
+             nb::handle other_cells, nb::handle size, std::uintptr_t stream, const nb::dict& arguments)
+      : triangles_(triangles_capsule, "triangles"),
+        device_(triangles_.device()),
+        sizes_(reals(size, "size", static_cast<std::size_t>(vertex_count))) {
+    if (!is_integer(triangles_)) {
+      triangles_.raise_type("integers are needed, not " + triangles_.type_text());
+    }
+    if (triangles_.dimensions() != 2 || triangles_.extent(1) != 3) {
+      triangles_.raise_value("shape " + triangles_.shape_text() + "; expected (M, 3) on a CUDA device");
+    }
+    SmoothingOptions options = parse_options(arguments);
+    options.backend = nullptr;
+    options.mean_ratio.target_lengths = sizes_;
+    options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
+    mesh_.vertex_count = checked_count(vertex_count, "points");
+    mesh_.triangle_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
+    const CurrentDevice current(device_);
+    context_ = std::make_unique<cuda::Context>(stream_of(stream));
+    hold(regions, fixed, other_cells);
+    gather_triangles();
+    const nb::gil_scoped_release no_gil;
+    naming_arguments([&] { plan_.emplace(mesh_, options, context_->stream()); });
+  }
+
+  ~DevicePlan() {
+    int before = 0;
+    cudaGetDevice(&before);
+    cudaSetDevice(device_);
+    plan_.reset();
+    other_cell_flags_.reset();
+    fixed_flags_.reset();
+    region_numbers_.reset();
+    triangle_numbers_.reset();
+    context_.reset();
+    cudaSetDevice(before);
+  }
+  DevicePlan(const DevicePlan&) = delete;
+  DevicePlan& operator=(const DevicePlan&) = delete;
+
+  /// Smooths `points` into `out`, which may be the same array. `is_new`: nobody minds what is in `out` where this
+  /// fails.
+  Outcome smooth(nb::handle points_capsule, nb::handle out_capsule, bool is_new, const nb::object& progress) {
+    const DeviceArray points(points_capsule, "points");
+    require_points(points);
+    points.require_device(device_);
+    if (static_cast<std::int64_t>(points.extent(0)) != mesh_.vertex_count) {
+      points.raise_value("shape " + points.shape_text() + "; there are " + std::to_string(mesh_.vertex_count) +
+                         " vertices");
+    }
+    const DeviceArray out(out_capsule, "out");
+    out.require_device(device_);
+    if (out.shape_text() != points.shape_text()) {
+      out.raise_value("shape " + out.shape_text() + "; that of points is " + points.shape_text());
+    }
+    if (out.type_text() != points.type_text()) {
+      out.raise_type("its numbers are " + out.type_text() + ", those of points " + points.type_text());
+    }
+    std::unique_lock lock(mutex_, std::defer_lock);
+    if (!lock.try_lock()) {
+      const nb::gil_scoped_release no_gil;
+      lock.lock();
+    }
+    Interruption interruption(progress);
+    interruption_ = &interruption;
+    const nb::gil_scoped_release no_gil;
+    const CurrentDevice current(device_);
+    return naming_arguments([&] {
+      return points.item_size() == sizeof(float) ? smooth_numbers<float>(points, out, is_new)
+                                                 : smooth_numbers<double>(points, out, is_new);
+    });
+  }
+
+  std::int64_t vertex_count() const { return mesh_.vertex_count; }
+  std::int64_t triangle_count() const { return mesh_.triangle_count; }
+  std::size_t copied_bytes() const { return context_->peak_bytes(); }
+
+ private:
+  static std::int32_t checked_count(std::int64_t count, const char* argument) {
+    if (count > INT32_MAX) {
+      raise_value_error(argument, "more than 2147483647 of them");
+    }
+    return static_cast<std::int32_t>(count);
+  }
+
+  void gather_triangles() {
+    if (triangles_.kind() == 'i' && triangles_.item_size() == sizeof(std::int32_t) &&
+        triangles_.is_packed(3, sizeof(std::int32_t))) {
+      mesh_.triangles = reinterpret_cast<const std::int32_t*>(triangles_.data());
+      return;
+    }
+    triangle_numbers_ = cuda::DeviceBuffer<std::int32_t>(*context_, 3 * triangles_.extent(0));
+    cuda::gather_integers(*context_, triangles_.rows(3), triangles_.kind() == 'i', triangles_.item_size(),
+                          triangle_numbers_.data());
+    mesh_.triangles = triangle_numbers_.data();
+  }
+
+  void hold(nb::handle regions, nb::handle fixed, nb::handle other_cells) {
+    if (!regions.is_none()) {
+      const DeviceArray labels(regions, "regions");
+      labels.require_device(device_);
+      if (!is_integer(labels)) {
+        labels.raise_type("integers are needed on a CUDA device, not " + labels.type_text());
+      }
+      require_list(labels, mesh_.triangle_count, "triangle");
+      region_numbers_ = cuda::DeviceBuffer<std::int32_t>(*context_, labels.extent(0));
+      cuda::gather_integers(*context_, labels.rows(1), labels.kind() == 'i', labels.item_size(),
+                            region_numbers_.data());
+      mesh_.constraints.regions = region_numbers_.data();
+    }
+    hold_vertices(fixed, "fixed", fixed_flags_, mesh_.constraints.fixed);
+    hold_vertices(other_cells, "other_cells", other_cell_flags_, mesh_.constraints.other_cells);
+  }
+
+  /// From a bool for each vertex, or from vertex numbers, which take the way over the host: they are few.
+  void hold_vertices(nb::handle object, const char* argument, cuda::DeviceBuffer<std::uint8_t>& flags,
+                     const std::uint8_t*& held) {
+    if (object.is_none()) {
+      return;
+    }
+    const DeviceArray array(object, argument);
+    array.require_device(device_);
+    const auto vertices = static_cast<std::size_t>(mesh_.vertex_count);
+    flags = cuda::DeviceBuffer<std::uint8_t>(*context_, vertices);
+    if (array.kind() == '?') {
+      require_list(array, mesh_.vertex_count, "vertex");
+      cuda::gather_rows(*context_, array.rows(1), flags.data());
+    } else if (is_integer(array) && array.dimensions() == 1) {
+      cuda::DeviceBuffer<std::int32_t> numbers(*context_, array.extent(0));
+      cuda::gather_integers(*context_, array.rows(1), array.kind() == 'i', array.item_size(), numbers.data());
+      std::vector<std::int32_t> on_host(array.extent(0));
+      numbers.download(on_host);
+      std::vector<std::uint8_t> host_flags(vertices, 0);
+      for (const std::int32_t v : on_host) {
+        if (v < 0 || v >= mesh_.vertex_count) {
+          array.raise_value("vertex " + (v == cuda::no_place_in_32_bits ? "number" : std::to_string(v)) +
+                            " is not one of the " + std::to_string(mesh_.vertex_count) + " vertices");
+        }
+        host_flags[static_cast<std::size_t>(v)] = 1;
+      }
+      flags.upload(host_flags);
+      context_->synchronize();
+    } else {
+      array.raise_type("bool for each vertex or integers, vertex numbers, are needed, not " + array.type_text() +
+                       " of shape " + array.shape_text());
+    }
+    held = flags.data();
+  }
+
+  template <class T>
+  Outcome smooth_numbers(const DeviceArray& points, const DeviceArray& out, bool is_new) {
+    const bool in_place = out.data() == points.data();
+    const bool has_heights = points.extent(1) == 3;
+    if (has_heights) {
+      require_heights<T>(points);
+    }
+    Outcome outcome;
+    if (out.is_packed(2, 2 * sizeof(T)) && (in_place || is_new)) {
+      auto* const xy = reinterpret_cast<T*>(out.data());
+      if (!in_place) {
+        cuda::gather_rows(*context_, points.rows(2), xy);
+      }
+      outcome.smoothing = plan_->smooth(xy);
+      return outcome;
+    }
+    cuda::DeviceBuffer<T> xy(*context_, 2 * points.extent(0));
+    cuda::gather_rows(*context_, points.rows(2), xy.data());
+    outcome.smoothing = plan_->smooth(xy.data());
+    cuda::scatter_rows(*context_, xy.data(), out.rows(2));
+    if (has_heights && !in_place) {
+      cuda::gather_rows(*context_, points.rows(1, 2), xy.data());
+      cuda::scatter_rows(*context_, xy.data(), out.rows(1, 2));
+    }
+    context_->synchronize();
+    return outcome;
+  }
+
+  /// On the host: an array with heights is copied anyway.
+  template <class T>
+  void require_heights(const DeviceArray& points) {
+    const std::size_t count = points.extent(0);
+    cuda::DeviceBuffer<T> packed(*context_, 3 * count);
+    cuda::gather_rows(*context_, points.rows(3), packed.data());
+    std::vector<std::array<T, 3>> numbers(count);
+    static_assert(sizeof(numbers[0]) == 3 * sizeof(T));
+    packed.download(std::span(count == 0 ? nullptr : numbers.front().data(), 3 * count));
+    std::vector<Point2<double>> pairs(count);
+    std::ranges::transform(numbers, pairs.begin(), [](const std::array<T, 3>& p) {
+      return Point2<double>{p[0], p[1]};
+    });
+    const auto is_finite = [](const std::array<T, 3>& p) { return std::isfinite(p[2]); };
+    if (const auto bad = std::ranges::find_if_not(numbers, is_finite); bad != numbers.end()) {
+      throw MeshError("vertex " + std::to_string(bad - numbers.begin()) + " has a coordinate that is not finite");
+    }
+    require_one_height(numbers, pairs, [this] { return plan_->fixed(); });
+  }
+
+  DeviceArray triangles_;
+  int device_;
+  std::vector<double> sizes_;
+  Interruption* interruption_ = nullptr;  ///< of the call that is at work
+  cuda::DeviceMesh mesh_;
+  std::unique_ptr<cuda::Context> context_;
+  cuda::DeviceBuffer<std::int32_t> triangle_numbers_;
+  cuda::DeviceBuffer<std::int32_t> region_numbers_;
+  cuda::DeviceBuffer<std::uint8_t> fixed_flags_;
+  cuda::DeviceBuffer<std::uint8_t> other_cell_flags_;
+  std::optional<cuda::Plan> plan_;
+  std::mutex mutex_;
+};
+
+/// A new array on a device, of no values yet, that any library takes by DLPack.
+nb::ndarray<nb::device::cuda> new_device_array(std::size_t rows, std::size_t columns, bool is_float32, int device) {
+  const CurrentDevice current(device);
+  void* memory = nullptr;
+  const std::size_t bytes = rows * columns * (is_float32 ? sizeof(float) : sizeof(double));
+  TRISMOOTH_CUDA_CHECK(cudaMalloc(&memory, std::max<std::size_t>(bytes, 1)));
+  const nb::capsule owner(memory, [](void* gone) noexcept { cudaFree(gone); });
+  return {memory,
+          {rows, columns},
+          owner,
+          {},
+          is_float32 ? nb::dtype<float>() : nb::dtype<double>(),
+          nb::device::cuda::value,
+          device};
+}
+
+}  // namespace
+
+void bind_device(nb::module_& module) {
+  module.attr("has_cuda") = true;
+  module.def("new_device_array", &new_device_array, "rows"_a, "columns"_a, "is_float32"_a, "device"_a);
+  nb::class_<DevicePlan>(module, "DevicePlan")
+      .def(nb::init<nb::handle, std::int64_t, nb::handle, nb::handle, nb::handle, nb::handle, std::uintptr_t,
+                    const nb::dict&>(),
+           "triangles"_a, "vertex_count"_a, "regions"_a.none(), "fixed"_a.none(), "other_cells"_a.none(),
+           "size"_a.none(), "stream"_a, "options"_a)
+      .def("smooth", &DevicePlan::smooth, "points"_a, "out"_a, "is_new"_a, "progress"_a.none())
+      .def_prop_ro("vertex_count", &DevicePlan::vertex_count)
+      .def_prop_ro("triangle_count", &DevicePlan::triangle_count)
+      .def_prop_ro("copied_bytes", &DevicePlan::copied_bytes);
+}
+
+}  // namespace trismooth::python

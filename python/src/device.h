@@ -1,0 +1,10 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace trismooth::python {
+
+/// Makes what there is for arrays in device memory; `has_cuda` says whether the build has it.
+void bind_device(nanobind::module_& module);
+
+}  // namespace trismooth::python

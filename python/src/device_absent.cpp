@@ -1,0 +1,9 @@
+#include "trismooth/python/device.h"
+
+namespace trismooth::python {
+
+void bind_device(nanobind::module_& module) {
+  module.attr("has_cuda") = false;
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,54 @@
+#include "trismooth/python/errors.h"
+
+#include <cstddef>
+#include <string_view>
+
+#include "trismooth/smoothing/errors.h"
+
+namespace nb = nanobind;
+
+namespace trismooth::python {
+
+namespace {
+
+[[noreturn]] void raise(PyObject* type, const std::string& argument, const std::string& what) {
+  PyErr_SetString(type, (argument + ": " + what).c_str());
+  throw nb::python_error();
+}
+
+}  // namespace
+
+void raise_value_error(const std::string& argument, const std::string& what) {
+  raise(PyExc_ValueError, argument, what);
+}
+
+void raise_type_error(const std::string& argument, const std::string& what) {
+  raise(PyExc_TypeError, argument, what);
+}
+
+std::string with_argument(const std::string& message) {
+  constexpr std::string_view sizes = "MeanRatioOptions::target_lengths";
+  if (message.starts_with(sizes)) {
+    return "size" + message.substr(sizes.size());
+  }
+  if (message.starts_with("points: ") || message.starts_with("triangles: ")) {
+    return message;
+  }
+  const std::size_t triangle = message.find("triangle");
+  const std::size_t vertex = message.find("vert");
+  return (triangle == vertex ? "" : triangle < vertex ? "triangles: " : "points: ") + message;
+}
+
+void make_public(nb::handle exception, const char* description) {
+  nb::setattr(exception, "__module__", nb::str("trismooth"));
+  nb::setattr(exception, "__doc__", nb::str(description));
+}
+
+void bind_errors(nb::module_& module) {
+  make_public(nb::exception<MeshError>(module, "MeshError", PyExc_ValueError),
+              "Triangles that are no mesh, a coordinate that is not finite, heights that differ.");
+  make_public(nb::exception<DeviceError>(module, "DeviceError", PyExc_RuntimeError),
+              "A GPU that is not there, has too little memory, or failed.");
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,329 @@
+#include "trismooth/python/files.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/cli/command_line.h"
+#include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/report/json_report.h"
+#include "trismooth/python/errors.h"
+#include "trismooth/python/host_array.h"
+#include "trismooth/python/interruption.h"
+#include "trismooth/python/options.h"
+#include "trismooth/python/results.h"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace trismooth::python {
+
+namespace {
+
+/// A NumPy array that owns `values`.
+template <class T, std::size_t dimensions>
+nb::object owning_array(std::vector<T> values, const std::array<std::size_t, dimensions>& shape) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  T* const first = kept->data();
+  const nb::capsule owner(kept.release(), [](void* memory) noexcept {
+    const std::unique_ptr<std::vector<T>> gone(static_cast<std::vector<T>*>(memory));
+  });
+  return nb::cast(nb::ndarray<nb::numpy, T>(first, dimensions, shape.data(), owner));
+}
+
+nb::object array_of(const DataArray& array) {
+  return visit_scalar_type(array.type, [&]<class T>(T) {
+    const std::span<const T> numbers = array.as<T>();
+    std::vector<T> copy(numbers.begin(), numbers.end());
+    return array.components == 1 ? owning_array<T, 1>(std::move(copy), {array.rows()})
+                                 : owning_array<T, 2>(std::move(copy), {array.rows(), array.components});
+  });
+}
+
+nb::dict arrays_of(const std::vector<DataArray>& arrays) {
+  nb::dict by_name;
+  for (const DataArray& array : arrays) {
+    by_name[nb::str(array.name.data(), array.name.size())] = array_of(array);
+  }
+  return by_name;
+}
+
+nb::list texts(const std::vector<std::string>& lines) {
+  nb::list list;
+  for (const std::string& line : lines) {
+    list.append(nb::cast(line));
+  }
+  return list;
+}
+
+std::vector<std::string> names_of(nb::handle value, const char* name) {
+  if (value.is_none()) {
+    return {};
+  }
+  std::vector<std::string> names;
+  if (PyUnicode_Check(value.ptr())) {
+    names.push_back(nb::cast<std::string>(value));
+  } else if (!nb::try_cast(value, names)) {
+    raise_type_error(name, "a name or a list of names is needed");
+  }
+  return names;
+}
+
+template <class Enum>
+std::optional<Enum> choice_or_none(nb::handle value) {
+  return value.is_none() ? std::nullopt : std::optional(parse_enum<Enum>(nb::cast<std::string>(value)));
+}
+
+std::optional<std::string> text_or_none(nb::handle value) {
+  return value.is_none() ? std::nullopt : std::optional(nb::cast<std::string>(value));
+}
+
+/// What the program tells of a run beside its figures.
+struct FileOutcome {
+  Outcome outcome;
+  std::string json;
+  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
+  std::vector<std::string> losses;
+};
+
+std::optional<FileFormat> format_or_none(nb::handle value) {
+  const std::optional<std::string> name = text_or_none(value);
+  if (!name) {
+    return std::nullopt;
+  }
+  const std::optional<FileFormat> format = format_named(*name);
+  if (!format) {
+    raise_value_error("format", "unknown format '" + *name + "'; valid are " + format_names());
+  }
+  return format;
+}
+
+/// A mesh that was read from a file, with all that the file holds. One thread at a time works on it.
+class FileMesh {
+  template <class Function>
+  auto with_document(const Function& function) {
+    std::unique_lock lock(mutex_, std::defer_lock);
+    if (!lock.try_lock()) {
+      const nb::gil_scoped_release no_gil;
+      lock.lock();
+    }
+    return function(document_);
+  }
+
+ public:
+  FileMesh(std::filesystem::path path, nb::handle format, int threads) : path_(std::move(path)) {
+    const std::optional<FileFormat> told = format_or_none(format);
+    const nb::gil_scoped_release no_gil;
+    document_ = read_mesh(path_, FileOptions{threads, told});
+  }
+
+  nb::object points() {
+    return with_document([](MeshDocument& document) {
+      return owning_array<double, 2>(document.points, {document.point_count(), 3});
+    });
+  }
+
+  void set_points(nb::handle object) {
+    const HostArray array(object, "points");
+    const PointArray points(array);
+    with_document([&](MeshDocument& document) {
+      if (points.size() != document.point_count() || points.components() != 3 || points.storage() != Storage::float64) {
+        array.raise_value("shape " + array.shape_text() + " of " + array.type_text() + "; the mesh has (" +
+                          std::to_string(document.point_count()) + ", 3) of float64");
+      }
+      std::vector<double> numbers(document.points.size());
+      points.copy_to(reinterpret_cast<std::byte*>(numbers.data()));
+      for (double& number : numbers) {
+        number = rounded_to(document.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64,
+                            number);
+        if (!std::isfinite(number)) {
+          array.raise_value("a coordinate is not finite, or too large for the file's numbers");
+        }
+      }
+      document.points = std::move(numbers);
+    });
+  }
+
+  /// The cells of that type: (M, nodes), and their places among all cells.
+  nb::object cells(std::uint8_t type, std::size_t nodes) {
+    return with_document([&](MeshDocument& document) {
+      std::vector<std::int32_t> numbers;
+      for (std::size_t c = 0; c < document.cells.size(); ++c) {
+        const auto vertices = document.cells[c];
+        if (document.cells.types[c] == type && vertices.size() == nodes) {
+          numbers.insert(numbers.end(), vertices.begin(), vertices.end());
+        }
+      }
+      const std::size_t count = numbers.size() / nodes;
+      return owning_array<std::int32_t, 2>(std::move(numbers), {count, nodes});
+    });
+  }
+
+  nb::object cell_types() {
+    return with_document([](MeshDocument& document) {
+      return owning_array<std::uint8_t, 1>(document.cells.types, {document.cells.types.size()});
+    });
+  }
+
+  nb::dict point_data() {
+    return with_document([](MeshDocument& document) { return arrays_of(document.point_arrays); });
+  }
+  nb::dict cell_data() {
+    return with_document([](MeshDocument& document) { return arrays_of(document.cell_arrays); });
+  }
+  nb::list notes() {
+    return with_document([](MeshDocument& document) { return texts(document.notes); });
+  }
+  std::string format() {
+    return with_document([](MeshDocument& document) { return std::string(to_string(document.format)); });
+  }
+  std::string path() const { return path_.string(); }
+
+  FileOutcome smooth(const nb::dict& arguments, const nb::dict& file_arguments, const nb::object& progress) {
+    PipelineOptions options = pipeline_options(file_arguments);
+    options.smoothing = parse_options(arguments);
+    Interruption interruption(progress);
+    options.smoothing.progress = std::ref(interruption);
+    return run(options, smooth_document);
+  }
+
+  FileOutcome check(const nb::dict& file_arguments, int threads) {
+    PipelineOptions options = pipeline_options(file_arguments);
+    options.smoothing.threads = threads;
+    return run(options, check_document);
+  }
+
+  /// Answers what the file does not hold of the mesh.
+  nb::list write(const std::filesystem::path& path, nb::handle format, int threads) {
+    const std::optional<FileFormat> told = format_or_none(format);
+    return with_document([&](MeshDocument& document) {
+      std::vector<std::string> losses;
+      {
+        const nb::gil_scoped_release no_gil;
+        const FileFormat target = output_format(path, document.format, told);
+        losses = what_is_lost(document, target);
+        if (target != document.format) {
+          losses.insert(losses.end(), document.notes.begin(), document.notes.end());
+        }
+        write_mesh(path, document, {}, FileOptions{threads, told});
+      }
+      return texts(losses);
+    });
+  }
+
+ private:
+  PipelineOptions pipeline_options(const nb::dict& arguments) const {
+    PipelineOptions options;
+    options.input = path_;
+    for (const auto& [key, value] : arguments) {
+      const auto name = nb::cast<std::string>(key);
+      if (name == "regions") {
+        options.region_arrays = names_of(value, "regions");
+      } else if (name == "fixed_array") {
+        options.fixed_array = text_or_none(value);
+      } else if (name == "fixed_sets") {
+        options.fixed_sets = names_of(value, "fixed_sets");
+      } else if (name == "fixed") {
+        const std::vector<std::uint8_t> flags = vertex_flags(value, "fixed", document_.point_count());
+        for (std::size_t v = 0; v < flags.size(); ++v) {
+          if (flags[v] != 0) {
+            options.fixed_vertices.push_back(static_cast<std::int32_t>(v));
+          }
+        }
+      } else if (name == "size") {
+        options.size_array = text_or_none(value);
+      } else if (name == "fields") {
+        options.fields = choice_or_none<Fields>(value);
+      } else if (name == "field_arrays") {
+        options.field_arrays = names_of(value, "field_arrays");
+      } else if (name == "project") {
+        options.project = choice_or_none<Projection>(value);
+      } else {
+        options.geographic = nb::cast<bool>(value);
+      }
+    }
+    return options;
+  }
+
+  FileOutcome run(const PipelineOptions& options,
+                  PipelineResult (*stages)(MeshDocument& document, const PipelineOptions& options)) {
+    return with_document([&](MeshDocument& document) {
+      const nb::gil_scoped_release no_gil;
+      PipelineResult result = stages(document, options);
+      FileOutcome outcome;
+      outcome.json = json_report(options, result);
+      outcome.notes = std::move(result.notes);
+      outcome.warnings = std::move(result.warnings);
+      outcome.losses = std::move(result.losses);
+      outcome.outcome.before = std::move(result.before);
+      outcome.outcome.after = std::move(result.after);
+      outcome.outcome.smoothing = std::move(result.smoothing).value_or(SmoothingResult{});
+      return outcome;
+    });
+  }
+
+  std::filesystem::path path_;
+  MeshDocument document_;
+  std::mutex mutex_;
+};
+
+int run_program(const std::vector<std::string>& arguments) {
+  std::vector<const char*> pointers;
+  pointers.reserve(arguments.size());
+  for (const std::string& argument : arguments) {
+    pointers.push_back(argument.c_str());
+  }
+  const nb::gil_scoped_release no_gil;
+  return run_command_line(static_cast<int>(pointers.size()), pointers.data());
+}
+
+}  // namespace
+
+void bind_files(nb::module_& module) {
+  module.attr("has_files") = true;
+  make_public(nb::exception<ReadError>(module, "ReadError", PyExc_OSError),
+              "A mesh file that cannot be read, or that is no planar triangle mesh.");
+  make_public(nb::exception<WriteError>(module, "WriteError", PyExc_OSError),
+              "A file that cannot be written. What stood there before is untouched.");
+  make_public(nb::exception<Cancelled>(module, "Cancelled", PyExc_RuntimeError),
+              "The progress callable said stop; the mesh is as it was.");
+  nb::class_<FileOutcome>(module, "FileOutcome")
+      .def_ro("outcome", &FileOutcome::outcome)
+      .def_ro("json", &FileOutcome::json)
+      .def_prop_ro("notes", [](const FileOutcome& outcome) { return texts(outcome.notes); })
+      .def_prop_ro("warnings", [](const FileOutcome& outcome) { return texts(outcome.warnings); })
+      .def_prop_ro("losses", [](const FileOutcome& outcome) { return texts(outcome.losses); });
+  nb::class_<FileMesh>(module, "FileMesh")
+      .def(nb::init<std::filesystem::path, nb::handle, int>(), "path"_a, "format"_a.none(), "threads"_a)
+      .def_prop_rw("points", &FileMesh::points, &FileMesh::set_points)
+      .def("cells", &FileMesh::cells, "type"_a, "nodes"_a)
+      .def_prop_ro("cell_types", &FileMesh::cell_types)
+      .def_prop_ro("point_data", &FileMesh::point_data)
+      .def_prop_ro("cell_data", &FileMesh::cell_data)
+      .def_prop_ro("notes", &FileMesh::notes)
+      .def_prop_ro("format", &FileMesh::format)
+      .def_prop_ro("path", &FileMesh::path)
+      .def("smooth", &FileMesh::smooth, "options"_a, "file_options"_a, "progress"_a.none())
+      .def("check", &FileMesh::check, "file_options"_a, "threads"_a)
+      .def("write", &FileMesh::write, "path"_a, "format"_a.none(), "threads"_a);
+  module.def("run_program", &run_program, "arguments"_a);
+  module.def("format_list", [] { return titled_format_list(); });
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,359 @@
+#include "trismooth/python/host_array.h"
+
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "trismooth/base/mesh_size.h"
+#include "trismooth/python/errors.h"
+
+namespace nb = nanobind;
+
+namespace trismooth::python {
+
+namespace {
+
+/// 'f', 'i', 'u', '?' for the format of a buffer of single numbers, 0 for any other. See Python's module struct.
+char kind_of(const char* format) {
+  std::string_view code = format == nullptr ? "B" : format;
+  if (!code.empty() && (code.front() == '@' || code.front() == '=' || code.front() == '<')) {
+    code.remove_prefix(1);
+  }
+  if (code.size() != 1) {
+    return 0;
+  }
+  const auto is_one_of = [&code](std::string_view codes) { return codes.find(code.front()) != std::string_view::npos; };
+  return is_one_of("efdg") ? 'f' : is_one_of("bhilqn") ? 'i' : is_one_of("BHILQN") ? 'u' : code == "?" ? '?' : 0;
+}
+
+template <class T>
+T number_at(const std::byte* place) {
+  T number;
+  std::memcpy(&number, place, sizeof(T));
+  return number;
+}
+
+/// Calls visit(T{}) with T the type of integers of that kind and size.
+template <class Visit>
+void with_integer_type(char kind, std::size_t size, const Visit& visit) {
+  const bool is_signed = kind == 'i';
+  switch (size) {
+    case 1:
+      is_signed ? visit(std::int8_t{}) : visit(std::uint8_t{});
+      break;
+    case 2:
+      is_signed ? visit(std::int16_t{}) : visit(std::uint16_t{});
+      break;
+    case 4:
+      is_signed ? visit(std::int32_t{}) : visit(std::uint32_t{});
+      break;
+    default:
+      is_signed ? visit(std::int64_t{}) : visit(std::uint64_t{});
+      break;
+  }
+}
+
+/// Calls visit(i, number) for the integers of an array of one dimension.
+template <class Visit>
+void for_integers(const HostArray& array, const Visit& visit) {
+  with_integer_type(array.kind(), array.item_size(), [&]<class T>(T) {
+    for (std::size_t i = 0; i < array.extent(0); ++i) {
+      visit(i, number_at<T>(array.data() + static_cast<std::ptrdiff_t>(i) * array.stride(0)));
+    }
+  });
+}
+
+void require_list(const HostArray& array, std::size_t count, const char* of_what) {
+  if (array.dimensions() != 1 || array.extent(0) != count) {
+    array.raise_value("shape " + array.shape_text() + "; expected (" + std::to_string(count) + ",), one for each " +
+                      of_what);
+  }
+}
+
+/// Of numbers in their order, however they are handed in: each changes the value, since it is multiplied by odd numbers
+/// only.
+class Digest {
+ public:
+  void add(const std::byte* numbers, std::size_t bytes) {
+    std::size_t i = 0;
+    for (; i + sizeof(std::uint64_t) <= bytes; i += sizeof(std::uint64_t)) {
+      add(number_at<std::uint64_t>(numbers + i));
+    }
+    for (; i + sizeof(std::uint32_t) <= bytes; i += sizeof(std::uint32_t)) {
+      add(number_at<std::uint32_t>(numbers + i));
+    }
+  }
+  std::uint64_t value() const { return sum_; }
+
+ private:
+  void add(std::uint64_t word) {
+    sum_ += (word ^ factor_) * factor_;
+    factor_ += 0x9e3779b97f4a7c16;  // even: factors stay odd
+  }
+
+  std::uint64_t sum_ = 0;
+  std::uint64_t factor_ = 0xbf58476d1ce4e5b9;
+};
+
+bool is_integer(const HostArray& array) {
+  return array.kind() == 'i' || array.kind() == 'u';
+}
+
+}  // namespace
+
+HostArray::HostArray(nb::handle array, std::string argument, Access access) : argument_(std::move(argument)) {
+  const int flags = PyBUF_FORMAT | PyBUF_STRIDES | (access == Access::write ? PyBUF_WRITABLE : 0);
+  if (PyObject_GetBuffer(array.ptr(), &buffer_, flags) != 0) {
+    const nb::python_error error;
+    if (access == Access::write && PyObject_CheckBuffer(array.ptr()) != 0) {
+      raise_value_error(argument_, "cannot be written: it is read-only");
+    }
+    raise_type_error(argument_, std::string("an array is needed, not ") + Py_TYPE(array.ptr())->tp_name);
+  }
+  kind_ = kind_of(buffer_.format);
+  if (kind_ == 0) {
+    const std::string format = buffer_.format;
+    PyBuffer_Release(&buffer_);
+    raise_type_error(argument_, "its elements are no plain numbers of this machine (format '" + format + "')");
+  }
+}
+
+HostArray::~HostArray() {
+  PyBuffer_Release(&buffer_);
+}
+
+std::string HostArray::shape_text() const {
+  std::string text = "(";
+  for (std::size_t d = 0; d < dimensions(); ++d) {
+    text += (d > 0 ? ", " : "") + std::to_string(extent(d));
+  }
+  return text + (dimensions() == 1 ? ",)" : ")");
+}
+
+std::string HostArray::type_text() const {
+  if (kind_ == '?') {
+    return "bool";
+  }
+  return (kind_ == 'f' ? "float" : kind_ == 'i' ? "int" : "uint") + std::to_string(8 * item_size());
+}
+
+bool HostArray::is_contiguous() const {
+  return PyBuffer_IsContiguous(&buffer_, 'C') != 0;
+}
+
+void HostArray::raise_value(const std::string& what) const {
+  raise_value_error(argument_, what);
+}
+
+void HostArray::raise_type(const std::string& what) const {
+  raise_type_error(argument_, what);
+}
+
+PointArray::PointArray(const HostArray& array) : array_(array) {
+  if (array.kind() != 'f' || (array.item_size() != sizeof(float) && array.item_size() != sizeof(double))) {
+    array.raise_type("float64 or float32 is needed, not " + array.type_text());
+  }
+  if (array.dimensions() != 2 || (array.extent(1) != 2 && array.extent(1) != 3)) {
+    array.raise_value("shape " + array.shape_text() + "; expected (N, 2) or (N, 3), a vertex a row");
+  }
+}
+
+/// Calls visit(number in the array, its place among packed ones, its size as a constant) for every number.
+template <class Visit>
+void PointArray::for_numbers(const Visit& visit) const {
+  const auto for_size = [&](auto size) {
+    std::size_t place = 0;
+    for (std::size_t v = 0; v < this->size(); ++v) {
+      std::byte* const row = array_.data() + static_cast<std::ptrdiff_t>(v) * array_.stride(0);
+      for (std::size_t k = 0; k < components(); ++k) {
+        visit(row + static_cast<std::ptrdiff_t>(k) * array_.stride(1), place, size);
+        place += size;
+      }
+    }
+  };
+  if (storage() == Storage::float32) {
+    for_size(std::integral_constant<std::size_t, sizeof(float)>{});
+  } else {
+    for_size(std::integral_constant<std::size_t, sizeof(double)>{});
+  }
+}
+
+void PointArray::copy_to(std::byte* numbers) const {
+  if (array_.is_contiguous()) {
+    std::memcpy(numbers, array_.data(), bytes());
+  } else {
+    for_numbers([numbers](const std::byte* from, std::size_t to, auto size) { std::memcpy(numbers + to, from, size); });
+  }
+}
+
+void PointArray::copy_from(const std::byte* numbers) const {
+  if (array_.is_contiguous()) {
+    std::memcpy(array_.data(), numbers, bytes());
+  } else {
+    for_numbers([numbers](std::byte* to, std::size_t from, auto size) { std::memcpy(to, numbers + from, size); });
+  }
+}
+
+std::uint64_t PointArray::digest() const {
+  Digest digest;
+  if (array_.is_contiguous()) {
+    digest.add(array_.data(), bytes());
+  } else {
+    for_numbers([&digest](const std::byte* number, std::size_t, auto size) { digest.add(number, size); });
+  }
+  return digest.value();
+}
+
+PointView packed_points(std::byte* numbers, std::size_t size, std::size_t components, Storage storage) {
+  const auto rows = [&]<class T>(T* first) {
+    return PointView(
+        NumberRows<T>{first, size, components, static_cast<std::ptrdiff_t>(components * sizeof(T)), sizeof(T)});
+  };
+  return storage == Storage::float32 ? rows(reinterpret_cast<float*>(numbers))
+                                     : rows(reinterpret_cast<double*>(numbers));
+}
+
+TriangleArray::TriangleArray(const HostArray& array)
+    : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {
+  if (!is_integer(array)) {
+    array.raise_type("integers are needed, not " + array.type_text());
+  }
+  if (array.dimensions() != 2 || (array.extent(1) != 3 && array.extent(1) != 6)) {
+    array.raise_value("shape " + array.shape_text() + "; expected (M, 3), or (M, 6) for triangles of six nodes");
+  }
+  size_ = array.extent(0);
+  nodes_ = array.extent(1);
+  row_stride_ = array.stride(0);
+  column_stride_ = array.stride(1);
+  const auto size = static_cast<std::ptrdiff_t>(array.item_size());
+  const bool is_aligned = reinterpret_cast<std::uintptr_t>(first_) % array.item_size() == 0 &&
+                          row_stride_ % size == 0 && column_stride_ % size == 0;
+  if (array.item_size() >= sizeof(std::int32_t) && is_aligned) {
+    return;
+  }
+  copied_.reserve(size_ * nodes_);
+  with_integer_type(array.kind(), array.item_size(), [&]<class T>(T) {
+    for (std::size_t t = 0; t < size_; ++t) {
+      for (std::size_t k = 0; k < nodes_; ++k) {
+        copied_.push_back(static_cast<std::int64_t>(number_at<T>(first_ + static_cast<std::ptrdiff_t>(t) * row_stride_ +
+                                                                 static_cast<std::ptrdiff_t>(k) * column_stride_)));
+      }
+    }
+  });
+  first_ = reinterpret_cast<const std::byte*>(copied_.data());
+  column_stride_ = sizeof(std::int64_t);
+  row_stride_ = static_cast<std::ptrdiff_t>(nodes_ * sizeof(std::int64_t));
+  is_wide_ = true;
+  is_signed_ = true;
+}
+
+/// visit(rows) with the rows of the numbers' own type.
+template <class Visit>
+auto TriangleArray::with_rows(const Visit& visit) const {
+  const auto rows = [this]<class T>(const T* first) {
+    return NumberRows<const T>{first, size_, nodes_, row_stride_, column_stride_};
+  };
+  if (is_wide_) {
+    return is_signed_ ? visit(rows(reinterpret_cast<const std::int64_t*>(first_)))
+                      : visit(rows(reinterpret_cast<const std::uint64_t*>(first_)));
+  }
+  return is_signed_ ? visit(rows(reinterpret_cast<const std::int32_t*>(first_)))
+                    : visit(rows(reinterpret_cast<const std::uint32_t*>(first_)));
+}
+
+IndexView TriangleArray::corners() const {
+  return with_rows([](auto rows) {
+    rows.columns = 3;
+    return IndexView(rows);
+  });
+}
+
+std::vector<std::int32_t> TriangleArray::six_nodes(std::int64_t vertex_count) const {
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(6 * size_);
+  with_rows([&]<class T>(const NumberRows<const T>& rows) {
+    for (std::size_t t = 0; t < rows.rows; ++t) {
+      for (std::size_t k = 0; k < rows.columns; ++k) {
+        const T number = *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(rows.first) +
+                                                     static_cast<std::ptrdiff_t>(t) * rows.row_stride +
+                                                     static_cast<std::ptrdiff_t>(k) * rows.column_stride);
+        if (!std::in_range<std::int32_t>(number)) {
+          throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(number), vertex_count);
+        }
+        numbers.push_back(static_cast<std::int32_t>(number));
+      }
+    }
+    return 0;
+  });
+  return numbers;
+}
+
+std::vector<std::uint8_t> vertex_flags(nb::handle object, const std::string& argument, std::size_t vertex_count) {
+  if (object.is_none()) {
+    return {};
+  }
+  const HostArray array(object, argument);
+  if (array.dimensions() != 1) {
+    array.raise_value("shape " + array.shape_text() +
+                      "; expected one dimension: a bool for each vertex, or vertex numbers");
+  }
+  std::vector<std::uint8_t> flags(vertex_count, 0);
+  if (array.kind() == '?') {
+    require_list(array, vertex_count, "vertex");
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      flags[v] = number_at<std::uint8_t>(array.data() + static_cast<std::ptrdiff_t>(v) * array.stride(0)) != 0 ? 1 : 0;
+    }
+  } else if (is_integer(array)) {
+    for_integers(array, [&](std::size_t, auto number) {
+      if (!std::in_range<std::int64_t>(number) || std::cmp_less(number, 0) ||
+          std::cmp_greater_equal(number, vertex_count)) {
+        array.raise_value("vertex " + std::to_string(number) + " is not one of the " + std::to_string(vertex_count) +
+                          " vertices");
+      }
+      flags[static_cast<std::size_t>(number)] = 1;
+    });
+  } else {
+    array.raise_type("bool for each vertex or integers, vertex numbers, are needed, not " + array.type_text());
+  }
+  return flags;
+}
+
+std::vector<std::int32_t> integers(nb::handle object, const std::string& argument, std::size_t count) {
+  if (object.is_none()) {
+    return {};
+  }
+  const HostArray array(object, argument);
+  if (!is_integer(array)) {
+    array.raise_type("integers are needed, not " + array.type_text());
+  }
+  require_list(array, count, "triangle");
+  std::vector<std::int32_t> numbers(count);
+  for_integers(array, [&](std::size_t i, auto number) {
+    if (!std::in_range<std::int32_t>(number)) {
+      array.raise_value("the number " + std::to_string(number) + " has no place in 32 bits");
+    }
+    numbers[i] = static_cast<std::int32_t>(number);
+  });
+  return numbers;
+}
+
+std::vector<double> reals(nb::handle object, const std::string& argument, std::size_t count) {
+  if (object.is_none()) {
+    return {};
+  }
+  const HostArray array(object, argument);
+  if (array.kind() != 'f' || (array.item_size() != sizeof(float) && array.item_size() != sizeof(double))) {
+    array.raise_type("float64 or float32 is needed, not " + array.type_text());
+  }
+  require_list(array, count, "vertex");
+  std::vector<double> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::byte* const place = array.data() + static_cast<std::ptrdiff_t>(i) * array.stride(0);
+    numbers[i] =
+        array.item_size() == sizeof(float) ? static_cast<double>(number_at<float>(place)) : number_at<double>(place);
+  }
+  return numbers;
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,23 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include "trismooth/python/backends.h"
+#include "trismooth/python/device.h"
+#include "trismooth/python/errors.h"
+#include "trismooth/python/files.h"
+#include "trismooth/python/results.h"
+#include "trismooth/python/smoothing.h"
+#include "trismooth/version.h"
+
+NB_MODULE(_core, module) {
+  using namespace trismooth::python;
+  module.doc() = "The compiled part of trismooth. Use the package trismooth.";
+  module.attr("__version__") = TRISMOOTH_VERSION;
+  bind_errors(module);
+  bind_results(module);
+  bind_smoothing(module);
+  bind_quality_of_arrays(module);
+  bind_device(module);
+  bind_files(module);
+  module.def("cuda_text", &cuda_text);
+}

@@ -1,0 +1,198 @@
+#include "trismooth/python/options.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+#include <nanobind/stl/string.h>
+
+#include "trismooth/base/suggestion.h"
+#include "trismooth/python/backends.h"
+#include "trismooth/python/errors.h"
+
+namespace nb = nanobind;
+
+namespace trismooth::python {
+
+namespace {
+
+/// An option as it is parsed: the backend's name has to wait for all others.
+struct Parsed {
+  SmoothingOptions options;
+  std::string backend = "auto";
+};
+
+double real_of(nb::handle value, const char* name) {
+  const nb::object number = nb::steal(PyNumber_Float(value.ptr()));
+  if (!number.is_valid()) {
+    const nb::python_error error;
+    raise_type_error(name, "a number is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return nb::cast<double>(number);
+}
+
+template <class T>
+T integer_of(nb::handle value, const char* name) {
+  const nb::object number = nb::steal(PyNumber_Index(value.ptr()));
+  if (!number.is_valid()) {
+    const nb::python_error error;
+    raise_type_error(name, "an integer is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  T result{};
+  if (!nb::try_cast(number, result)) {
+    raise_value_error(name, nb::cast<std::string>(nb::repr(value)) + " is out of range");
+  }
+  return result;
+}
+
+bool flag_of(nb::handle value, const char* name) {
+  if (!PyBool_Check(value.ptr())) {
+    raise_type_error(name, "True or False is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return value.ptr() == Py_True;
+}
+
+std::string text_of(nb::handle value, const char* name) {
+  std::string text;
+  if (!nb::try_cast(value, text)) {
+    raise_type_error(name, "a str is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return text;
+}
+
+template <class Enum>
+Enum choice_of(nb::handle value, const char* name) {
+  const std::string text = text_of(value, name);
+  try {
+    return parse_enum<Enum>(text);
+  } catch (const std::invalid_argument& error) {
+    raise_value_error(name, error.what());
+  }
+}
+
+struct Option {
+  const char* name;
+  void (*parse)(nb::handle value, const char* name, Parsed& parsed);
+};
+
+template <auto member>
+void parse_choice(nb::handle value, const char* name, Parsed& parsed) {
+  auto& place = parsed.options.*member;
+  place = choice_of<std::remove_reference_t<decltype(place)>>(value, name);
+}
+
+template <auto member>
+void parse_flag(nb::handle value, const char* name, Parsed& parsed) {
+  parsed.options.*member = flag_of(value, name);
+}
+
+void parse_untangle(nb::handle value, const char* name, Parsed& parsed) {
+  if (PyBool_Check(value.ptr())) {
+    parsed.options.untangle = value.ptr() == Py_True ? Untangle::on : Untangle::off;
+  } else {
+    parse_choice<&SmoothingOptions::untangle>(value, name, parsed);
+  }
+}
+
+void parse_time_limit(nb::handle value, const char* name, Parsed& parsed) {
+  parsed.options.time_limit_seconds = value.is_none() ? std::numeric_limits<double>::infinity() : real_of(value, name);
+}
+
+void parse_target_quality(nb::handle value, const char* name, Parsed& parsed) {
+  if (!value.is_none()) {
+    parsed.options.target_quality = real_of(value, name);
+  }
+}
+
+constexpr auto options = std::to_array<Option>({
+    {"method", parse_choice<&SmoothingOptions::method>},
+    {"form", parse_choice<&SmoothingOptions::form>},
+    {"backend", [](nb::handle value, const char* name, Parsed& parsed) { parsed.backend = text_of(value, name); }},
+    {"layout", parse_choice<&SmoothingOptions::layout>},
+    {"execution", parse_choice<&SmoothingOptions::execution>},
+    {"order", parse_choice<&SmoothingOptions::order>},
+    {"topology", parse_choice<&SmoothingOptions::topology>},
+    {"precision", parse_choice<&SmoothingOptions::precision>},
+    {"evaluation", parse_choice<&SmoothingOptions::evaluation>},
+    {"guard", parse_flag<&SmoothingOptions::guard>},
+    {"untangle", parse_untangle},
+    {"max_sweeps", [](nb::handle value, const char* name,
+                      Parsed& parsed) { parsed.options.max_sweeps = integer_of<std::int64_t>(value, name); }},
+    {"tolerance",
+     [](nb::handle value, const char* name, Parsed& parsed) { parsed.options.tolerance = real_of(value, name); }},
+    {"time_limit", parse_time_limit},
+    {"target_quality", parse_target_quality},
+    {"threads",
+     [](nb::handle value, const char* name, Parsed& parsed) { parsed.options.threads = integer_of<int>(value, name); }},
+    {"size_weight", [](nb::handle value, const char* name,
+                       Parsed& parsed) { parsed.options.mean_ratio.size_weight = real_of(value, name); }},
+    {"power",
+     [](nb::handle value, const char* name, Parsed& parsed) {
+       parsed.options.mean_ratio.power = value.is_none() ? 0 : integer_of<int>(value, name);
+     }},
+    {"target", [](nb::handle value, const char* name,
+                  Parsed& parsed) { parsed.options.mean_ratio.target = choice_of<TargetShape>(value, name); }},
+    {"record_min_shape", parse_flag<&SmoothingOptions::record_min_shape>},
+});
+
+const Option* find_option(std::string_view name) {
+  const auto* const option =
+      std::ranges::find(options, name, [](const Option& known) { return std::string_view(known.name); });
+  return option == options.end() ? nullptr : option;
+}
+
+std::string_view text_view(nb::handle key) {
+  return PyUnicode_Check(key.ptr()) ? nb::borrow<nb::str>(key).c_str() : "";
+}
+
+/// Raises ValueError for options that do not fit. It begins with the name of the one that by itself is to blame, if one
+/// is.
+void validate(const SmoothingOptions& all, const nb::dict& arguments) {
+  try {
+    all.validate();
+  } catch (const std::invalid_argument& error) {
+    for (const auto& [key, value] : arguments) {
+      const Option& option = *find_option(text_view(key));
+      Parsed alone;
+      option.parse(value, option.name, alone);
+      try {
+        alone.options.validate();
+      } catch (const std::invalid_argument& of_option) {
+        raise_value_error(option.name, of_option.what());
+      }
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> option_names() {
+  std::vector<std::string> names;
+  for (const Option& option : options) {
+    names.emplace_back(option.name);
+  }
+  return names;
+}
+
+SmoothingOptions parse_options(const nb::dict& arguments) {
+  Parsed parsed;
+  for (const auto& [key, value] : arguments) {
+    const Option* const option = find_option(text_view(key));
+    if (option == nullptr) {
+      const std::string name(text_view(key));
+      const std::vector<std::string> names = option_names();
+      throw nb::type_error(("'" + name + "' is no option" + did_you_mean(name, names)).c_str());
+    }
+    option->parse(value, option->name, parsed);
+  }
+  validate(parsed.options, arguments);
+  choose_backend(parsed.backend, parsed.options);
+  return parsed.options;
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth::python {
+
+/// The options of a call: keyword arguments as the command line calls them, with '_' in place of '-'. Raises TypeError
+/// for an unknown name or a value of the wrong type, ValueError for a value that is none of the valid ones, each with
+/// the name. `backend` is chosen here as the program chooses it; DeviceError where it is asked for and not there.
+SmoothingOptions parse_options(const nanobind::dict& arguments);
+
+/// The names of all options, for messages and tests.
+std::vector<std::string> option_names();
+
+}  // namespace trismooth::python

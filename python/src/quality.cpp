@@ -1,0 +1,80 @@
+#include "trismooth/quality/quality.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "trismooth/base/worker_threads.h"
+#include "trismooth/python/errors.h"
+#include "trismooth/python/host_array.h"
+#include "trismooth/python/results.h"
+#include "trismooth/python/smoothing.h"
+#include "trismooth/quality/metrics.h"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace trismooth::python {
+
+namespace {
+
+using Values = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
+
+/// The report, and a list of arrays in the order of the metrics, one value a triangle.
+nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_object, int threads) {
+  const HostArray points_array(points_object, "points");
+  const PointArray points(points_array);
+  const HostArray numbers(triangles_object, "triangles");
+  const TriangleArray triangles(numbers);
+  checked_threads(threads);
+  const std::size_t count = triangles.size();
+  auto values = std::make_unique<std::vector<double>>(metric_count * count);
+  ElementValues places;
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    places[m] = std::span(*values).subspan(m * count, count);
+  }
+  QualityReport report;
+  {
+    const nb::gil_scoped_release no_gil;
+    std::vector<std::byte> packed(points.bytes());
+    points.copy_to(packed.data());
+    report = naming_arguments([&] {
+      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()),
+                     triangles.corners(), places, QualityOptions{.threads = threads});
+    });
+  }
+  double* const first = values->data();
+  const nb::capsule owner(values.release(), [](void* memory) noexcept {
+    const std::unique_ptr<std::vector<double>> gone(static_cast<std::vector<double>*>(memory));
+  });
+  nb::list arrays;
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    arrays.append(Values(first + m * count, {count}, owner));
+  }
+  return nb::make_tuple(std::move(report), arrays);
+}
+
+nb::list metrics() {
+  nb::list list;
+  for (const MetricInfo& metric : all_metrics()) {
+    list.append(nb::make_tuple(nb::str(metric.name.data(), metric.name.size()),
+                               nb::str(metric.unit.data(), metric.unit.size()),
+                               nb::str(metric.meaning.data(), metric.meaning.size()), metric.larger_is_better));
+  }
+  return list;
+}
+
+}  // namespace
+
+void bind_quality_of_arrays(nb::module_& module) {
+  module.def("quality", &quality_of_arrays, "points"_a, "triangles"_a, "threads"_a);
+  module.def("metrics", &metrics, "Name, unit, meaning of each metric, and whether larger values are better.");
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,172 @@
+#include "trismooth/python/results.h"
+
+#include <sstream>
+#include <string>
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+#include "trismooth/quality/metrics.h"
+#include "trismooth/quality/quality_table.h"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace trismooth::python {
+
+namespace {
+
+const MetricSummary& summary_of(const QualityReport& report, const std::string& name) {
+  const auto metric = metric_named(name);
+  if (!metric) {
+    throw nb::key_error(("'" + name + "' is no metric; valid are " + metric_names()).c_str());
+  }
+  return report[*metric];
+}
+
+nb::tuple pair_of(Point2<double> point) {
+  return nb::make_tuple(point.x, point.y);
+}
+
+nb::dict timings_of(const Outcome& outcome) {
+  const SmoothingTimings& timings = outcome.smoothing.timings;
+  nb::dict milliseconds;
+  milliseconds["prepare"] = timings.prepare;
+  milliseconds["transfer_in"] = timings.transfer_in;
+  milliseconds["untangle"] = timings.untangle;
+  milliseconds["smooth"] = timings.smooth;
+  milliseconds["transfer_out"] = timings.transfer_out;
+  milliseconds["guard"] = timings.commit;
+  return milliseconds;
+}
+
+nb::object untangling_of(const Outcome& outcome) {
+  const auto& untangling = outcome.smoothing.untangling;
+  if (!untangling) {
+    return nb::none();
+  }
+  nb::dict counts;
+  counts["inverted_before"] = untangling->inverted_before;
+  counts["inverted_untangled"] = untangling->inverted_untangled;
+  counts["inverted_after"] = untangling->inverted_after;
+  counts["inverted_fixed"] = untangling->inverted_fixed;
+  counts["turned_components"] = untangling->turned_components;
+  return counts;
+}
+
+nb::list reverted_of(const Outcome& outcome) {
+  nb::list vertices;
+  for (const auto& [vertex, position] : outcome.smoothing.reverted) {
+    vertices.append(nb::make_tuple(vertex, pair_of(position)));
+  }
+  return vertices;
+}
+
+void bind_quality(nb::module_& module) {
+  nb::class_<MetricSummary>(module, "MetricSummary", "One metric over all triangles of a mesh.")
+      .def_ro("min", &MetricSummary::min, "The smallest value.")
+      .def_ro("mean", &MetricSummary::mean, "The mean.")
+      .def_ro("max", &MetricSummary::max, "The largest value.")
+      .def_ro("stddev", &MetricSummary::stddev, "The standard deviation over these triangles.")
+      .def_ro("acceptable_fraction", &MetricSummary::acceptable_fraction,
+              "The part of the triangles in the range that Verdict's manual calls acceptable, 0 to 1.")
+      .def("__repr__", [](const MetricSummary& summary) {
+        std::ostringstream text;
+        text << "MetricSummary(min=" << summary.min << ", mean=" << summary.mean << ", max=" << summary.max
+             << ", stddev=" << summary.stddev << ", acceptable_fraction=" << summary.acceptable_fraction << ")";
+        return text.str();
+      });
+  nb::class_<WorstElement>(module, "WorstElement", "One of the triangles with the smallest shape.")
+      .def_ro("triangle", &WorstElement::triangle, "Its number, from 0.")
+      .def_ro("shape", &WorstElement::shape, "Its shape; negative where it is inverted.")
+      .def_prop_ro(
+          "centroid", [](const WorstElement& element) { return pair_of(element.centroid); }, "x and y.")
+      .def_ro("all_fixed", &WorstElement::all_fixed, "No smoothing can change it; of files alone.")
+      .def("__repr__", [](const WorstElement& element) {
+        std::ostringstream text;
+        text << "WorstElement(triangle=" << element.triangle << ", shape=" << element.shape << ", centroid=("
+             << element.centroid.x << ", " << element.centroid.y << "))";
+        return text.str();
+      });
+  nb::class_<QualityReport>(module, "QualityReport",
+                            "The quality of a mesh's triangles.\n\n`report['shape']` is the MetricSummary of a metric; "
+                            "`str(report)` a table.")
+      .def_ro("triangles", &QualityReport::triangles, "How many there are.")
+      .def_ro("inverted", &QualityReport::inverted, "Those of shape < 0.")
+      .def_ro("degenerate", &QualityReport::degenerate, "Those without area.")
+      .def_ro("histogram", &QualityReport::shape_histogram,
+              "20 counts of triangles by their shape, from 0 to 1; inverted ones are in none.")
+      .def_ro("worst", &QualityReport::worst, "The triangles of smallest shape, the worst first; 10 at most.")
+      .def("__getitem__", &summary_of, "metric"_a, nb::rv_policy::reference_internal)
+      .def("__str__", [](const QualityReport& report) { return format_table(report); })
+      .def("__repr__", [](const QualityReport& report) {
+        std::ostringstream text;
+        text << "<QualityReport: " << report.triangles << " triangles, " << report.inverted << " inverted, shape from "
+             << report[Metric::shape].min << ", mean " << report[Metric::shape].mean << ">";
+        return text.str();
+      });
+}
+
+void bind_sweeps(nb::module_& module) {
+  nb::class_<SweepRecord>(module, "SweepRecord", "What one sweep did.")
+      .def_ro("sweep", &SweepRecord::sweep, "Its number, from 1.")
+      .def_ro("evaluated", &SweepRecord::evaluated, "Vertices whose update was computed.")
+      .def_ro("moved", &SweepRecord::moved, "Vertices that moved.")
+      .def_ro("max_relative_move", &SweepRecord::max_relative_move,
+              "The largest move over the root mean square length of the vertex's edges.")
+      .def_ro("min_shape", &SweepRecord::min_shape, "After the sweep; NaN unless record_min_shape or target_quality.")
+      .def("__repr__", [](const SweepRecord& record) {
+        return "SweepRecord(sweep=" + std::to_string(record.sweep) + ", evaluated=" + std::to_string(record.evaluated) +
+               ", moved=" + std::to_string(record.moved) + ")";
+      });
+}
+
+/// A property of the smoothing's result.
+template <auto member>
+auto of_smoothing() {
+  return [](const Outcome& outcome) { return outcome.smoothing.*member; };
+}
+
+}  // namespace
+
+void bind_results(nb::module_& module) {
+  bind_quality(module);
+  bind_sweeps(module);
+  nb::class_<Outcome>(module, "Outcome", "What a smoothing did; see trismooth.Result.")
+      .def_ro("before", &Outcome::before)
+      .def_ro("after", &Outcome::after)
+      .def_prop_ro("moved", of_smoothing<&SmoothingResult::moved_vertices>())
+      .def_prop_ro("sweeps", of_smoothing<&SmoothingResult::sweeps>())
+      .def_prop_ro("stop_reason", [](const Outcome& outcome) { return to_string(outcome.smoothing.stop_reason); })
+      .def_prop_ro("vertex_updates", of_smoothing<&SmoothingResult::vertex_updates>())
+      .def_prop_ro("reverted", of_smoothing<&SmoothingResult::reverted_vertices>())
+      .def_prop_ro("reverted_vertices", &reverted_of)
+      .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
+      .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
+      .def_prop_ro("colours", of_smoothing<&SmoothingResult::colours>())
+      .def_prop_ro("history", of_smoothing<&SmoothingResult::history>())
+      .def_prop_ro("untangling", &untangling_of)
+      .def_prop_ro("backend", of_smoothing<&SmoothingResult::backend>())
+      .def_prop_ro("device", of_smoothing<&SmoothingResult::device>())
+      .def_prop_ro("threads", of_smoothing<&SmoothingResult::threads>())
+      .def_prop_ro("kernel_launches", of_smoothing<&SmoothingResult::kernel_launches>())
+      .def_prop_ro("child_launches", of_smoothing<&SmoothingResult::child_launches>())
+      .def_prop_ro("device_memory_bytes", of_smoothing<&SmoothingResult::device_memory_bytes>())
+      .def_prop_ro("reproducible", of_smoothing<&SmoothingResult::reproducible>())
+      .def_prop_ro("note", of_smoothing<&SmoothingResult::backend_note>())
+      .def_prop_ro("timings", &timings_of)
+      .def("with_quality",
+           [](Outcome outcome, const QualityReport& before, const QualityReport& after) {
+             outcome.before = before;
+             outcome.after = after;
+             return outcome;
+           })
+      .def("summary", [](const Outcome& outcome) {
+        return outcome.before && outcome.after ? format_summary(*outcome.before, *outcome.after) : std::string();
+      });
+}
+
+}  // namespace trismooth::python

@@ -1,0 +1,224 @@
+#include "trismooth/python/smoothing.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/python/errors.h"
+#include "trismooth/python/host_array.h"
+#include "trismooth/python/interruption.h"
+#include "trismooth/python/options.h"
+#include "trismooth/python/results.h"
+#include "trismooth/quality/quality.h"
+#include "trismooth/smoothing/smooth.h"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace trismooth::python {
+
+namespace {
+
+/// What holds vertices, as the library takes it. Owns the arrays.
+struct HeldArrays {
+  HeldArrays(nb::handle regions_object, nb::handle fixed_object, nb::handle other_cells_object,
+             std::size_t vertex_count, std::size_t triangle_count)
+      : regions(integers(regions_object, "regions", triangle_count)),
+        fixed(vertex_flags(fixed_object, "fixed", vertex_count)),
+        other_cells(vertex_flags(other_cells_object, "other_cells", vertex_count)) {}
+
+  Constraints constraints() const { return {.fixed = fixed, .other_cells = other_cells, .regions = regions}; }
+
+  std::vector<std::int32_t> regions;
+  std::vector<std::uint8_t> fixed;
+  std::vector<std::uint8_t> other_cells;
+};
+
+/// The caller's points, copied to be smoothed: what fails leaves the caller's arrays as they are, and the caller's
+/// other threads do not disturb.
+class WorkingPoints {
+ public:
+  void read(const PointArray& points) {
+    numbers_.resize(points.bytes());
+    points.copy_to(numbers_.data());
+    digest_ = points.digest();
+    size_ = points.size();
+    components_ = points.components();
+    storage_ = points.storage();
+  }
+
+  PointView view() { return packed_points(numbers_.data(), size_, components_, storage_); }
+  bool are_still(const PointArray& points) const { return points.digest() == digest_; }
+  void write(const PointArray& out) const { out.copy_from(numbers_.data()); }
+
+ private:
+  BulkVector<std::byte> numbers_;
+  std::uint64_t digest_ = 0;
+  std::size_t size_ = 0;
+  std::size_t components_ = 0;
+  Storage storage_ = Storage::float64;
+};
+
+void require_same_form(const HostArray& out, const HostArray& points) {
+  const bool same_shape = out.dimensions() == points.dimensions() && out.shape_text() == points.shape_text();
+  if (!same_shape) {
+    out.raise_value("shape " + out.shape_text() + "; that of points is " + points.shape_text());
+  }
+  if (out.type_text() != points.type_text()) {
+    out.raise_type("its numbers are " + out.type_text() + ", those of points " + points.type_text());
+  }
+}
+
+/// Smooths `points` into `out` by smooth(PointView), which returns a SmoothingResult; the GIL is not held while it
+/// runs. `mesh_quality` makes the MeshQuality for the reports before and after; null where they are not wanted.
+template <class Smooth>
+Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, WorkingPoints& working,
+                    const std::function<MeshQuality()>& mesh_quality, int threads, const Smooth& smooth) {
+  require_same_form(out_array, points_array);
+  const PointArray points(points_array);
+  const PointArray out(out_array);
+  Outcome outcome;
+  bool are_still = true;
+  {
+    const nb::gil_scoped_release no_gil;
+    working.read(points);
+    naming_arguments([&] {
+      std::optional<MeshQuality> quality;
+      if (mesh_quality) {
+        quality.emplace(mesh_quality());
+        outcome.before = quality->report(working.view(), {.threads = threads});
+      }
+      outcome.smoothing = smooth(working.view());
+      if (quality) {
+        outcome.after = quality->report(working.view(), {.threads = threads});
+      }
+    });
+    are_still = working.are_still(points);
+    if (are_still) {
+      working.write(out);
+    }
+  }
+  if (!are_still) {
+    points_array.raise_value("changed while they were smoothed; out is as it was");
+  }
+  return outcome;
+}
+
+Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle out_object, nb::handle regions,
+                      nb::handle fixed, nb::handle other_cells, nb::handle size, bool with_quality,
+                      const nb::object& progress, const nb::dict& arguments) {
+  const HostArray points_array(points_object, "points");
+  const PointArray points(points_array);
+  const HostArray out(out_object, "out", HostArray::Access::write);
+  const HostArray triangle_numbers(triangles_object, "triangles");
+  const TriangleArray triangles(triangle_numbers);
+  const HeldArrays held(regions, fixed, other_cells, points.size(), triangles.size());
+  const std::vector<double> sizes = reals(size, "size", points.size());
+  SmoothingOptions options = parse_options(arguments);
+  options.mean_ratio.target_lengths = sizes;
+  Interruption interruption(progress);
+  options.progress = std::ref(interruption);
+  const IndexView corners = triangles.corners();
+  WorkingPoints working;
+  std::function<MeshQuality()> mesh_quality;
+  if (with_quality) {
+    mesh_quality = [&] { return MeshQuality(static_cast<std::int64_t>(points.size()), corners, options.threads); };
+  }
+  return smooth_into(points_array, out, working, mesh_quality, options.threads, [&](const PointView& view) {
+    if (triangles.nodes() == 6) {
+      const std::vector<std::int32_t> nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
+      return trismooth::smooth_quadratic(view, nodes, held.constraints(), options);
+    }
+    return trismooth::smooth(view, corners, held.constraints(), options);
+  });
+}
+
+/// A SmoothingPlan for Python: with all it refers to, for one thread at a time.
+class HostPlan {
+ public:
+  HostPlan(nb::handle triangles_object, std::size_t vertex_count, nb::handle regions, nb::handle fixed,
+           nb::handle other_cells, nb::handle size, const nb::dict& arguments)
+      : vertex_count_(vertex_count), sizes_(reals(size, "size", vertex_count)) {
+    const HostArray numbers(triangles_object, "triangles");
+    const TriangleArray triangles(numbers);
+    if (triangles.nodes() != 3) {
+      numbers.raise_value("a plan is for triangles of three nodes; smooth() takes those of six");
+    }
+    const HeldArrays held(regions, fixed, other_cells, vertex_count, triangles.size());
+    SmoothingOptions options = parse_options(arguments);
+    options.mean_ratio.target_lengths = sizes_;
+    options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
+    threads_ = options.threads;
+    const nb::gil_scoped_release no_gil;
+    naming_arguments([&] {
+      const IndexView corners = triangles.corners();
+      const std::span<const Triangle> kept = corners.triangles(static_cast<std::int64_t>(vertex_count), triangles_);
+      if (kept.data() != triangles_.data()) {
+        triangles_.assign(kept.begin(), kept.end());
+      }
+      plan_.emplace(static_cast<std::int64_t>(vertex_count), triangles_, held.constraints(), options);
+    });
+  }
+
+  Outcome smooth(nb::handle points_object, nb::handle out_object, bool with_quality, const nb::object& progress) {
+    const HostArray points_array(points_object, "points");
+    const PointArray points(points_array);
+    if (points.size() != vertex_count_) {
+      points_array.raise_value("shape " + points_array.shape_text() + "; the plan has " +
+                               std::to_string(vertex_count_) + " vertices");
+    }
+    const HostArray out(out_object, "out", HostArray::Access::write);
+    std::unique_lock lock(mutex_, std::defer_lock);
+    if (!lock.try_lock()) {
+      const nb::gil_scoped_release no_gil;
+      lock.lock();
+    }
+    Interruption interruption(progress);
+    interruption_ = &interruption;
+    std::function<MeshQuality()> mesh_quality;
+    if (with_quality) {
+      mesh_quality = [this] { return MeshQuality(static_cast<std::int64_t>(vertex_count_), triangles_, threads_); };
+    }
+    return smooth_into(points_array, out, working_, mesh_quality, threads_,
+                       [this](const PointView& view) { return plan_->smooth(view); });
+  }
+
+  std::size_t vertex_count() const { return vertex_count_; }
+  std::size_t triangle_count() const { return triangles_.size(); }
+
+ private:
+  std::size_t vertex_count_;
+  std::vector<double> sizes_;
+  int threads_ = 0;
+  std::vector<Triangle> triangles_;
+  Interruption* interruption_ = nullptr;  ///< of the call that is at work
+  std::optional<SmoothingPlan> plan_;
+  WorkingPoints working_;  ///< kept: new memory costs as much as a sweep
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void bind_smoothing(nb::module_& module) {
+  module.def("smooth", &smooth_arrays, "points"_a, "triangles"_a, "out"_a, "regions"_a.none(), "fixed"_a.none(),
+             "other_cells"_a.none(), "size"_a.none(), "quality"_a, "progress"_a.none(), "options"_a);
+  module.def("option_names", &option_names);
+  nb::class_<HostPlan>(module, "HostPlan")
+      .def(nb::init<nb::handle, std::size_t, nb::handle, nb::handle, nb::handle, nb::handle, const nb::dict&>(),
+           "triangles"_a, "vertex_count"_a, "regions"_a.none(), "fixed"_a.none(), "other_cells"_a.none(),
+           "size"_a.none(), "options"_a)
+      .def("smooth", &HostPlan::smooth, "points"_a, "out"_a, "quality"_a, "progress"_a.none())
+      .def_prop_ro("vertex_count", &HostPlan::vertex_count)
+      .def_prop_ro("triangle_count", &HostPlan::triangle_count);
+}
+
+}  // namespace trismooth::python

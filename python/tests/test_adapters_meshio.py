@@ -1,0 +1,200 @@
+"""meshio."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import trismooth
+from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
+
+meshio = pytest.importorskip("meshio")
+
+G = grid()
+LEFT, RIGHT = np.flatnonzero(G.regions == 1), np.flatnonzero(G.regions == 2)
+DATA = Path(__file__).parents[2] / "examples" / "data"
+
+
+def mesh_of(cells: Any, points: np.ndarray = G.points, **data: Any) -> Any:
+    return meshio.Mesh(points.copy(), cells, **data)
+
+
+def moved(before: Any, after: Any) -> np.ndarray:
+    return ~same_bits(before.points, after.points)
+
+
+@pytest.mark.parametrize("points", [G.points, G.points3, G.points.astype(np.float32), G.points3.astype(np.float32)])
+def test_copy_is_smoothed_and_the_mesh_is_not(points: np.ndarray) -> None:
+    mesh = mesh_of([("triangle", G.triangles)], points)
+    result = trismooth.smooth(mesh)
+    assert type(result.mesh) is meshio.Mesh
+    assert np.array_equal(mesh.points, points)
+    assert result.mesh.points.dtype == points.dtype
+    assert result.mesh.points.shape == points.shape
+    assert np.array_equal(moved(mesh, result.mesh), ~G.is_boundary)
+    assert shapes(result.mesh.points, G.triangles).min() > shapes(points, G.triangles).min() + 0.05
+
+
+def test_data_are_kept() -> None:
+    mesh = mesh_of(
+        [("triangle", G.triangles)],
+        point_data={"T": G.points[:, 0]},
+        cell_data={"p": [np.arange(200)]},
+        field_data={"steel": [1, 2]},
+        point_sets={"corner": np.array([0])},
+        info={"by": "hand"},
+    )
+    new = trismooth.smooth(mesh).mesh
+    assert np.array_equal(new.point_data["T"], mesh.point_data["T"])
+    assert np.array_equal(new.cell_data["p"][0], np.arange(200))
+    assert new.field_data == {"steel": [1, 2]}
+    assert new.point_sets["corner"].tolist() == [0]
+    assert new.info == {"by": "hand"}
+    new.point_data["T"][0] = 9
+    assert mesh.point_data["T"][0] == 0
+
+
+def test_in_place() -> None:
+    mesh = mesh_of([("triangle", G.triangles)])
+    expected = trismooth.smooth(mesh).mesh.points
+    points = mesh.points
+    assert smooth_in_place(mesh).mesh is mesh
+    assert mesh.points is points
+    assert np.array_equal(points, expected)
+
+
+def test_whole_numbers_in_place_become_real_ones() -> None:
+    triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    mesh = meshio.Mesh([[0, 0], [9, 0], [9, 9], [0, 9], [8, 7]], [("triangle", triangles)])
+    smooth_in_place(mesh, method="smart")
+    assert mesh.points.dtype == np.float64
+    assert mesh.points[4].tolist() == [4.5, 4.5]
+
+
+def test_blocks_and_data_of_known_names() -> None:
+    cells = [("triangle", G.triangles[LEFT]), ("line", [[0, 1]]), ("triangle", G.triangles[RIGHT])]
+    tags = [np.full(100, 4), np.array([8]), np.full((100, 1), 5)]
+    for name in ("gmsh:physical", "gmsh:geometrical", "medit:ref", "cell_tags"):
+        mesh = mesh_of(cells, cell_data={name: [np.array(t) for t in tags]})
+        new = trismooth.smooth(mesh).mesh
+        assert np.array_equal(moved(mesh, new), G.is_inside)
+        assert [block.type for block in new.cells] == ["triangle", "line", "triangle"]
+        assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions=False).mesh), ~G.is_boundary)
+    mesh = mesh_of(cells, cell_data={"u": [np.array(t) for t in tags]})
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), ~G.is_boundary)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions="u").mesh), G.is_inside)
+
+
+def test_labels_in_the_order_of_the_blocks() -> None:
+    cells = [("triangle", G.triangles[RIGHT]), ("vertex", [[0], [1]]), ("triangle", G.triangles[LEFT])]
+    mesh = mesh_of(cells)
+    for labels in (["r"] * 100 + ["l"] * 100, [2] * 100 + [7, 8] + [1] * 100):
+        labels = np.array(labels)
+        assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions=labels).mesh), G.is_inside)
+
+
+def test_cell_sets() -> None:
+    lower = np.flatnonzero(G.row[G.triangles].min(axis=1) < 4)
+    cells = [("line", [[0, 1]]), ("triangle", G.triangles)]
+    sets = {"left": [None, LEFT], "lower": [np.array([0]), lower], "gmsh:bounding_entities": [None, np.array([999])]}
+    mesh = mesh_of(cells, cell_sets=sets)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), G.is_inside & (G.row != 4))
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions="left").mesh), G.is_inside)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions=False).mesh), ~G.is_boundary)
+    new = trismooth.smooth(mesh).mesh
+    assert set(new.cell_sets) == set(sets)
+    assert np.array_equal(new.cell_sets["left"][1], LEFT)
+
+
+def test_fixed() -> None:
+    lone = G.vertex(2, 8)
+    mesh = mesh_of(
+        [("triangle", G.triangles)],
+        point_data={"fixed": (np.arange(len(G.points)) == lone).astype(float)},
+        point_sets={"set": np.array([G.vertex(3, 3), lone])},
+    )
+    expected = ~G.is_boundary
+    expected[lone] = False
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=False).mesh), ~G.is_boundary)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=[lone]).mesh), expected)
+    expected[G.vertex(3, 3)] = False
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed="set").mesh), expected)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=["set", "fixed"]).mesh), expected)
+
+
+def test_cells_that_are_not_triangles() -> None:
+    line = [[G.vertex(2, 2), G.vertex(2, 3)], [G.vertex(2, 3), G.vertex(3, 4)]]
+    line3 = [[G.vertex(7, 2), G.vertex(9, 2), G.vertex(8, 2)]]
+    quad = [[G.vertex(7, 6), G.vertex(8, 6), G.vertex(8, 7), G.vertex(7, 7)]]
+    polygon = [[G.vertex(1, 6), G.vertex(2, 6), G.vertex(2, 7), G.vertex(1, 7), G.vertex(1, 8)]]
+    others = [("vertex", [[G.vertex(4, 4)]]), ("line3", line3), ("quad", quad), ("polygon", polygon)]
+    mesh = mesh_of([("line", line), ("triangle", G.triangles), *others])
+    expected = ~G.is_boundary
+    for _, nodes in [("line", line), *others]:
+        expected[np.ravel(nodes)] = False
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
+
+
+def test_polyhedra_hold_their_vertices() -> None:
+    # Faces of three and of four vertices.
+    base = [G.vertex(2, 2), G.vertex(3, 2), G.vertex(3, 3), G.vertex(2, 3)]
+    top = G.vertex(7, 7)
+    faces = [np.array(base), *(np.array([base[k - 1], base[k], top]) for k in range(4))]
+    mesh = mesh_of([("triangle", G.triangles), ("polyhedron5", [faces, faces])])
+    expected = ~G.is_boundary
+    expected[[*base, top]] = False
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
+
+
+def test_quadratic_triangles() -> None:
+    q = quadratic_grid()
+    mesh = mesh_of([("triangle6", q.triangles)], q.points, cell_data={"gmsh:physical": [q.grid.regions]})
+    new = trismooth.smooth(mesh).mesh
+    count = len(q.grid.points)
+    assert np.array_equal(moved(mesh, new)[:count], q.grid.is_inside)
+    middles, straight = new.points[count:], new.points[q.sides].mean(axis=1)
+    assert same_bits(middles, q.points[count:])[q.is_boundary_side].all()
+    assert np.allclose(middles[~q.is_boundary_side], straight[~q.is_boundary_side], rtol=0, atol=1e-12)
+    assert smallest_jacobian(new.points, q.triangles) > 0
+
+
+@pytest.mark.skipif(not DATA.exists(), reason="the example meshes are not here")
+def test_file_of_gmsh(tmp_path: Path) -> None:
+    mesh = meshio.read(DATA / "channel.msh")
+    physical = mesh.get_cell_data("gmsh:physical", "triangle")
+    triangles = mesh.get_cells_type("triangle")
+    tags_at = [set(physical[(triangles == v).any(axis=1)]) for v in range(len(mesh.points))]
+    held = np.array([len(tags) > 1 for tags in tags_at])
+    held[mesh.get_cells_type("line")] = True
+    assert held.any() and not held.all()
+    new = trismooth.smooth(mesh).mesh
+    has_moved = moved(mesh, new)
+    assert not has_moved[held].any()
+    assert has_moved.sum() > 300
+    assert shapes(new.points, triangles).mean() > shapes(mesh.points, triangles).mean() + 0.01
+    new.write(tmp_path / "new.msh", file_format="gmsh")
+    again = meshio.read(tmp_path / "new.msh")
+    assert np.array_equal(again.points, new.points)
+    assert np.array_equal(again.get_cell_data("gmsh:physical", "triangle"), physical)
+
+
+def test_faults_name_the_argument() -> None:
+    mesh = mesh_of(
+        [("triangle", G.triangles)], cell_data={"flux": [np.zeros((200, 2))]}, cell_sets={"bad": [np.array([200])]}
+    )
+    with pytest.raises(ValueError, match="^regions: the mesh has no cell data or cell set 'u'; it has: 'flux', 'bad'"):
+        trismooth.smooth(mesh, regions="u")
+    with pytest.raises(ValueError, match="^regions: the cell array 'flux' has"):
+        trismooth.smooth(mesh, regions="flux")
+    with pytest.raises(ValueError, match="^points: the cell set 'bad' has numbers beyond the 200 cells of block 0"):
+        trismooth.smooth(mesh)
+    with pytest.raises(ValueError, match="^regions: the labels have shape"):
+        trismooth.smooth(mesh, regions=np.zeros(7))
+    with pytest.raises(ValueError, match="^fixed: the mesh has no point data or point set 'u'; it has: none"):
+        trismooth.smooth(mesh, fixed="u", regions=False)
+    with pytest.raises(ValueError, match="^points: it has no triangles"):
+        trismooth.smooth(mesh_of([("quad", [[0, 1, 12, 11]])]))

@@ -1,0 +1,313 @@
+"""PyVista and VTK."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import trismooth
+from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
+from trismooth import adapters
+
+pv = pytest.importorskip("pyvista")
+
+G = grid()
+TRIANGLES = G.triangles
+LINE = [G.vertex(2, 3), G.vertex(3, 3), G.vertex(3, 4)]
+QUAD = [G.vertex(7, 6), G.vertex(8, 6), G.vertex(8, 7), G.vertex(7, 7)]
+LONE = G.vertex(2, 8)
+DATA = Path(__file__).parents[2] / "examples" / "data"
+
+
+def poly_data(**cells: Any) -> Any:
+    mesh = pv.PolyData(G.points3, faces=np.insert(TRIANGLES, 0, 3, axis=1).ravel(), **cells)
+    mesh.point_data["T"] = G.points[:, 0] * 3
+    mesh.field_data["note"] = ["kept"]
+    return mesh
+
+
+def unstructured_grid(*others: tuple[int, list[int]], first: bool = False) -> Any:
+    """The grid's triangles and other cells, behind them or before them."""
+    triangles = [(pv.CellType.TRIANGLE, list(t)) for t in TRIANGLES]
+    cells = [*others, *triangles] if first else [*triangles, *others]
+    flat = np.concatenate([[len(nodes), *nodes] for _, nodes in cells])
+    return pv.UnstructuredGrid(flat, np.array([kind for kind, _ in cells], dtype=np.uint8), G.points3)
+
+
+def moved(before: Any, after: Any) -> np.ndarray:
+    return ~same_bits(np.asarray(before.points), np.asarray(after.points))
+
+
+@pytest.mark.parametrize("make", [poly_data, unstructured_grid])
+def test_copy_is_smoothed_and_the_mesh_is_not(make: Any) -> None:
+    mesh = make()
+    points = np.array(mesh.points)
+    result = trismooth.smooth(mesh)
+    assert type(result.mesh) is type(mesh)
+    assert np.array_equal(mesh.points, points)
+    has_moved = moved(mesh, result.mesh)
+    assert not has_moved[G.is_boundary].any()
+    assert has_moved[~G.is_boundary].all()
+    assert result.moved == has_moved.sum()
+    assert shapes(result.mesh.points, TRIANGLES).min() > shapes(points, TRIANGLES).min() + 0.05
+
+
+def test_data_and_type_of_points_are_kept() -> None:
+    mesh = poly_data()
+    mesh.points = mesh.points.astype(np.float32)
+    mesh.cell_data["p"] = np.arange(mesh.n_cells)
+    mesh.set_active_scalars("p")
+    new = trismooth.smooth(mesh).mesh
+    assert new.points.dtype == np.float32
+    assert np.array_equal(new["T"], mesh["T"])
+    assert np.array_equal(new["p"], mesh["p"])
+    assert list(new.field_data["note"]) == ["kept"]
+    assert new.active_scalars_name == "p"
+    assert np.array_equal(new.faces, mesh.faces)
+
+
+def test_in_place() -> None:
+    mesh = poly_data()
+    expected = trismooth.smooth(mesh).mesh.points
+    view, time = mesh.points, mesh.GetMTime()
+    result = smooth_in_place(mesh)
+    assert result.mesh is mesh
+    assert np.array_equal(mesh.points, expected)
+    assert np.array_equal(view, expected)
+    assert mesh.GetMTime() > time
+
+
+def test_height_stays() -> None:
+    mesh = poly_data()
+    mesh.points[:, 2] = 0.7
+    new = trismooth.smooth(mesh).mesh
+    assert np.all(new.points[:, 2] == mesh.points[0, 2])
+
+
+@pytest.mark.parametrize("labels", [G.regions, G.regions * 0.5, np.array(["air", "steel"])[G.regions - 1]])
+@pytest.mark.parametrize("make", [poly_data, unstructured_grid])
+def test_regions_by_their_name(make: Any, labels: np.ndarray) -> None:
+    mesh = make()
+    mesh.cell_data["Material"] = labels
+    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)
+    assert not has_moved[G.is_interface].any()
+    assert has_moved[G.is_inside].all()
+    assert moved(mesh, trismooth.smooth(mesh, regions=False).mesh)[~G.is_boundary].all()
+
+
+def test_regions_chosen() -> None:
+    mesh = poly_data()
+    mesh.cell_data["u"] = G.regions
+    mesh.cell_data["v"] = (G.row[TRIANGLES].min(axis=1) < 5).astype(int)
+    assert moved(mesh, trismooth.smooth(mesh).mesh)[~G.is_boundary].all()
+    by_u = moved(mesh, trismooth.smooth(mesh, regions="u").mesh)
+    assert np.array_equal(by_u, G.is_inside)
+    by_both = moved(mesh, trismooth.smooth(mesh, regions=["u", "v"]).mesh)
+    assert np.array_equal(by_both, G.is_inside & (G.row != 5))
+    by_labels = moved(mesh, trismooth.smooth(mesh, regions=G.regions).mesh)
+    assert np.array_equal(by_labels, by_u)
+
+
+def test_fixed() -> None:
+    mesh = poly_data()
+    fixed = np.zeros(mesh.n_points)
+    fixed[LONE] = 2
+    mesh.point_data["fixed"] = fixed
+    mesh.point_data["other"] = fixed[::-1].copy()
+    expected = ~G.is_boundary
+    expected[LONE] = False
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=False).mesh), ~G.is_boundary)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed="other").mesh), expected[::-1])
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=[LONE]).mesh), expected)
+    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=fixed > 0).mesh), expected)
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_cells_that_are_not_triangles_of_grids(first: bool) -> None:
+    lone = (pv.CellType.VERTEX, [LONE])
+    mesh = unstructured_grid((pv.CellType.POLY_LINE, LINE), (pv.CellType.QUAD, QUAD), lone, first=first)
+    labels = np.concatenate([[7, 8, 9], G.regions] if first else [G.regions, [7, 8, 9]])
+    mesh.cell_data["material"] = labels
+    expected = G.is_inside
+    expected[[*LINE, *QUAD, LONE]] = False
+    new = trismooth.smooth(mesh).mesh
+    assert np.array_equal(moved(mesh, new), expected)
+    assert np.array_equal(new.cells, mesh.cells)
+    assert np.array_equal(new.celltypes, mesh.celltypes)
+    for chosen in (labels, G.regions):
+        assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions=chosen).mesh), expected)
+
+
+def test_cells_that_are_not_triangles_of_poly_data() -> None:
+    faces = np.concatenate([[4, *QUAD], np.insert(TRIANGLES, 0, 3, axis=1).ravel()])
+    mesh = pv.PolyData(G.points3, faces=faces, lines=[len(LINE), *LINE], verts=[1, LONE])
+    # VTK's order: vertex, line, quadrangle, triangles.
+    mesh.cell_data["material"] = np.concatenate([[7, 8, 9], G.regions])
+    expected = G.is_inside
+    expected[[*LINE, *QUAD, LONE]] = False
+    new = trismooth.smooth(mesh).mesh
+    assert np.array_equal(moved(mesh, new), expected)
+    assert np.array_equal(new.faces, mesh.faces)
+    assert np.array_equal(new.lines, mesh.lines)
+
+
+def rows_as_strips() -> list[list[int]]:
+    """The grid's triangles as one strip a row and region. Triangles of a row lie side by side."""
+    strips = []
+    for row in range(10):
+        for columns in (range(6), range(5, 11)):
+            # The diagonals go from the lower left to the upper right.
+            strips.append([v for c in columns for v in (G.vertex(c, row + 1), G.vertex(c, row))])
+    return strips
+
+
+def test_strips() -> None:
+    strips = rows_as_strips()
+    flat = np.concatenate([[len(strip), *strip] for strip in strips])
+    mesh = pv.PolyData(G.points3, strips=flat)
+    grid_of_strips = pv.UnstructuredGrid(flat, np.full(len(strips), pv.CellType.TRIANGLE_STRIP), G.points3)
+    triangulated = mesh.triangulate().regular_faces
+    for strip_mesh in (mesh, grid_of_strips):
+        strip_mesh.cell_data["material"] = [1, 2] * 10
+        found = adapters.find(strip_mesh).flatten(strip_mesh)
+        # VTK's own filter has the same triangles, with corners in the same direction.
+        turned = [np.roll(t, -int(np.argmin(t))).tolist() for t in found.triangles]
+        assert sorted(turned) == sorted(np.roll(t, -int(np.argmin(t))).tolist() for t in triangulated)
+        assert np.array_equal(moved(strip_mesh, trismooth.smooth(strip_mesh).mesh), G.is_inside)
+
+
+def test_quadratic_triangles() -> None:
+    q = quadratic_grid()
+    count = len(q.grid.points)
+    cells = np.insert(q.triangles, 0, 6, axis=1).ravel()
+    points = np.column_stack([q.points, np.zeros(len(q.points))])
+    mesh = pv.UnstructuredGrid(cells, np.full(len(q.triangles), pv.CellType.QUADRATIC_TRIANGLE), points)
+    mesh.cell_data["material"] = q.grid.regions
+    new = trismooth.smooth(mesh).mesh
+    assert np.array_equal(moved(mesh, new)[:count], q.grid.is_inside)
+    middles = new.points[count:]
+    assert same_bits(middles, points[count:])[q.is_boundary_side].all()
+    straight = new.points[q.sides].mean(axis=1)
+    assert np.allclose(middles[~q.is_boundary_side], straight[~q.is_boundary_side], rtol=0, atol=1e-12)
+    assert smallest_jacobian(points, q.triangles) > 0
+    assert smallest_jacobian(new.points, q.triangles) > 0
+
+
+def test_triangles_of_both_kinds() -> None:
+    q = quadratic_grid()
+    left = q.grid.regions == 1
+    cells = [*([6, *t] for t in q.triangles[left]), *([3, *t[:3]] for t in q.triangles[~left][:-7])]
+    kinds = [22 if cell[0] == 6 else 5 for cell in cells]
+    points = np.column_stack([q.points, np.zeros(len(q.points))])
+    mesh = pv.UnstructuredGrid(np.concatenate(cells), np.array(kinds, dtype=np.uint8), points)
+    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)[: len(q.grid.points)]
+    assert np.array_equal(has_moved, q.grid.is_inside & (q.grid.column < 5))
+
+
+def plain_vtk(mesh: Any) -> Any:
+    from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+
+    plain = (vtkPolyData if isinstance(mesh, pv.PolyData) else vtkUnstructuredGrid).__mro__[0]()
+    plain.DeepCopy(mesh)
+    return plain
+
+
+@pytest.mark.parametrize("make", [poly_data, unstructured_grid])
+@pytest.mark.parametrize("inplace", [True, False])
+def test_plain_vtk(make: Any, inplace: bool) -> None:
+    mesh = make()
+    mesh.cell_data["material"] = G.regions
+    plain = plain_vtk(mesh)
+    result = smooth_in_place(plain) if inplace else trismooth.smooth(plain)
+    assert result.mesh.GetClassName() == plain.GetClassName()
+    assert (result.mesh is plain) is inplace
+    assert np.array_equal(pv.wrap(result.mesh).points, trismooth.smooth(mesh).mesh.points)
+
+
+@pytest.mark.parametrize("make", [pv.ImageData, pv.Sphere().cast_to_pointset, pv.MultiBlock])
+def test_other_types_are_refused(make: Any) -> None:
+    mesh = pv.ImageData(dimensions=(3, 3, 1)) if make is pv.ImageData else make()
+    with pytest.raises((TypeError, ValueError), match="^points: "):
+        trismooth.smooth(mesh)
+
+
+def test_faults_name_the_argument() -> None:
+    mesh = poly_data()
+    mesh.cell_data["flux"] = np.zeros((mesh.n_cells, 2))
+    with pytest.raises(ValueError, match="^regions: the mesh has no cell array 'u'; it has: 'flux'"):
+        trismooth.smooth(mesh, regions="u")
+    with pytest.raises(ValueError, match="^regions: the cell array 'flux' has"):
+        trismooth.smooth(mesh, regions="flux")
+    with pytest.raises(ValueError, match=r"^regions: the labels have shape \(3,\); expected 200"):
+        trismooth.smooth(mesh, regions=[1, 2, 3])
+    with pytest.raises(ValueError, match="^fixed: the mesh has no point array 'u'; it has: 'T'"):
+        trismooth.smooth(mesh, fixed="u")
+    with pytest.raises(ValueError, match="^fixed: "):
+        trismooth.smooth(mesh, fixed=[mesh.n_points])
+    with pytest.raises(ValueError, match="^points: it has no triangles"):
+        trismooth.smooth(pv.PolyData(G.points3))
+    with pytest.raises(ValueError, match="^points: it has no cells"):
+        trismooth.smooth(pv.PolyData())
+
+
+def test_vectors_are_no_regions() -> None:
+    mesh = poly_data()
+    mesh.cell_data["material"] = np.zeros((mesh.n_cells, 3))
+    assert moved(mesh, trismooth.smooth(mesh).mesh)[~G.is_boundary].all()
+
+
+needs_accessors = pytest.mark.skipif(not hasattr(pv, "register_dataset_accessor"), reason="PyVista has no accessors")
+
+
+@needs_accessors
+@pytest.mark.parametrize("make", [poly_data, unstructured_grid])
+def test_accessor(make: Any) -> None:
+    assert adapters.find(make()).register_accessor()
+    mesh = make()
+    assert np.array_equal(mesh.trismooth.smooth().mesh.points, trismooth.smooth(mesh).mesh.points)
+    assert type(mesh.trismooth.quality()) is type(trismooth.quality(mesh))
+    assert not hasattr(pv.ImageData(), "trismooth")
+    pickle.loads(pickle.dumps(mesh.trismooth.smooth().mesh))
+
+
+def test_accessor_is_no_fault_of_older_versions(monkeypatch: pytest.MonkeyPatch) -> None:
+    adapter = adapters.find(poly_data())
+    monkeypatch.delattr(pv, "register_dataset_accessor", raising=False)
+    assert not adapter.register_accessor()
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    assert not adapter.register_accessor()
+
+
+@needs_accessors
+@pytest.mark.parametrize(
+    "imports", ["import pyvista", "import trismooth, pyvista", "import pyvista; import trismooth"]
+)
+def test_entry_point_brings_the_accessor(tmp_path: Path, imports: str) -> None:
+    info = tmp_path / "trismooth_accessor-0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: trismooth-accessor\nVersion: 0\n")
+    (info / "entry_points.txt").write_text("[pyvista.accessors]\ntrismooth = trismooth.adapters.pyvista\n")
+    script = f"{imports}\nmesh = pyvista.Plane(i_resolution=3, j_resolution=3).triangulate()\n"
+    script += "print(mesh.trismooth.smooth().mesh.n_cells)"
+    path = os.pathsep.join([str(tmp_path), str(Path(trismooth.__file__).parents[1])])
+    done = subprocess.run(
+        [sys.executable, "-c", script], env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True
+    )
+    assert done.stdout.strip() == "18", done.stderr
+
+
+@pytest.mark.skipif(not DATA.exists(), reason="the example meshes are not here")
+@pytest.mark.parametrize(("name", "held"), [("machine.vtu", 804), ("farfield.vtk", 726)])
+def test_as_many_are_held_as_the_program_says(name: str, held: int) -> None:
+    # The numbers are what `trismooth smooth` prints: interfaces of one, lines before the triangles of the other.
+    mesh = pv.read(DATA / name)
+    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)
+    assert (~has_moved).sum() == held

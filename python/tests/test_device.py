@@ -1,0 +1,333 @@
+"""Arrays on a CUDA device: they stay there, come back as what they are, and have the CPU's bits.
+
+Skipped where the build has no CUDA, the machine no device, or a library is missing.
+"""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+
+import trismooth
+from conftest import grid
+
+pytestmark = pytest.mark.skipif(
+    not trismooth.build_info()["cuda"] or "device 0" not in trismooth.build_info()["devices"], reason="no CUDA device"
+)
+
+
+class CuPy:
+    def __init__(self):
+        self.cupy = pytest.importorskip("cupy")
+        self.type = self.cupy.ndarray
+
+    def put(self, array):
+        return self.cupy.asarray(array)
+
+    def get(self, array):
+        return array.get()
+
+    def pointer(self, array):
+        return array.data.ptr
+
+    def free_bytes(self):
+        self.cupy.get_default_memory_pool().free_all_blocks()
+        return self.cupy.cuda.runtime.memGetInfo()[0]
+
+
+class Torch:
+    def __init__(self):
+        self.torch = pytest.importorskip("torch")
+        self.type = self.torch.Tensor
+
+    def put(self, array):
+        return self.torch.from_numpy(np.ascontiguousarray(array)).cuda()
+
+    def get(self, array):
+        return array.cpu().numpy()
+
+    def pointer(self, array):
+        return array.data_ptr()
+
+
+class Jax:
+    def __init__(self):
+        self.jax = pytest.importorskip("jax")
+        self.jax.config.update("jax_enable_x64", True)
+        self.type = self.jax.Array
+
+    def put(self, array):
+        return self.jax.device_put(array, self.jax.devices("gpu")[0])
+
+    def get(self, array):
+        return np.asarray(array)
+
+    def pointer(self, array):
+        return array.unsafe_buffer_pointer()
+
+
+@pytest.fixture(params=[CuPy, Torch, Jax], ids=["cupy", "torch", "jax"])
+def library(request):
+    return request.param()
+
+
+@pytest.fixture(params=[Torch, CuPy], ids=["torch", "cupy"])
+def writable(request):
+    return request.param()
+
+
+def host(points, triangles, **options):
+    return trismooth.smooth(points, triangles, backend="cpu", **options).points
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("indices", [np.int32, np.int64])
+def test_arrays_come_back_as_they_went_in_with_the_bits_of_the_cpu(library, dtype, indices):
+    points, triangles = grid(60, 40)
+    given = library.put(points.astype(dtype))
+    pointer = library.pointer(given)
+    result = trismooth.smooth(given, library.put(triangles.astype(indices)))
+    assert isinstance(result.points, library.type) and str(result.points.dtype).endswith(np.dtype(dtype).name)
+    assert result.backend == "cuda"
+    assert library.pointer(given) == pointer != library.pointer(result.points)
+    np.testing.assert_array_equal(library.get(result.points), host(points.astype(dtype), triangles))
+    np.testing.assert_array_equal(library.get(given), points.astype(dtype))
+
+
+OPTIONS = [
+    {"method": method, "form": form, "precision": precision}
+    for method in ("smart", "laplacian", "weighted", "mean-ratio")
+    for form in ("a", "b")
+    for precision in ("double", "single")
+] + [{"guard": False}, {"untangle": True}, {"max_sweeps": 3}, {"tolerance": 1e-2}, {"target_quality": 0.3}, {"power": 1},
+     {"target": "input-shape"}, {"size_weight": 0.0}, {"execution": "single-block", "layout": "soa"}, {"evaluation": "all"}]
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids=str)
+def test_every_option_has_the_bits_of_the_cpu(writable, options):
+    points, triangles = grid(50, 40, shift=0.55)
+    result = trismooth.smooth(writable.put(points), writable.put(triangles), **options)
+    np.testing.assert_array_equal(writable.get(result.points), host(points, triangles, **options))
+
+
+def test_in_place_nothing_is_copied(writable):
+    points, triangles = grid(600, 400)
+    on_device, corners = writable.put(points), writable.put(triangles)
+    pointer = writable.pointer(on_device)
+    result = trismooth.smooth(on_device, corners, out=on_device)
+    assert result.points is on_device and writable.pointer(on_device) == pointer
+    assert trismooth._device.DevicePlan(corners, len(points), (None,) * 4, {"method": "smart", "backend": "auto"})._plan.copied_bytes == 0
+    np.testing.assert_array_equal(writable.get(on_device), host(points, triangles))
+
+
+def test_constraints_on_the_device_hold(library):
+    points, triangles = grid(60, 40)
+    regions = (points[triangles].mean(axis=1)[:, 0] > 30).astype(np.int64)
+    fixed = np.zeros(len(points), bool)
+    fixed[::7] = True
+    other = np.array([100, 101, 205])
+    size = 1 + points[:, 0] / 20
+    expected = host(points, triangles, regions=regions, fixed=fixed, other_cells=other, size=size)
+    put = library.put
+    for fixed_too in (fixed, np.flatnonzero(fixed)):
+        result = trismooth.smooth(
+            put(points), put(triangles), regions=put(regions), fixed=put(fixed_too), other_cells=put(other), size=put(size)
+        )
+        np.testing.assert_array_equal(library.get(result.points), expected)
+
+
+def test_any_strides_and_heights(writable):
+    points, triangles = grid(60, 40)
+    expected = host(points, triangles)
+    wide = writable.put(np.column_stack([points, np.full(len(points), 2.5), points]))
+    backwards = writable.put(np.hstack([triangles[:, ::-1], triangles]))
+    for given in (wide[:, :2], wide[:, :3], wide[:, 3:5]):
+        result = trismooth.smooth(given, writable.put(triangles))
+        assert tuple(result.points.shape) == tuple(given.shape)
+        np.testing.assert_array_equal(writable.get(result.points)[:, :2], expected)
+        if given.shape[1] == 3:
+            np.testing.assert_array_equal(writable.get(result.points)[:, 2], 2.5)
+    np.testing.assert_array_equal(
+        writable.get(trismooth.smooth(wide[:, :2], backwards[:, :3]).points), host(points, triangles[:, ::-1])
+    )
+    trismooth.smooth(wide[:, :3], writable.put(triangles), out=wide[:, :3])  # in place in a wider array
+    np.testing.assert_array_equal(writable.get(wide)[:, :2], expected)
+    np.testing.assert_array_equal(writable.get(wide)[:, 3:], points)
+
+
+@pytest.mark.parametrize("code", "bhilqBHILQ")
+def test_indices_of_any_integer_type(code):
+    cupy = pytest.importorskip("cupy")
+    points, triangles = grid(8, 6)
+    result = trismooth.smooth(cupy.asarray(points), cupy.asarray(triangles.astype(code)))
+    np.testing.assert_array_equal(result.points.get(), host(points, triangles))
+
+
+@pytest.mark.parametrize("value", [-1, 2**31, 2**32 + 1, -(2**40)])
+def test_indices_without_a_place_in_32_bits_are_no_vertices(writable, value):
+    points, triangles = grid(8, 6)
+    wrong = triangles.astype(np.int64)
+    wrong[3, 1] = value
+    with pytest.raises(trismooth.MeshError, match="^triangles: triangle 3"):
+        trismooth.smooth(writable.put(points), writable.put(wrong))
+
+
+def test_bad_input_names_the_argument_and_leaves_the_arrays(writable):
+    points, triangles = grid(8, 6)
+    put = writable.put
+    p, t = put(points), put(triangles)
+    nan = points.copy()
+    nan[20, 1] = np.nan
+    high = np.column_stack([points, points[:, 0]])
+    cases = [
+        (lambda: trismooth.smooth(put(nan), t), ValueError, "points"),
+        (lambda: trismooth.smooth(put(high), t), ValueError, "points"),
+        (lambda: trismooth.smooth(put(points[:, :1]), t), ValueError, "points"),
+        (lambda: trismooth.smooth(put(points.astype(np.int32)), t), TypeError, "points"),
+        (lambda: trismooth.smooth(p, put(points)), TypeError, "triangles"),
+        (lambda: trismooth.smooth(p, put(triangles[:, :2])), ValueError, "triangles"),
+        (lambda: trismooth.smooth(p, triangles), ValueError, "triangles"),
+        (lambda: trismooth.smooth(points, t), ValueError, "triangles"),
+        (lambda: trismooth.smooth(p, t, regions=triangles[:, 0]), ValueError, "regions"),
+        (lambda: trismooth.smooth(p, t, regions=put(triangles[:5, 0])), ValueError, "regions"),
+        (lambda: trismooth.smooth(p, t, fixed=[3]), ValueError, "fixed"),
+        (lambda: trismooth.smooth(p, t, fixed=put(np.array([3, 999]))), ValueError, "fixed"),
+        (lambda: trismooth.smooth(p, t, size=put(-points[:, 0])), ValueError, "size"),
+        (lambda: trismooth.smooth(p, t, out=points.copy()), ValueError, "out"),
+        (lambda: trismooth.smooth(p, t, out=put(points[:5])), ValueError, "out"),
+        (lambda: trismooth.smooth(p, t, out=put(points.astype(np.float32))), TypeError, "out"),
+        (lambda: trismooth.smooth(p, t, backend="cpu"), ValueError, "backend"),
+        (lambda: trismooth.smooth(p, t, stream="x"), TypeError, "stream"),
+        (lambda: trismooth.Plan(t, len(points)).smooth(points), ValueError, "points"),
+        (lambda: trismooth.Plan(triangles, len(points)).smooth(p), ValueError, "points"),
+    ]
+    for call, error, name in cases:
+        with pytest.raises(error) as raised:
+            call()
+        assert str(raised.value).startswith(name), raised.value
+    np.testing.assert_array_equal(writable.get(p), points)
+
+
+def test_jax_arrays_are_never_written():
+    jax = Jax()
+    points, triangles = grid(8, 6)
+    p = jax.put(points)
+    with pytest.raises(ValueError, match="^out: arrays of JAX"):
+        trismooth.smooth(p, jax.put(triangles), out=p)
+
+
+def test_work_is_on_the_callers_stream():
+    cupy = pytest.importorskip("cupy")
+    points, triangles = grid(60, 40)
+    expected = host(points * 2, triangles)
+    stream = cupy.cuda.Stream(non_blocking=True)
+    with stream:
+        on_device = cupy.asarray(points)
+        for _ in range(200):  # keeps the stream busy: whoever does not wait for it sees other points
+            on_device = on_device * 2 / 2
+        on_device = on_device * 2
+        result = trismooth.smooth(on_device, cupy.asarray(triangles))
+        doubled = result.points + 0
+    np.testing.assert_array_equal(doubled.get(), expected)
+    by_number = trismooth.smooth(on_device, cupy.asarray(triangles), stream=stream.ptr)
+    np.testing.assert_array_equal(by_number.points.get(), expected)
+
+
+def test_the_current_stream_of_torch_is_taken():
+    torch = pytest.importorskip("torch")
+    points, triangles = grid(60, 40)
+    stream = torch.cuda.Stream()
+    with torch.cuda.stream(stream):
+        on_device = torch.from_numpy(points).cuda()
+        torch.cuda._sleep(50_000_000)
+        on_device = on_device * 2
+        result = trismooth.smooth(on_device, torch.from_numpy(triangles).cuda())
+    stream.synchronize()
+    np.testing.assert_array_equal(result.points.cpu().numpy(), host(points * 2, triangles))
+
+
+def test_plans_follow_moving_points(library):
+    points, triangles = grid(60, 40)
+    plan = trismooth.Plan(library.put(triangles), len(points), method="smart")
+    for step in range(4):
+        moved = points + 0.1 * step * points[:, ::-1] / 40
+        result = plan.smooth(library.put(moved), quality=True)
+        np.testing.assert_array_equal(library.get(result.points), host(moved, triangles, method="smart"))
+        assert result.after["shape"].min >= result.before["shape"].min
+
+
+def test_quality_of_arrays_on_the_device(library):
+    points, triangles = grid(30, 20)
+    quality = trismooth.quality(library.put(points), library.put(triangles))
+    np.testing.assert_array_equal(quality.shape, trismooth.quality(points, triangles).shape)
+
+
+def test_threads_with_plans_of_their_own(writable):
+    points, triangles = grid(60, 40)
+    expected = host(points, triangles)
+    errors = []
+
+    def work():
+        try:
+            plan = trismooth.Plan(writable.put(triangles), len(points))
+            for _ in range(10):
+                np.testing.assert_array_equal(writable.get(plan.smooth(writable.put(points)).points), expected)
+        except BaseException as error:  # noqa: BLE001
+            errors.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(120)
+        assert not thread.is_alive()
+    assert not errors, errors[0]
+
+
+def test_progress_stops_and_exceptions_come_out(writable):
+    points, triangles = grid(60, 40)
+    p, t = writable.put(points), writable.put(triangles)
+    seen = []
+    result = trismooth.smooth(p, t, progress=lambda sweep: seen.append(sweep.sweep) or len(seen) < 2)
+    assert result.stop_reason == "cancelled" and seen == [1, 2]
+
+    def fail(_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        trismooth.smooth(p, t, out=p, progress=fail)
+    np.testing.assert_array_equal(writable.get(p), points)
+
+
+def test_host_arrays_on_the_cuda_backend_have_the_same_bits():
+    points, triangles = grid(60, 40)
+    result = trismooth.smooth(points, triangles, backend="cuda")
+    assert result.backend == "cuda"
+    np.testing.assert_array_equal(result.points, host(points, triangles))
+
+
+def test_memory_of_the_device_is_given_back():
+    cupy = pytest.importorskip("cupy")
+    points, triangles = grid(300, 200)
+    p, t = cupy.asarray(points), cupy.asarray(triangles)
+    used = []
+    for _ in range(6):
+        trismooth.smooth(p, t)
+        cupy.get_default_memory_pool().free_all_blocks()
+        used.append(cupy.cuda.runtime.memGetInfo()[0])
+    assert used[-1] >= used[2] - (1 << 20)
+
+
+@pytest.mark.skipif(not trismooth.build_info()["cuda"], reason="no CUDA")
+def test_arrays_on_two_devices_are_refused():
+    cupy = pytest.importorskip("cupy")
+    if cupy.cuda.runtime.getDeviceCount() < 2:
+        pytest.skip("one device")
+    points, triangles = grid(8, 6)
+    p = cupy.asarray(points)
+    with cupy.cuda.Device(1):
+        t = cupy.asarray(triangles)
+    with pytest.raises(ValueError, match="^triangles: .*cuda:1"):
+        trismooth.smooth(p, t)

@@ -1,0 +1,224 @@
+"""Bad input: an exception that names the argument, and nothing changed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import trismooth
+from conftest import grid
+
+POINTS, TRIANGLES = grid(4, 3)
+
+
+def with_value(array, place, value):
+    copy = array.copy()
+    copy[place] = value
+    return copy
+
+
+def read_only(array):
+    copy = array.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+ARRAYS = {"points": POINTS, "triangles": TRIANGLES}
+CASES = [
+    # what is changed, the type of the exception, the argument it names
+    ({"points": POINTS[:, :1]}, ValueError, "points"),
+    ({"points": POINTS.ravel()}, ValueError, "points"),
+    ({"points": POINTS[None]}, ValueError, "points"),
+    ({"points": np.hstack([POINTS, POINTS])}, ValueError, "points"),
+    ({"points": POINTS.astype(int)}, TypeError, "points"),
+    ({"points": POINTS.astype(complex)}, TypeError, "points"),
+    ({"points": POINTS.astype(np.float16)}, TypeError, "points"),
+    ({"points": POINTS.astype(np.longdouble)}, TypeError, "points"),
+    ({"points": POINTS.astype(object)}, TypeError, "points"),
+    ({"points": POINTS.astype(str)}, TypeError, "points"),
+    ({"points": "mesh"}, ValueError, "points"),
+    ({"points": [[0, 0], [1]]}, ValueError, "points"),
+    ({"points": np.ma.masked_array(POINTS, POINTS > 1)}, ValueError, "points"),
+    ({"points": with_value(POINTS, (6, 1), np.nan)}, trismooth.MeshError, "points"),
+    ({"points": with_value(POINTS, (6, 0), np.inf)}, trismooth.MeshError, "points"),
+    ({"points": np.column_stack([POINTS, np.arange(len(POINTS)) / 2])}, trismooth.MeshError, "points"),
+    ({"triangles": TRIANGLES[:, :2]}, ValueError, "triangles"),
+    ({"triangles": TRIANGLES.ravel()}, ValueError, "triangles"),
+    ({"triangles": TRIANGLES.astype(float)}, TypeError, "triangles"),
+    ({"triangles": TRIANGLES.astype(bool)}, TypeError, "triangles"),
+    ({"triangles": TRIANGLES + 1}, trismooth.MeshError, "triangles"),
+    ({"triangles": with_value(TRIANGLES, (3, 2), -1)}, trismooth.MeshError, "triangles"),
+    ({"triangles": with_value(TRIANGLES.astype(np.uint64), (3, 2), 2**63)}, trismooth.MeshError, "triangles"),
+    ({"triangles": with_value(TRIANGLES.astype(np.int64), (3, 2), -(2**40))}, trismooth.MeshError, "triangles"),
+    ({"triangles": with_value(TRIANGLES, (3, 2), TRIANGLES[3, 1])}, trismooth.MeshError, "triangles"),
+    ({"triangles": None}, TypeError, "points"),
+    ({"triangles": [[0, 1, 5, 6, 2, 9**9]]}, trismooth.MeshError, "triangles"),
+    ({"regions": [1, 2]}, ValueError, "regions"),
+    ({"regions": np.zeros((len(TRIANGLES), 2), int)}, ValueError, "regions"),
+    ({"regions": np.full(len(TRIANGLES), np.nan)}, ValueError, "regions"),
+    ({"regions": "steel"}, ValueError, "regions"),
+    ({"fixed": [len(POINTS)]}, ValueError, "fixed"),
+    ({"fixed": [-1]}, ValueError, "fixed"),
+    ({"fixed": np.array([2**63], np.uint64)}, ValueError, "fixed"),
+    ({"fixed": [True, False]}, ValueError, "fixed"),
+    ({"fixed": [0.5]}, TypeError, "fixed"),
+    ({"fixed": 3}, ValueError, "fixed"),
+    ({"other_cells": [99999]}, ValueError, "other_cells"),
+    ({"size": [1.0]}, ValueError, "size"),
+    ({"size": np.zeros(len(POINTS))}, ValueError, "size"),
+    ({"size": np.full(len(POINTS), np.nan)}, ValueError, "size"),
+    ({"size": "h"}, ValueError, "size"),
+    ({"out": read_only(POINTS)}, ValueError, "out"),
+    ({"out": POINTS[:3]}, ValueError, "out"),
+    ({"out": np.zeros((len(POINTS), 3))}, ValueError, "out"),
+    ({"out": POINTS.astype(np.float32)}, TypeError, "out"),
+    ({"out": POINTS.tolist()}, TypeError, "out"),
+    ({"out": b"bytes"}, TypeError, "out"),
+    ({"method": "best"}, ValueError, "method"),
+    ({"method": 3}, TypeError, "method"),
+    ({"form": "c"}, ValueError, "form"),
+    ({"backend": "gpu"}, ValueError, "backend"),
+    ({"order": "unordered"}, ValueError, "order"),
+    ({"guard": "on"}, TypeError, "guard"),
+    ({"untangle": "maybe"}, ValueError, "untangle"),
+    ({"max_sweeps": -1}, ValueError, "max_sweeps"),
+    ({"max_sweeps": 1.5}, TypeError, "max_sweeps"),
+    ({"max_sweeps": 2**80}, ValueError, "max_sweeps"),
+    ({"tolerance": -1}, ValueError, "tolerance"),
+    ({"tolerance": "small"}, TypeError, "tolerance"),
+    ({"time_limit": float("nan")}, ValueError, "time_limit"),
+    ({"target_quality": 2}, ValueError, "target_quality"),
+    ({"threads": -1}, ValueError, "threads"),
+    ({"threads": 10**6}, ValueError, "threads"),
+    ({"size_weight": -1}, ValueError, "size_weight"),
+    ({"power": 9}, ValueError, "power"),
+    ({"power": "3"}, TypeError, "power"),
+    ({"target": "round"}, ValueError, "target"),
+    ({"progress": 5}, TypeError, "progress"),
+    ({"stream": 3}, TypeError, "stream"),
+    ({"inplace": True}, TypeError, "inplace"),
+    ({"smooth": 3}, TypeError, "'smooth' is no option"),
+    ({"tolerence": 3}, TypeError, "'tolerence' is no option (did you mean 'tolerance'?)"),
+]
+
+
+@pytest.mark.parametrize("changed,error,name", CASES)
+def test_the_exception_names_the_argument(changed, error, name):
+    arguments = {**ARRAYS, **changed}
+    out = arguments.get("out")
+    before = out.copy() if isinstance(out, np.ndarray) else None
+    with pytest.raises(error) as raised:
+        trismooth.smooth(arguments.pop("points"), arguments.pop("triangles"), **arguments)
+    assert str(raised.value).startswith(name), raised.value
+    if before is not None:
+        np.testing.assert_array_equal(out, before)
+
+
+@pytest.mark.parametrize("changed,error,name", [case for case in CASES if set(case[0]) <= {"points", "triangles"}])
+def test_quality_and_plans_name_it_too(changed, error, name):
+    arguments = {**ARRAYS, **changed}
+    if arguments["triangles"] is not None and np.shape(arguments["triangles"])[1:] != (6,):
+        with pytest.raises(error) as raised:
+            trismooth.quality(arguments["points"], arguments["triangles"])
+        assert str(raised.value).startswith(name), raised.value
+        with pytest.raises(error) as raised:
+            trismooth.Plan(arguments["triangles"], len(POINTS)).smooth(arguments["points"])
+        assert str(raised.value).startswith(name), raised.value
+
+
+@pytest.mark.parametrize("count", [-1, 1.5, "5", True, None])
+def test_a_plan_needs_a_number_of_points(count):
+    with pytest.raises(ValueError, match="^n_points"):
+        trismooth.Plan(TRIANGLES, count)
+
+
+def test_a_plan_refuses_points_of_another_mesh():
+    plan = trismooth.Plan(TRIANGLES, len(POINTS))
+    with pytest.raises(ValueError, match="^points"):
+        plan.smooth(POINTS[:-1])
+    with pytest.raises(ValueError, match="^triangles"):
+        trismooth.Plan(np.zeros((2, 6), int), len(POINTS))
+
+
+def test_points_changed_while_they_are_smoothed_are_noticed():
+    points = POINTS.copy()
+    out = np.zeros_like(points)
+
+    def change(_):
+        points[6] += 0.01
+
+    with pytest.raises(ValueError, match="^points: changed"):
+        trismooth.smooth(points, TRIANGLES, out=out, progress=change)
+    np.testing.assert_array_equal(out, 0)
+
+
+def test_points_cannot_be_resized_while_they_are_smoothed():
+    points = POINTS.copy()
+    with pytest.raises(ValueError, match="resize"):
+        trismooth.smooth(points, TRIANGLES, progress=lambda _: points.resize((3, 2)))
+
+
+def test_triangles_changed_meanwhile_do_no_harm():
+    triangles = TRIANGLES.copy()
+
+    def break_them(_):
+        triangles[:] = 10**6
+
+    np.testing.assert_array_equal(
+        trismooth.smooth(POINTS, triangles, progress=break_them).points, trismooth.smooth(POINTS, TRIANGLES).points
+    )
+
+
+def test_what_progress_raises_comes_out_and_nothing_has_changed():
+    points = POINTS.copy()
+
+    def fail(_):
+        raise RuntimeError("enough")
+
+    plan = trismooth.Plan(TRIANGLES, len(points))
+    for smooth in (lambda: trismooth.smooth(points, TRIANGLES, out=points, progress=fail), lambda: plan.smooth(points, out=points, progress=fail)):
+        with pytest.raises(RuntimeError, match="enough"):
+            smooth()
+        np.testing.assert_array_equal(points, POINTS)
+    np.testing.assert_array_equal(plan.smooth(points).points, trismooth.smooth(POINTS, TRIANGLES).points)
+
+
+def test_progress_that_returns_false_ends_with_a_valid_mesh():
+    from conftest import grid
+
+    points, triangles = grid(30, 30)
+    seen = []
+    result = trismooth.smooth(points, triangles, progress=lambda sweep: seen.append(sweep.sweep) or len(seen) < 2)
+    assert result.stop_reason == "cancelled" and seen == [1, 2]
+    assert result.after.inverted == 0 and result.after["shape"].min >= result.before["shape"].min
+
+
+def test_quality_that_was_not_asked_for_says_how_to_get_it():
+    points = POINTS.copy()
+    result = trismooth.smooth(points, TRIANGLES, out=points)
+    with pytest.raises(trismooth.NotComputed, match="quality=True"):
+        result.before
+    assert not result.has_quality
+    assert trismooth.smooth(POINTS, TRIANGLES, out=points, quality=True).before.triangles == len(TRIANGLES)
+
+
+@pytest.mark.skipif(trismooth.build_info()["cuda"], reason="this build has CUDA")
+def test_cuda_is_refused_where_the_build_has_none():
+    with pytest.raises(trismooth.DeviceError, match="^backend.*trismooth-cuda13"):
+        trismooth.smooth(POINTS, TRIANGLES, backend="cuda")
+
+
+def test_an_array_on_a_device_is_refused_where_the_build_cannot_take_it():
+    class OnDevice:
+        shape, ndim = POINTS.shape, 2
+
+        def __dlpack_device__(self):
+            return (2, 0)
+
+        def __dlpack__(self, **options):
+            raise AssertionError("nobody may ask for the memory")
+
+    with pytest.raises((trismooth.DeviceError, ValueError), match="^points: .*cuda:0"):
+        trismooth.smooth(OnDevice(), TRIANGLES)
+    with pytest.raises(ValueError, match="^triangles: .*cuda:0"):
+        trismooth.smooth(POINTS, OnDevice())

@@ -1,0 +1,158 @@
+"""Threads, forked processes and Ctrl-C."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import trismooth
+from conftest import grid
+
+
+def in_threads(count, work):
+    """Runs work(i) on so many threads and hands on what one has raised."""
+    errors = []
+
+    def guarded(i):
+        try:
+            work(i)
+        except BaseException as error:  # noqa: BLE001
+            errors.append(error)
+
+    threads = [threading.Thread(target=guarded, args=(i,)) for i in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(120)
+        assert not thread.is_alive(), "a thread hangs"
+    if errors:
+        raise errors[0]
+
+
+def test_four_threads_with_plans_of_their_own():
+    meshes = [grid(60 + 10 * i, 50, seed=i) for i in range(4)]
+    expected = [trismooth.smooth(*mesh).points for mesh in meshes]
+
+    def work(i):
+        points, triangles = meshes[i]
+        plan = trismooth.Plan(triangles, len(points))
+        for _ in range(20):
+            np.testing.assert_array_equal(plan.smooth(points).points, expected[i])
+
+    in_threads(4, work)
+
+
+def test_threads_that_share_a_plan_take_turns():
+    points, triangles = grid(50, 40)
+    other = grid(50, 40, seed=5)[0]
+    plan = trismooth.Plan(triangles, len(points))
+    expected = [plan.smooth(p).points for p in (points, other)]
+
+    def work(i):
+        for _ in range(20):
+            np.testing.assert_array_equal(plan.smooth((points, other)[i % 2]).points, expected[i % 2])
+
+    in_threads(4, work)
+
+
+def test_python_runs_on_while_a_mesh_is_smoothed(large_mesh):
+    points, triangles = large_mesh
+    ticks = []
+    done = threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    begin = time.perf_counter()
+    trismooth.smooth(points, triangles)
+    end = time.perf_counter()
+    done.set()
+    ticker.join()
+    assert sum(begin < t < end for t in ticks) > 5
+
+
+def child_smooths(points, triangles, expected, threads):
+    result = trismooth.smooth(points, triangles, threads=threads)
+    os._exit(0 if np.array_equal(result.points, expected) else 3)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.parametrize("threads", [0, 1, 4])
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_forked_process_does_not_hang_and_gives_the_same_bits(large_mesh, threads):
+    points, triangles = large_mesh
+    expected = trismooth.smooth(points, triangles, threads=4, max_sweeps=5).points  # threads are at work before the fork
+    expected = trismooth.smooth(points, triangles).points
+    child = multiprocessing.get_context("fork").Process(target=child_smooths, args=(points, triangles, expected, threads))
+    child.start()
+    child.join(120)
+    assert child.exitcode == 0
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_plan_works_on_in_a_forked_process_that_ends_in_the_usual_way():
+    code = """
+import os, sys
+import numpy as np
+import trismooth
+sys.path.insert(0, sys.argv[1])
+from conftest import grid
+points, triangles = grid(300, 200)
+plan = trismooth.Plan(triangles, len(points), threads=4)
+expected = plan.smooth(points).points
+child = os.fork()
+same = np.array_equal(plan.smooth(points, quality=True).points, expected)
+if child == 0:
+    sys.exit(0 if same else 3)  # runs what Python and the libraries do at the end
+_, status = os.waitpid(child, 0)
+sys.exit(os.waitstatus_to_exitcode(status) or (0 if same else 4))
+"""
+    run = subprocess.run([sys.executable, "-W", "ignore", "-c", code, os.path.dirname(__file__)], timeout=120)
+    assert run.returncode == 0
+
+
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_pool_of_forked_workers():
+    points, triangles = grid(80, 60)
+    expected = trismooth.smooth(points, triangles, threads=3).points
+    with multiprocessing.get_context("fork").Pool(3) as pool:
+        results = pool.starmap_async(smoothed, [(points, triangles)] * 6).get(120)
+    for result in results:
+        np.testing.assert_array_equal(result, expected)
+
+
+def smoothed(points, triangles):
+    return trismooth.smooth(points, triangles).points
+
+
+def test_ctrl_c_stops_and_leaves_out_as_it_was():
+    points, triangles = grid(400, 300, shift=0.45)
+    out = np.zeros_like(points)
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        while time.perf_counter() - begin < 30:  # a smoothing after the other until the signal comes into one
+            trismooth.smooth(points, triangles, out=out, tolerance=0.0, max_sweeps=0, threads=1)
+            out[:] = 0
+    np.testing.assert_array_equal(out, 0)
+
+
+def test_two_processes_give_the_same_bits_whatever_their_threads():
+    points, triangles = grid(70, 70)
+    expected = trismooth.smooth(points, triangles, threads=1).points
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(1) as pool:
+        np.testing.assert_array_equal(pool.apply(smoothed, (points, triangles)), expected)

@@ -1,0 +1,62 @@
+"""Smoothing of planar triangle meshes for finite elements, on the CPU and on NVIDIA GPUs.
+
+The same bits on every backend, and never worse than the input:
+
+    result = trismooth.smooth(points, triangles)     # arrays, or a mesh of PyVista, meshio, scikit-fem, ...
+    quality = trismooth.quality(points, triangles)   # ten metrics of every triangle
+    plan = trismooth.Plan(triangles, len(points))    # meshes that move
+    mesh = trismooth.read("in.msh")                  # files, with nothing lost
+    trismooth.gmsh.smooth()                          # the current model of Gmsh
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import adapters as adapters
+from ._core import DeviceError, MeshError, MetricSummary, QualityReport, SweepRecord, WorstElement
+from ._core import __version__ as __version__
+from ._mesh import Cancelled, Mesh, ReadError, WriteError, read
+from ._plan import Plan
+from ._quality import METRICS, Quality, quality
+from ._result import NotComputed, Result
+from ._smooth import smooth
+from ._support import build_info
+
+__all__ = [
+    "METRICS",
+    "Cancelled",
+    "DeviceError",
+    "Mesh",
+    "MeshError",
+    "MetricSummary",
+    "NotComputed",
+    "Plan",
+    "Quality",
+    "QualityReport",
+    "ReadError",
+    "Result",
+    "SweepRecord",
+    "WorstElement",
+    "WriteError",
+    "build_info",
+    "gmsh",
+    "plot",
+    "quality",
+    "read",
+    "show",
+    "smooth",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # What few need, and what needs time to import, is imported when it is asked for.
+    if name in ("plot", "show"):
+        from . import _plot
+
+        return getattr(_plot, name)
+    if name == "gmsh":
+        from importlib import import_module
+
+        return import_module(f"{__name__}.gmsh")
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

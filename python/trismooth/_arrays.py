@@ -1,0 +1,117 @@
+"""The arrays of callers: what they are, where they are, and how an array of the same kind is made.
+
+NumPy arrays pass through untouched. Everything else that has DLPack or ``__array__`` is taken without a copy where it is
+in memory of the host, and stays where it is in memory of a CUDA device.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Any, Optional
+
+import numpy as np
+
+#: DLPack's device types, as far as they are told apart here.
+_CPU, _CUDA, _CUDA_HOST, _CUDA_MANAGED = 1, 2, 3, 13
+
+
+def device_of(array: Any) -> Optional[int]:
+    """The number of the CUDA device that an array is on, or None for one in memory of the host."""
+    if type(array) is np.ndarray or not hasattr(array, "__dlpack_device__"):
+        return None
+    kind, number = array.__dlpack_device__()
+    return int(number) if int(kind) in (_CUDA, _CUDA_MANAGED) else None
+
+
+def library_of(array: Any) -> str:
+    """The package that an array's type is from: "numpy", "cupy", "torch", "jax", ..."""
+    root = type(array).__module__.partition(".")[0]
+    return "jax" if root == "jaxlib" else root
+
+
+def is_plain(array: Any) -> bool:
+    """Whether this is a NumPy array that the compiled part takes as it is."""
+    return type(array) is np.ndarray and array.flags.aligned and array.dtype.isnative
+
+
+def on_host(array: Any, argument: str, number: Optional[type] = None) -> np.ndarray:
+    """An array in memory of the host as a NumPy array, without a copy where that can be.
+
+    ``number`` is the type that plain Python numbers get, of lists and the like. Raises TypeError with the name of the
+    argument for what is no array.
+    """
+    if is_plain(array):
+        return array
+    if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
+        raise ValueError(f"{argument}: some of its elements are masked")
+    if device_of(array) is not None:
+        raise ValueError(f"{argument}: is on cuda:{device_of(array)}, and points are in memory of the host")
+    try:
+        result = _as_numpy(array, number)
+    except (TypeError, ValueError, BufferError) as error:
+        raise type(error)(f"{argument}: {error}") from None
+    if not is_plain(result):
+        result = result.astype(result.dtype.newbyteorder("="), copy=True)
+    return result
+
+
+def _as_numpy(array: Any, number: Optional[type]) -> np.ndarray:
+    if hasattr(array, "__array__") or isinstance(array, memoryview):
+        return np.asarray(_detached(array))
+    if hasattr(array, "__dlpack__"):
+        return np.from_dlpack(array)
+    return np.asarray(array, dtype=number)
+
+
+def _detached(array: Any) -> Any:
+    """PyTorch refuses a tensor that records gradients; its numbers are taken."""
+    return array.detach() if library_of(array) == "torch" else array
+
+
+def labels(array: Any, argument: str) -> np.ndarray:
+    """Labels of any type, texts as well, as integers of 32 bits: equal ones where labels are equal."""
+    values = on_host(array, argument)
+    if values.dtype.kind in "iu" and (values.dtype.itemsize <= 4 and values.dtype != np.uint32):
+        return values
+    if values.ndim != 1:
+        raise ValueError(f"{argument}: shape {values.shape}; expected one dimension, a label for each triangle")
+    if values.dtype.kind == "f" and np.isnan(values).any():
+        raise ValueError(f"{argument}: a label is NaN")
+    try:
+        return np.unique(values, return_inverse=True)[1].astype(np.int32)
+    except TypeError as error:
+        raise TypeError(f"{argument}: its labels cannot be compared: {error}") from None
+
+
+def empty_like(array: Any, numbers: np.ndarray) -> np.ndarray:
+    """A NumPy array for the result: of the shape and type of the caller's array, whose numbers are `numbers`."""
+    return np.empty_like(array if isinstance(array, np.ndarray) else numbers, subok=False)
+
+
+def like(array: Any, result: np.ndarray) -> Any:
+    """The result as an array of the kind that `array` is. Shares the memory where the other library can."""
+    library = library_of(array)
+    if library == "torch":
+        return sys.modules["torch"].from_numpy(result)
+    if library == "jax":
+        return sys.modules["jax"].numpy.asarray(result)
+    if hasattr(array, "__array_namespace__") and not isinstance(array, np.ndarray):
+        return array.__array_namespace__().asarray(result)
+    return result
+
+
+def writable_on_host(array: Any, argument: str) -> np.ndarray:
+    """The caller's array to write into, as a NumPy array that shares its memory."""
+    if isinstance(array, np.ndarray):
+        return array
+    if device_of(array) is not None:
+        raise ValueError(f"{argument}: is on cuda:{device_of(array)}, and points are in memory of the host")
+    if library_of(array) == "jax":
+        raise ValueError(f"{argument}: arrays of JAX cannot be written")
+    if library_of(array) == "torch":
+        return _detached(array).numpy()
+    if isinstance(array, memoryview) or hasattr(array, "__array_interface__"):
+        return np.asarray(array)
+    if hasattr(array, "__dlpack__"):
+        return np.from_dlpack(array)
+    raise TypeError(f"{argument}: an array that can be written is needed, not {type(array).__name__}")

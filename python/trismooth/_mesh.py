@@ -1,0 +1,255 @@
+"""Mesh files: read, smoothed, written back with nothing lost, as the program does it."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Dict, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _arrays, _core
+from ._core import QualityReport
+from ._result import Result
+from ._smooth import Progress
+from ._support import NO_FILES
+
+Path = Union[str, "os.PathLike[str]"]
+
+if _core.has_files:
+    ReadError = _core.ReadError
+    WriteError = _core.WriteError
+    Cancelled = _core.Cancelled
+else:
+
+    class ReadError(OSError):
+        """A mesh file that cannot be read, or that is no planar triangle mesh."""
+
+    class WriteError(OSError):
+        """A file that cannot be written. What stood there before is untouched."""
+
+    class Cancelled(RuntimeError):
+        """The progress callable said stop; the mesh is as it was."""
+
+
+#: VTK's types of cells.
+_TRIANGLE, _QUADRATIC_TRIANGLE = 5, 22
+
+
+class FileResult(Result):
+    """What a smoothing of a Mesh did: a Result, and what the program tells beside.
+
+    Attributes
+    ----------
+    report : dict
+        The program's JSON report: the input, what holds vertices, regions, options, sizes, fields, ...
+    notes, warnings, losses : list of str
+        What one should know, one sentence each. Losses are of point arrays that could not follow the mesh.
+    """
+
+    __slots__ = ("report", "notes", "warnings", "losses")
+
+    def __init__(self, outcome: Any, mesh: Mesh) -> None:
+        super().__init__(outcome.outcome, mesh.points, mesh.triangles)
+        self.mesh = mesh
+        self.report: Dict[str, Any] = json.loads(outcome.json)
+        self.notes: List[str] = outcome.notes
+        self.warnings: List[str] = outcome.warnings
+        self.losses: List[str] = outcome.losses
+
+
+class Mesh:
+    """A mesh that was read from a file, with all that the file holds. Made by :func:`trismooth.read`.
+
+    Regions, fixed vertices, planes, quadratic triangles and fields are found as the program finds them: see
+    docs/command_line.md.
+    """
+
+    __slots__ = ("_mesh",)
+
+    def __init__(self, path: Path, format: Optional[str] = None, threads: int = 0) -> None:
+        if not _core.has_files:
+            raise RuntimeError(NO_FILES)
+        path = os.fspath(path)
+        if path != "-":
+            os.stat(path)  # a file that is not there is FileNotFoundError, as everywhere in Python
+        self._mesh = _core.FileMesh(path, format, threads)
+
+    @property
+    def path(self) -> str:
+        """The file that it was read from."""
+        return self._mesh.path
+
+    @property
+    def format(self) -> str:
+        """The file's format: "msh", "vtu", ..."""
+        return self._mesh.format
+
+    @property
+    def points(self) -> np.ndarray:
+        """A copy of the coordinates, float64 of shape (N, 3). Assign an array to change them.
+
+        Assigned numbers are rounded to float32 where the file stores them so.
+        """
+        return self._mesh.points
+
+    @points.setter
+    def points(self, points: Any) -> None:
+        self._mesh.points = _arrays.on_host(points, "points", float)
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """The triangles of three nodes, int32 of shape (M, 3), in the file's order."""
+        return self._mesh.cells(_TRIANGLE, 3)
+
+    @property
+    def quadratic_triangles(self) -> np.ndarray:
+        """The triangles of six nodes, int32 of shape (M, 6): corners, then middles of the sides 01, 12 and 20."""
+        return self._mesh.cells(_QUADRATIC_TRIANGLE, 6)
+
+    @property
+    def cell_types(self) -> np.ndarray:
+        """VTK's type of each cell, uint8, in the file's order."""
+        return self._mesh.cell_types
+
+    @property
+    def point_data(self) -> Dict[str, np.ndarray]:
+        """Copies of the arrays at points, by name."""
+        return self._mesh.point_data
+
+    @property
+    def cell_data(self) -> Dict[str, np.ndarray]:
+        """Copies of the arrays of cells, by name: a row for each cell of any type."""
+        return self._mesh.cell_data
+
+    @property
+    def notes(self) -> List[str]:
+        """What the reader says of the file, one sentence each."""
+        return self._mesh.notes
+
+    def smooth(
+        self,
+        *,
+        regions: Union[None, str, Sequence[str]] = None,
+        fixed: Any = None,
+        fixed_array: Optional[str] = None,
+        fixed_sets: Union[None, str, Sequence[str]] = None,
+        size: Optional[str] = None,
+        fields: Optional[str] = None,
+        field_arrays: Union[None, str, Sequence[str]] = None,
+        project: Optional[str] = None,
+        geographic: bool = False,
+        method: str = "mean-ratio",
+        backend: str = "auto",
+        progress: Optional[Progress] = None,
+        **options: Any,
+    ) -> FileResult:
+        """Smooths the mesh in place, as ``trismooth smooth`` does with the same options.
+
+        The program's default method is "smart"; that of Python is "mean-ratio".
+
+        Parameters
+        ----------
+        regions : str or list of str, optional
+            Cell arrays that give regions; "none": none do. Default: those that look like it.
+        fixed : array of N bools, or of vertex numbers, optional
+            Vertices to hold.
+        fixed_array : str, optional
+            The point array whose nonzero values hold vertices. Default: "fixed", where there is one.
+        fixed_sets : str or list of str, optional
+            Point sets that hold vertices. Default: all but those of areas.
+        size : str, optional
+            The array of sizes to aim at: edge lengths at points, or areas of cells.
+        fields : {"keep", "interpolate"}, optional
+            Values at points where vertices move. Default: depths and the like are interpolated.
+        field_arrays : str or list of str, optional
+            Patterns of the point arrays to interpolate.
+        project : {"xy"}, optional
+            Smooth a surface z(x, y) in x and y.
+        geographic : bool
+            x and y are longitude and latitude in degrees.
+        method, backend, progress, **options
+            As for :func:`trismooth.smooth`. Where ``progress`` returns False, Cancelled is raised.
+
+        Returns
+        -------
+        FileResult
+
+        Raises
+        ------
+        ReadError
+            An OSError: for a mesh that is not planar or no triangle mesh. The mesh is as it was, as it is wherever an
+            exception is raised.
+        """
+        options["method"] = method
+        options["backend"] = backend
+        held = {
+            "regions": regions,
+            "fixed": None if fixed is None else _arrays.on_host(fixed, "fixed"),
+            "fixed_array": fixed_array,
+            "fixed_sets": fixed_sets,
+            "size": size,
+            "fields": fields,
+            "field_arrays": field_arrays,
+            "project": project,
+            "geographic": geographic,
+        }
+        return FileResult(self._mesh.smooth(options, held, progress), self)
+
+    def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
+        """The quality of the mesh as it is now: what ``trismooth quality`` shows."""
+        outcome = self._mesh.check({"project": project, "geographic": geographic}, threads)
+        return outcome.outcome.before
+
+    def write(self, path: Path, *, format: Optional[str] = None, threads: int = 0) -> List[str]:
+        """Writes the mesh. In the format that was read only the coordinates that changed are other than in the file.
+
+        Parameters
+        ----------
+        path : str or path
+            Its extension names the format. An old file survives any failure.
+        format : str, optional
+            For a path whose extension names none: "off", "msh", ...
+
+        Returns
+        -------
+        list of str
+            What the file does not hold of the mesh, one sentence each.
+
+        Raises
+        ------
+        WriteError
+            An OSError.
+        """
+        return self._mesh.write(os.fspath(path), format, threads)
+
+    def __repr__(self) -> str:
+        return f"<trismooth.Mesh: {self.path!r}, {len(self.points)} points, {len(self.cell_types)} cells>"
+
+
+def read(path: Path, *, format: Optional[str] = None, threads: int = 0) -> Mesh:
+    """Reads a mesh file: OFF, OBJ, PLY, STL, VTK, VTU, VTP, Gmsh MSH, Medit, SU2, Abaqus, ADCIRC, 2dm, FreeFem, MFEM,
+    Triangle, Nastran, UNV, also compressed by gzip. Nothing is interpreted, nothing is lost.
+
+    Parameters
+    ----------
+    path : str or path
+        "-" is standard input.
+    format : str, optional
+        For a file whose extension names none.
+    threads : int
+        0: all. What is read does not depend on it.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    ReadError
+        An OSError: for a file that is damaged or of no known format, with the place in it. FileNotFoundError for one
+        that is not there.
+    RuntimeError
+        Where this build has no files; ``trismooth.build_info()`` says so.
+    """
+    return Mesh(path, format, threads)

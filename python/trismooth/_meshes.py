@@ -1,0 +1,70 @@
+"""Meshes of other packages, by their adapters."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Optional, Tuple
+
+import numpy as np
+
+from . import _arrays, adapters
+from ._result import Result
+
+
+def _adapter_of(mesh: Any) -> Any:
+    adapter = adapters.find(mesh)
+    if adapter is None:
+        raise TypeError(
+            f"points: {type(mesh).__module__}.{type(mesh).__qualname__} is no mesh that trismooth knows; "
+            "give points and triangles"
+        )
+    return adapter
+
+
+def smooth_mesh(
+    mesh: Any, held: Dict[str, Any], size: Any, out: Any, quality: Optional[bool], progress: Any, options: Dict[str, Any]
+) -> Result:
+    """smooth() of a mesh: the result has the smoothed one as ``mesh``."""
+    from ._smooth import smooth
+
+    if out is not None:
+        raise TypeError("out: is for arrays; a mesh is changed itself with inplace=True")
+    adapter = _adapter_of(mesh)
+    inplace = options.pop("inplace", None)
+    if inplace is None:
+        inplace = not adapter.SUPPORTS_COPY
+    if not inplace and not adapter.SUPPORTS_COPY:
+        raise ValueError("inplace: meshes of this type can be smoothed in place only")
+    flat = adapter.flatten(mesh, regions=held["regions"], fixed=held["fixed"])
+    result = smooth(
+        flat.points,
+        flat.triangles,
+        regions=flat.regions,
+        fixed=flat.fixed,
+        other_cells=_united(flat.other_cells, held["other_cells"], len(flat.points)),
+        size=size,
+        quality=True if quality is None else quality,
+        progress=progress,
+        **options,
+    )
+    result.mesh = adapter.with_points(mesh, flat, result.points, inplace=inplace)
+    return result
+
+
+def _united(of_mesh: Any, of_user: Any, count: int) -> Any:
+    """The vertices of both; None where there are none."""
+    if of_mesh is None or of_user is None:
+        return of_mesh if of_user is None else of_user
+    given = _arrays.on_host(of_user, "other_cells")
+    if given.dtype == bool and given.shape != (count,):
+        raise ValueError(f"other_cells: shape {given.shape}; expected ({count},), one for each vertex")
+    mask = np.array(of_mesh, dtype=bool)
+    mask[given] = True
+    return mask
+
+
+def arrays_of(mesh: Any) -> Tuple[Any, Any]:
+    """The points and triangles of a mesh."""
+    flat = _adapter_of(mesh).flatten(mesh, regions=False, fixed=False)
+    return flat.points, flat.triangles
+
+

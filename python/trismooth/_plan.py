@@ -1,0 +1,123 @@
+"""Meshes that move: connectivity analysed once, coordinates smoothed as often as they change."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _arrays, _core
+from ._result import Result
+from ._smooth import Progress
+
+
+class Plan:
+    """A mesh whose connectivity is analysed once and whose points are smoothed as often as they change.
+
+    Parameters are those of :func:`trismooth.smooth`; the arrays are copied, but for ``triangles`` on a device, which
+    stay where they are and must stay as they are. A plan serves one thread at a time, others wait; several plans work
+    at the same time.
+
+    Parameters
+    ----------
+    triangles : array of integers, shape (M, 3)
+    n_points : int
+        The number of vertices.
+    regions, fixed, other_cells, size, method, backend, **options
+        As for :func:`trismooth.smooth`.
+
+    Raises
+    ------
+    TypeError, ValueError, MeshError, DeviceError
+        As :func:`trismooth.smooth`.
+
+    Examples
+    --------
+    >>> plan = trismooth.Plan(triangles, len(points), method="smart")
+    >>> for time in times:
+    ...     move_boundary(points, time)
+    ...     plan.smooth(points, out=points)
+    """
+
+    def __init__(
+        self,
+        triangles: Any,
+        n_points: int,
+        *,
+        regions: Any = None,
+        fixed: Any = None,
+        other_cells: Any = None,
+        size: Any = None,
+        method: str = "mean-ratio",
+        backend: str = "auto",
+        **options: Any,
+    ) -> None:
+        options["method"] = method
+        options["backend"] = backend
+        self._triangles = triangles
+        self._on_device = _arrays.device_of(triangles) is not None
+        if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or n_points < 0:
+            raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
+        if self._on_device:
+            from . import _device
+
+            self._plan: Any = _device.DevicePlan(
+                triangles, n_points, (regions, fixed, other_cells, size), options
+            )
+            return
+        if "stream" in options:
+            raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
+        self._plan = _core.HostPlan(
+            _arrays.on_host(triangles, "triangles"),
+            n_points,
+            None if regions is None else _arrays.labels(regions, "regions"),
+            None if fixed is None else _arrays.on_host(fixed, "fixed"),
+            None if other_cells is None else _arrays.on_host(other_cells, "other_cells"),
+            None if size is None else _arrays.on_host(size, "size", float),
+            options,
+        )
+
+    @property
+    def n_points(self) -> int:
+        """The number of vertices."""
+        return self._plan.vertex_count
+
+    @property
+    def n_triangles(self) -> int:
+        """The number of triangles."""
+        return self._plan.triangle_count
+
+    def smooth(
+        self, points: Any, *, out: Any = None, quality: bool = False, progress: Optional[Progress] = None
+    ) -> Result:
+        """Smooths the points, one for every vertex.
+
+        Parameters
+        ----------
+        points : array of float64 or float32, shape (N, 2) or (N, 3)
+            On the device that the triangles are on, if they are on one.
+        out : array, optional
+            Where the result goes; it may be ``points``. Default: a new array.
+        quality : bool
+            Whether ``result.before`` and ``result.after`` are computed.
+        progress : callable, optional
+            As for :func:`trismooth.smooth`.
+
+        Returns
+        -------
+        Result
+        """
+        if self._on_device:
+            return self._plan.smooth(points, out, quality, progress)
+        numbers = _arrays.on_host(points, "points", float)
+        target = _arrays.empty_like(points, numbers) if out is None else _arrays.writable_on_host(out, "out")
+        plain = target if _arrays.is_plain(target) else np.empty_like(numbers)
+        outcome = self._plan.smooth(numbers, plain, quality, progress)
+        if plain is not target:
+            target[...] = plain
+        if out is not None:
+            return Result(outcome, out, self._triangles, None if out is points else points)
+        return Result(outcome, target if isinstance(points, np.ndarray) else _arrays.like(points, target), self._triangles, points)
+
+    def __repr__(self) -> str:
+        return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} triangles>"

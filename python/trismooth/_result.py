@@ -1,0 +1,185 @@
+"""What a smoothing hands back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Optional
+
+from . import _core
+from ._core import QualityReport, SweepRecord
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class NotComputed(AttributeError):
+    """A quality that was not asked for: pass ``quality=True``."""
+
+
+class Result:
+    """What a smoothing did, and the points.
+
+    Attributes
+    ----------
+    points : array
+        The smoothed points: of the shape and type of those that went in. Where ``out`` was given, that array.
+    triangles : array
+        The triangles that went in.
+    input_points : array or None
+        The points that went in; None where they were smoothed in place.
+    mesh : object or None
+        Of a mesh of another package: the smoothed mesh.
+    """
+
+    __slots__ = ("points", "triangles", "input_points", "mesh", "_outcome")
+
+    def __init__(self, outcome: _core.Outcome, points: Any, triangles: Any, input_points: Any = None) -> None:
+        self.points = points
+        self.triangles = triangles
+        self.input_points = input_points
+        self.mesh: Any = None
+        self._outcome = outcome
+
+    def _quality(self, report: Optional[QualityReport]) -> QualityReport:
+        if report is None:
+            raise NotComputed(
+                "the quality was not computed: it costs time, and is left out where points are smoothed in place or on "
+                "a device. Pass quality=True"
+            )
+        return report
+
+    @property
+    def before(self) -> QualityReport:
+        """The quality of the mesh that went in. Raises NotComputed where it was not asked for."""
+        return self._quality(self._outcome.before)
+
+    @property
+    def after(self) -> QualityReport:
+        """The quality of the smoothed mesh. Raises NotComputed where it was not asked for."""
+        return self._quality(self._outcome.after)
+
+    @property
+    def has_quality(self) -> bool:
+        """Whether ``before`` and ``after`` are there."""
+        return self._outcome.before is not None and self._outcome.after is not None
+
+    @property
+    def moved(self) -> int:
+        """How many vertices have other coordinates than before."""
+        return self._outcome.moved
+
+    @property
+    def sweeps(self) -> int:
+        """How many sweeps were made."""
+        return self._outcome.sweeps
+
+    @property
+    def stop_reason(self) -> str:
+        """Why the sweeps ended: "fixed_point", "tolerance", "few_moves", "sweep_limit", "time_limit",
+        "quality_target" or "cancelled"."""
+        return self._outcome.stop_reason
+
+    @property
+    def vertex_updates(self) -> int:
+        """Evaluations of a vertex, over all sweeps."""
+        return self._outcome.vertex_updates
+
+    @property
+    def reverted(self) -> int:
+        """How many vertices the never-worse guard put back."""
+        return self._outcome.reverted
+
+    @property
+    def reverted_vertices(self) -> List[Any]:
+        """Of each vertex that the guard put back: its number, and where it had been, (x, y)."""
+        return self._outcome.reverted_vertices
+
+    @property
+    def guard_rounds(self) -> int:
+        """Rounds of the guard that put vertices back."""
+        return self._outcome.guard_rounds
+
+    @property
+    def free_vertices(self) -> int:
+        """How many vertices nothing held."""
+        return self._outcome.free_vertices
+
+    @property
+    def colours(self) -> int:
+        """Colours of form b; 0 of form a."""
+        return self._outcome.colours
+
+    @property
+    def history(self) -> List[SweepRecord]:
+        """A record of each sweep."""
+        return self._outcome.history
+
+    @property
+    def untangling(self) -> Optional[Dict[str, int]]:
+        """Counts of inverted triangles before and after, where they were untangled before the sweeps; else None."""
+        return self._outcome.untangling
+
+    @property
+    def backend(self) -> str:
+        """Who made the sweeps: "cpu" or "cuda"."""
+        return self._outcome.backend
+
+    @property
+    def device(self) -> str:
+        """The processor or the GPU by its name."""
+        return self._outcome.device
+
+    @property
+    def threads(self) -> int:
+        """Threads of the CPU that made the sweeps; 0 where a device did."""
+        return self._outcome.threads
+
+    @property
+    def device_memory_bytes(self) -> int:
+        """The most memory of a device that was taken at a time, beside the caller's arrays."""
+        return self._outcome.device_memory_bytes
+
+    @property
+    def reproducible(self) -> bool:
+        """False for ``order="unordered"`` alone."""
+        return self._outcome.reproducible
+
+    @property
+    def note(self) -> str:
+        """Why a backend was taken that one may not have expected; or empty."""
+        return self._outcome.note
+
+    @property
+    def timings(self) -> Dict[str, float]:
+        """Milliseconds of the parts: prepare, transfer_in, untangle, smooth, transfer_out, guard."""
+        return self._outcome.timings
+
+    def plot(self, **options: Any) -> Figure:
+        """Draws the mesh before and after, coloured by shape, and the histogram of shapes. Needs matplotlib.
+
+        See :func:`trismooth.plot` for the options.
+        """
+        from ._plot import plot
+
+        return plot(self, **options)
+
+    def __str__(self) -> str:
+        lines = (
+            f"{self.moved} of {self.free_vertices} free vertices moved in {self.sweeps} "
+            f"sweep{'' if self.sweeps == 1 else 's'}; stopped by {self.stop_reason}"
+        )
+        return f"{lines}\n\n{self._outcome.summary()}" if self.has_quality else lines
+
+    def __repr__(self) -> str:
+        shapes = ""
+        if self.has_quality:
+            before, after = self.before["shape"], self.after["shape"]
+            shapes = f", smallest shape {before.min:.4g} -> {after.min:.4g}, mean {before.mean:.4g} -> {after.mean:.4g}"
+        return (
+            f"<trismooth.Result: {self.moved} of {self.free_vertices} free vertices moved, {self.sweeps} sweeps, "
+            f"{self.stop_reason}{shapes}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from ._html import result_html
+
+        return result_html(self)

@@ -1,0 +1,138 @@
+"""Smoothing of arrays, and of meshes of other packages."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import _arrays, _core
+from ._core import SweepRecord
+from ._result import Result
+
+Progress = Callable[[SweepRecord], Any]
+
+
+def smooth(
+    points: Any,
+    triangles: Any = None,
+    *,
+    regions: Any = None,
+    fixed: Any = None,
+    other_cells: Any = None,
+    size: Any = None,
+    method: str = "mean-ratio",
+    backend: str = "auto",
+    out: Any = None,
+    quality: Optional[bool] = None,
+    progress: Optional[Progress] = None,
+    **options: Any,
+) -> Result:
+    """Smooths a planar triangle mesh: moves its free vertices so that the triangles get closer to equilateral.
+
+    Boundaries, borders of regions and what you name keep their coordinates bit for bit. No triangle that was valid
+    becomes invalid, and none ends both worse than it was and worse than the worst one around the moved vertices was.
+    The result is the same to the bit for every number of threads, on the CPU and on a GPU.
+
+    Parameters
+    ----------
+    points : array of float64 or float32, shape (N, 2) or (N, 3)
+        The vertices, of any strides. A third number is the height, and must be the same for all vertices in use. Any
+        array with the buffer protocol, DLPack or ``__array__``; one on a CUDA device stays there. Or a mesh: a
+        ``pyvista.PolyData`` or ``UnstructuredGrid``, a ``meshio.Mesh``, a ``skfem.MeshTri``, a mesh of FEniCSx or
+        Firedrake; then ``triangles`` is left out, the smoothed mesh is ``result.mesh``, ``inplace=True`` changes the
+        mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
+    triangles : array of integers, shape (M, 3) or (M, 6)
+        Vertex numbers from 0, in either direction. Six are a quadratic triangle: the corners, then the middles of the
+        sides 01, 12 and 20, which follow the ends of their sides.
+    regions : array of M labels, optional
+        Vertices between triangles of different labels are held. Labels of any type, texts as well.
+    fixed : array of N bools, or of vertex numbers, optional
+        Vertices to hold.
+    other_cells : array of N bools, or of vertex numbers, optional
+        Vertices of cells that are no triangles: held, and part of the mesh even where no triangle has them.
+    size : array of N floats, optional
+        The edge length wanted around each vertex, in any unit, for the method "mean-ratio": only relations count.
+    method : {"mean-ratio", "smart", "laplacian", "weighted"}
+        How vertices are moved. "mean-ratio" gives the best elements and untangles inverted ones first; "smart" is the
+        Smart Laplacian of the paper.
+    backend : {"auto", "cpu", "cuda"}
+        Who makes the sweeps. "auto": a GPU for large meshes, where the build and the machine have one.
+    out : array, optional
+        Where the result goes: of the shape and type of ``points``, which it may be. Left as it is where an exception is
+        raised. Default: a new array.
+    quality : bool, optional
+        Whether ``result.before`` and ``result.after`` are computed. Default: where ``out`` is not given and ``points``
+        are in memory of the host.
+    progress : callable, optional
+        Called with a SweepRecord after each sweep, on this thread. Returning False ends the smoothing: the result is a
+        valid mesh. Ctrl-C raises KeyboardInterrupt.
+    **options
+        ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``precision`` "double" or "single";
+        ``max_sweeps`` 1000 (0: no limit); ``tolerance`` 1e-6; ``time_limit`` None (seconds); ``target_quality`` None
+        (stop at this smallest shape); ``threads`` 0 (all); ``size_weight`` 1, ``power`` None (1 to 8) and ``target``
+        "uniform" or "input-shape" of "mean-ratio"; ``record_min_shape`` False; ``topology`` "auto", "host", "halfedge"
+        or "device"; ``evaluation`` "changed" or "all"; and of the paper's versions on CUDA ``layout`` "aos" or "soa",
+        ``execution`` "resident", "single-block" or "cdp", ``order`` "colour" or "unordered". ``stream``: the CUDA
+        stream of arrays on a device, else that of their library.
+
+    Returns
+    -------
+    Result
+        With ``points``, ``before``, ``after``, ``moved``, ``sweeps`` and more.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For an argument that does not fit; the message begins with its name.
+    MeshError
+        A ValueError: for triangles that are no mesh, a coordinate that is not finite, heights that differ.
+    DeviceError
+        Where a GPU is asked for and none can be used, or one fails.
+
+    Examples
+    --------
+    >>> import numpy as np, trismooth
+    >>> points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.9, 0.8]])
+    >>> triangles = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> trismooth.smooth(points, triangles, method="smart").points[4]
+    array([0.5, 0.5])
+    """
+    options["method"] = method
+    options["backend"] = backend
+    if triangles is None:
+        from . import _meshes
+
+        held = {"regions": regions, "fixed": fixed, "other_cells": other_cells}
+        return _meshes.smooth_mesh(points, held, size, out, quality, progress, options)
+    if _arrays.device_of(points) is not None:
+        from . import _device
+
+        constraints = (regions, fixed, other_cells, size)
+        return _device.smooth(points, triangles, constraints, out, quality, progress, options)
+    if "inplace" in options:
+        raise TypeError("inplace: is for meshes; arrays are smoothed in place by out=points")
+    if "stream" in options:
+        raise TypeError("stream: is for arrays on a CUDA device, and points are in memory of the host")
+    numbers = _arrays.on_host(points, "points", float)
+    corners = _arrays.on_host(triangles, "triangles")
+    target = _arrays.empty_like(points, numbers) if out is None else _arrays.writable_on_host(out, "out")
+    # What the compiled part can write; else it is copied there when all has gone well.
+    plain = target if _arrays.is_plain(target) else np.empty_like(numbers)
+    outcome = _core.smooth(
+        numbers,
+        corners,
+        plain,
+        None if regions is None else _arrays.labels(regions, "regions"),
+        None if fixed is None else _arrays.on_host(fixed, "fixed"),
+        None if other_cells is None else _arrays.on_host(other_cells, "other_cells"),
+        None if size is None else _arrays.on_host(size, "size", float),
+        out is None if quality is None else quality,
+        progress,
+        options,
+    )
+    if plain is not target:
+        target[...] = plain
+    if out is not None:
+        return Result(outcome, out, triangles, None if out is points else points)
+    return Result(outcome, target if isinstance(points, np.ndarray) else _arrays.like(points, target), triangles, points)

@@ -1,0 +1,338 @@
+"""What adapters make of a mesh, and what they have in common."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from .region_names import is_region_name
+
+# An array of so many labels or fewer may give regions in a mesh of any size.
+_ALWAYS_FEW_LABELS = 10
+
+
+@dataclass
+class FlatMesh:
+    """A mesh as plain arrays: what :func:`trismooth.smooth` takes.
+
+    Attributes
+    ----------
+    points : ndarray, shape (N, 2) or (N, 3)
+        Coordinates, in the precision of the mesh.
+    triangles : ndarray of int, shape (M, 3) or (M, 6)
+        Corners; with six nodes, then the middles of the sides 01, 12, 20.
+    regions : ndarray of int, shape (M,), optional
+        A label for each triangle. Vertices between two labels are held.
+    fixed : ndarray of bool, shape (N,), optional
+        Vertices to hold.
+    other_cells : ndarray of bool, shape (N,), optional
+        Vertices of cells that are not triangles. They are held, too.
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    regions: Optional[np.ndarray] = None
+    fixed: Optional[np.ndarray] = None
+    other_cells: Optional[np.ndarray] = None
+
+
+def float_points(points: Any) -> np.ndarray:
+    """Return the points as they are if they are float32 or float64, else as float64."""
+    array = np.asarray(points)
+    return array if array.dtype in (np.float32, np.float64) else array.astype(np.float64)
+
+
+def triangle_width(linear: int, quadratic: int) -> int:
+    """Return how many nodes the triangles have that are smoothed.
+
+    A mesh with triangles of both kinds is smoothed where it has more of them; the others are other cells.
+
+    Parameters
+    ----------
+    linear, quadratic : int
+        Numbers of triangles of three and of six nodes.
+
+    Returns
+    -------
+    int
+        3 or 6.
+    """
+    if linear + quadratic == 0:
+        raise ValueError("points: it has no triangles")
+    return 6 if quadratic > linear else 3
+
+
+def vertices_of(nodes: Iterable[Any], count: int) -> Optional[np.ndarray]:
+    """Return the mask of the vertices that any of the arrays of vertex numbers has; None if there are none."""
+    mask = np.zeros(count, dtype=bool)
+    for array in nodes:
+        mask[np.asarray(array, dtype=np.int64).ravel()] = True
+    return mask if mask.any() else None
+
+
+def vertex_mask(value: Any, count: int, argument: str = "fixed") -> np.ndarray:
+    """Return a mask of vertices, given as such or as vertex numbers.
+
+    Parameters
+    ----------
+    value : array_like
+        Mask of shape (count,), or vertex numbers.
+    count : int
+        Number of vertices.
+    argument : str
+        Name of the argument, for errors.
+
+    Returns
+    -------
+    ndarray of bool, shape (count,)
+    """
+    array = np.asarray(value)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise ValueError(f"{argument}: the mask has shape {array.shape}, the mesh has {count} vertices")
+        return array
+    if array.size > 0 and array.dtype.kind not in "iu":
+        raise TypeError(f"{argument}: expected a mask of bool or vertex numbers, not values of type {array.dtype}")
+    if array.ndim != 1:
+        raise ValueError(f"{argument}: expected one dimension, not shape {array.shape}")
+    return _mask_of_numbers(array.astype(np.int64), count, argument)
+
+
+def _mask_of_numbers(numbers: np.ndarray, count: int, argument: str) -> np.ndarray:
+    if numbers.size == 0:
+        return np.zeros(count, dtype=bool)
+    if numbers.min() < 0 or numbers.max() >= count:
+        raise ValueError(
+            f"{argument}: vertex numbers go from {numbers.min()} to {numbers.max()}, those of the mesh from 0 to "
+            f"{count - 1}"
+        )
+    # Nobody lists two vertices over and over: this is a mask of the wrong type.
+    if numbers.size == count > 2 and numbers.max() <= 1:
+        raise TypeError(f"{argument}: this looks like a mask of 0 and 1; make it bool")
+    mask = np.zeros(count, dtype=bool)
+    mask[numbers] = True
+    return mask
+
+
+def number_labels(labels: np.ndarray) -> np.ndarray:
+    """Return numbers from 0, the same for the same label. Labels may have any type.
+
+    Parameters
+    ----------
+    labels : ndarray, shape (M,)
+
+    Returns
+    -------
+    ndarray of int64, shape (M,)
+    """
+    if labels.dtype == object:
+        labels = labels.astype(str)
+    # NumPy 2.0.0 gives the numbers the shape of a column.
+    return np.unique(labels, return_inverse=True)[1].reshape(-1).astype(np.int64, copy=False)
+
+
+def combine_labels(arrays: Sequence[np.ndarray]) -> Optional[np.ndarray]:
+    """Return labels that differ wherever those of any of the arrays do.
+
+    Parameters
+    ----------
+    arrays : sequence of ndarray, shape (M,)
+
+    Returns
+    -------
+    ndarray of int64, shape (M,), or None
+        None if there are no arrays.
+    """
+    combined: Optional[np.ndarray] = None
+    for array in arrays:
+        numbers = number_labels(array)
+        if combined is None:
+            combined = numbers
+        else:
+            combined = number_labels(combined * (numbers.max(initial=0) + 1) + numbers)
+    return combined
+
+
+def labels_of_sets(sets: Iterable[np.ndarray], count: int) -> np.ndarray:
+    """Return labels that differ wherever one of two triangles is in a set and the other is not.
+
+    Takes time in proportion to the sizes of the sets, however many there are.
+
+    Parameters
+    ----------
+    sets : iterable of ndarray of int
+        The numbers of the triangles in each set.
+    count : int
+        Number of triangles.
+
+    Returns
+    -------
+    ndarray of int64, shape (count,)
+    """
+    labels = np.zeros(count, dtype=np.int64)
+    next_label = 1
+    for members in sets:
+        if len(members) > 0:
+            # Those of one label before this set get another label, the same for all of them.
+            numbers = number_labels(labels[members])
+            labels[members] = next_label + numbers
+            next_label += int(numbers.max()) + 1
+    return labels
+
+
+def region_arrays(names: Iterable[str], values: Callable[[str], Optional[np.ndarray]]) -> list[np.ndarray]:
+    """Return the arrays that give regions by their names.
+
+    An array counts if its name is one under which programs write regions (``material``, ``gmsh:physical``,
+    ``SubdomainID``, ...) and it has one value a cell. Where more than half of the triangles have labels of their own,
+    the array rather numbers the triangles: it is passed over, with a warning.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Names of the cell arrays.
+    values : callable
+        Returns the values of the triangles in the array of a name, of shape (M,) or (M, components); None if these are
+        neither numbers nor texts.
+    """
+    arrays = ((name, values(name)) for name in names if is_region_name(name))
+    return [array for name, array in arrays if array is not None and _gives_regions(name, array)]
+
+
+def _gives_regions(name: str, values: np.ndarray) -> bool:
+    if values.ndim != 1:
+        return False
+    labels = int(number_labels(values).max(initial=-1)) + 1
+    if labels <= max(_ALWAYS_FEW_LABELS, len(values) // 2):
+        return True
+    warnings.warn(
+        f"the cell array '{name}' has {labels} values for {len(values)} triangles: it is not taken for regions; "
+        f"regions='{name}' does so, regions=False ends this warning",
+        stacklevel=2,
+    )
+    return False
+
+
+def as_names(value: Any) -> Optional[list[str]]:
+    """Return the names if the value is a name or a list of names, else None."""
+    if isinstance(value, str):
+        return [value]
+    if isinstance(value, (list, tuple)) and value and all(isinstance(name, str) for name in value):
+        return list(value)
+    return None
+
+
+def one_value_each(values: np.ndarray, name: str) -> np.ndarray:
+    """Return the values of an array that the user chose for regions; an error if it has several components."""
+    if values.ndim != 1:
+        raise ValueError(f"regions: the cell array '{name}' has {values.shape[1:]} values a cell; regions need one")
+    return values
+
+
+def no_such_name(argument: str, name: str, kind: str, names: Iterable[str]) -> ValueError:
+    """Return the error for a name that the mesh does not have."""
+    known = ", ".join(repr(known) for known in names) or "none"
+    return ValueError(f"{argument}: the mesh has no {kind} '{name}'; it has: {known}")
+
+
+def choose_regions(
+    regions: Any,
+    *,
+    default: Callable[[], Sequence[np.ndarray]],
+    named: Callable[[str], np.ndarray],
+    cell_of_triangle: np.ndarray,
+    cell_count: int,
+) -> Optional[np.ndarray]:
+    """Return the label of each triangle, as the argument ``regions`` says.
+
+    Parameters
+    ----------
+    regions : None, False, str, list of str or array_like
+        None: the default of the mesh's type. False: no regions. A name or names: of arrays and sets of the mesh. An
+        array: a label for each triangle, or one for each cell.
+    default : callable
+        Returns the arrays that give regions without the user saying so.
+    named : callable
+        Returns the labels of the triangles under a name; raises if there is no such name.
+    cell_of_triangle : ndarray of int, shape (M,)
+        The number of the cell that each triangle is.
+    cell_count : int
+        Number of all cells.
+
+    Returns
+    -------
+    ndarray of int64, shape (M,), or None
+    """
+    if regions is None:
+        return combine_labels(default())
+    if regions is False:
+        return None
+    names = as_names(regions)
+    if names is not None:
+        return combine_labels([named(name) for name in names])
+    labels = np.asarray(regions)
+    if labels.shape == (cell_count,):
+        labels = labels[cell_of_triangle]
+    if labels.shape != cell_of_triangle.shape:
+        cells = f" or {cell_count} (cells)" if cell_count != len(cell_of_triangle) else ""
+        raise ValueError(
+            f"regions: the labels have shape {labels.shape}; expected {len(cell_of_triangle)} (triangles){cells}"
+        )
+    return number_labels(labels)
+
+
+def choose_fixed(
+    fixed: Any,
+    count: int,
+    *,
+    default: Callable[[], Optional[np.ndarray]],
+    named: Callable[[str], np.ndarray],
+) -> Optional[np.ndarray]:
+    """Return the mask of the vertices to hold, as the argument ``fixed`` says.
+
+    Parameters
+    ----------
+    fixed : None, False, str, list of str or array_like
+        None: the default of the mesh's type. False: none. A name or names: of arrays and sets of the mesh. An array: a
+        mask, or vertex numbers.
+    count : int
+        Number of vertices.
+    default, named : callable
+        As in :func:`choose_regions`, but they return masks of vertices.
+
+    Returns
+    -------
+    ndarray of bool, shape (count,), or None
+    """
+    if fixed is None:
+        return default()
+    if fixed is False:
+        return None
+    names = as_names(fixed)
+    if names is not None:
+        return np.asarray(np.any([named(name) for name in names], axis=0))
+    return vertex_mask(fixed, count)
+
+
+def nothing_named(argument: str, mesh: str) -> Callable[[str], np.ndarray]:
+    """Return what to do about a name where the mesh's type has no named arrays: raise an error that says so."""
+
+    def refuse(name: str) -> np.ndarray:
+        raise TypeError(f"{argument}: {mesh} has no array '{name}'; give an array")
+
+    return refuse
+
+
+def point_array_mask(values: np.ndarray) -> np.ndarray:
+    """Return which vertices an array of points marks: those where a value is not zero.
+
+    Parameters
+    ----------
+    values : ndarray, shape (N,) or (N, components)
+    """
+    marked = np.asarray(values) != 0
+    return np.asarray(marked.reshape(len(marked), -1).any(axis=1))

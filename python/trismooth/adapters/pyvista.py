@@ -1,0 +1,294 @@
+"""Meshes of PyVista and VTK: PolyData and UnstructuredGrid.
+
+Importing this module adds the accessor ``mesh.trismooth`` to PyVista's classes, if PyVista is imported and knows
+accessors (0.48 and later). The entry point ``pyvista.accessors`` of the package names this module, so PyVista imports
+it when somebody asks for ``mesh.trismooth``: whether trismooth was imported before PyVista, after it, or not at all.
+
+Points of a mesh that was copied shallowly are shared by VTK: in place, both move.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+
+from .flat import (
+    FlatMesh,
+    choose_fixed,
+    choose_regions,
+    float_points,
+    no_such_name,
+    one_value_each,
+    point_array_mask,
+    region_arrays,
+    triangle_width,
+    vertices_of,
+)
+
+SUPPORTS_COPY = True
+
+_TRIANGLE = 5
+_TRIANGLE_STRIP = 6
+_QUADRATIC_TRIANGLE = 22
+
+
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+    """Return the mesh as plain arrays.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData, pyvista.UnstructuredGrid, vtkPolyData or vtkUnstructuredGrid
+        Triangles, triangle strips and quadratic triangles are smoothed. All other cells hold their vertices, lines and
+        vertex cells, too.
+    regions : None, False, str, list of str or array_like
+        None: the cell arrays whose names say that they give regions (``material``, ``region_id``, ...). A name or
+        names: of cell arrays. An array: a label for each triangle or for each cell.
+    fixed : None, False, str, list of str or array_like
+        None: the point array ``fixed``, if there is one. A name or names: of point arrays; vertices are held where they
+        are not zero. An array: a mask, or vertex numbers.
+    """
+    cells = _cells_of(mesh)
+    count = mesh.GetNumberOfPoints()
+    points = float_points(_to_numpy(mesh.GetPoints().GetData()))
+    cell_data, point_data = mesh.GetCellData(), mesh.GetPointData()
+
+    def default_regions() -> list[np.ndarray]:
+        def of_triangles(name: str) -> Optional[np.ndarray]:
+            values = _values(cell_data, name)
+            return None if values is None else values[cells.of_triangle]
+
+        return region_arrays(_names(cell_data), of_triangles)
+
+    def named_regions(name: str) -> np.ndarray:
+        of_triangle: np.ndarray = _values_of_name(cell_data, name, "regions", "cell array")[cells.of_triangle]
+        return one_value_each(of_triangle, name)
+
+    def named_fixed(name: str) -> np.ndarray:
+        return point_array_mask(_values_of_name(point_data, name, "fixed", "point array"))
+
+    return FlatMesh(
+        points,
+        cells.triangles,
+        regions=choose_regions(
+            regions,
+            default=default_regions,
+            named=named_regions,
+            cell_of_triangle=cells.of_triangle,
+            cell_count=mesh.GetNumberOfCells(),
+        ),
+        fixed=choose_fixed(
+            fixed,
+            count,
+            default=lambda: named_fixed("fixed") if "fixed" in _names(point_data) else None,
+            named=named_fixed,
+        ),
+        other_cells=vertices_of(cells.other_nodes, count),
+    )
+
+
+def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
+    """Return the mesh with other points: the mesh itself, or a deep copy of its class."""
+    target = mesh if inplace else _copy(mesh)
+    if _is_array_of_structs(target.GetPoints().GetData()):
+        _numpy_support().vtk_to_numpy(target.GetPoints().GetData())[...] = points
+        target.GetPoints().Modified()
+    else:
+        target.GetPoints().SetData(_numpy_support().numpy_to_vtk(points, deep=True))
+    target.Modified()
+    return target
+
+
+def _copy(mesh: Any) -> Any:
+    if hasattr(mesh, "copy"):  # PyVista's meshes know more than VTK copies.
+        return mesh.copy(deep=True)
+    copy = mesh.NewInstance()
+    copy.DeepCopy(mesh)
+    return copy
+
+
+@dataclass
+class _Cells:
+    """The cells of a mesh: triangles, the cell that each of them is, and arrays of nodes of all other cells."""
+
+    triangles: np.ndarray
+    of_triangle: np.ndarray
+    other_nodes: list[np.ndarray]
+
+
+@dataclass
+class _CellArray:
+    """Cells of any number of nodes, with the places in the nodes where each cell begins and where it ends."""
+
+    nodes: np.ndarray
+    begins: np.ndarray
+    ends: np.ndarray
+
+    def of(self, chosen: np.ndarray, width: int) -> np.ndarray:
+        """Return the nodes of the chosen cells, all of that width."""
+        nodes: np.ndarray = self.nodes[self.begins[chosen][:, None] + np.arange(width)]
+        return nodes
+
+    def nodes_of_others(self, chosen: np.ndarray) -> np.ndarray:
+        """Return the nodes of all cells but the chosen ones."""
+        is_other = np.ones(len(self.begins), dtype=bool)
+        is_other[chosen] = False
+        nodes: np.ndarray = self.nodes[np.repeat(is_other, self.ends - self.begins)]
+        return nodes
+
+
+def _cells_of(mesh: Any) -> _Cells:
+    if mesh.GetNumberOfCells() > 0:
+        if mesh.IsA("vtkPolyData"):
+            return _cells_of_poly_data(mesh)
+        if mesh.IsA("vtkUnstructuredGrid"):
+            return _cells_of_grid(mesh)
+    elif mesh.IsA("vtkPointSet"):
+        raise ValueError("points: it has no cells")
+    raise TypeError(
+        f"points: a {type(mesh).__name__} is no PolyData or UnstructuredGrid; convert it first, with PyVista by "
+        "mesh.extract_surface(), mesh.triangulate() or mesh.combine()"
+    )
+
+
+def _cells_of_poly_data(mesh: Any) -> _Cells:
+    # VTK numbers the cells in this order.
+    first_polygon = mesh.GetNumberOfVerts() + mesh.GetNumberOfLines()
+    first_strip = first_polygon + mesh.GetNumberOfPolys()
+    polygons = _cell_array(mesh.GetPolys())
+    chosen = np.flatnonzero(polygons.ends - polygons.begins == 3)
+    strips = _cell_array(mesh.GetStrips())
+    of_strips, strip_of = _triangles_of_strips(strips, np.arange(len(strips.begins)))
+    triangle_width(len(chosen) + len(of_strips), 0)
+    return _Cells(
+        np.concatenate([polygons.of(chosen, 3), of_strips]),
+        np.concatenate([first_polygon + chosen, first_strip + strip_of]),
+        [_cell_array(mesh.GetVerts()).nodes, _cell_array(mesh.GetLines()).nodes, polygons.nodes_of_others(chosen)],
+    )
+
+
+def _cells_of_grid(mesh: Any) -> _Cells:
+    cells = _cell_array(mesh.GetCells())
+    types = _cell_types(mesh)
+    linear, quadratic, strips = (
+        np.flatnonzero(types == kind) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE, _TRIANGLE_STRIP)
+    )
+    of_strips, strip_of = _triangles_of_strips(cells, strips)
+    if triangle_width(len(linear) + len(of_strips), len(quadratic)) == 6:
+        return _Cells(cells.of(quadratic, 6), quadratic, [cells.nodes_of_others(quadratic)])
+    return _Cells(
+        np.concatenate([cells.of(linear, 3), of_strips]),
+        np.concatenate([linear, strip_of]),
+        [cells.nodes_of_others(np.concatenate([linear, strips]))],
+    )
+
+
+def _triangles_of_strips(cells: _CellArray, strips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the triangles of the strips, all in one direction, and the strip that each is of."""
+    triangles = [np.empty((0, 3), dtype=np.int64)]
+    for strip in strips:
+        nodes = cells.nodes[cells.begins[strip] : cells.ends[strip]]
+        of_strip = np.column_stack([nodes[:-2], nodes[1:-1], nodes[2:]])
+        of_strip[1::2, :2] = of_strip[1::2, 1::-1]
+        triangles.append(of_strip)
+    return np.concatenate(triangles), np.repeat(strips, [len(of_strip) for of_strip in triangles[1:]])
+
+
+def _numpy_support() -> Any:
+    # As late as this, so that nobody pays for VTK who has no mesh of it.
+    from vtkmodules.util import numpy_support
+
+    return numpy_support
+
+
+def _is_array_of_structs(array: Any) -> bool:
+    """Return whether the array lies in memory as NumPy's do: most do, those made of formulas do not."""
+    return bool(array.HasStandardMemoryLayout())
+
+
+def _to_numpy(array: Any) -> np.ndarray:
+    """Return the values of a vtkDataArray, without a copy where there need be none."""
+    if not _is_array_of_structs(array):
+        copy = array.CreateDataArray(array.GetDataType())
+        copy.DeepCopy(array)
+        array = copy
+    return np.asarray(_numpy_support().vtk_to_numpy(array))
+
+
+def _cell_array(cells: Any) -> _CellArray:
+    offsets = _to_numpy(cells.GetOffsetsArray()).astype(np.int64, copy=False)
+    # The cells that were never set have no offsets at all.
+    offsets = offsets if offsets.size > 0 else np.zeros(1, dtype=np.int64)
+    nodes = _to_numpy(cells.GetConnectivityArray()).astype(np.int64, copy=False)
+    return _CellArray(nodes, offsets[:-1], offsets[1:])
+
+
+def _cell_types(grid: Any) -> np.ndarray:
+    try:
+        return _to_numpy(grid.GetCellTypes())
+    except TypeError:  # Before VTK 9.6 this method has another meaning, and takes an argument.
+        return _to_numpy(grid.GetCellTypesArray())
+
+
+def _names(data: Any) -> list[str]:
+    names = [data.GetAbstractArray(i).GetName() for i in range(data.GetNumberOfArrays())]
+    return [name for name in names if name]
+
+
+def _values(data: Any, name: str) -> Optional[np.ndarray]:
+    """Return the values of an array of numbers or texts; None if it holds something else."""
+    array = data.GetAbstractArray(name)
+    if array.IsA("vtkDataArray"):
+        values = _to_numpy(array)
+        return values.reshape(-1) if array.GetNumberOfComponents() == 1 else values
+    if array.IsA("vtkStringArray") and array.GetNumberOfComponents() == 1:
+        return np.array([array.GetValue(i) for i in range(array.GetNumberOfValues())], dtype=str)
+    return None
+
+
+def _values_of_name(data: Any, name: str, argument: str, kind: str) -> np.ndarray:
+    names = _names(data)
+    values = _values(data, name) if name in names else None
+    if values is None:
+        raise no_such_name(argument, name, kind, names)
+    return values
+
+
+class Accessor:
+    """What ``mesh.trismooth`` offers.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData or pyvista.UnstructuredGrid
+    """
+
+    def __init__(self, mesh: Any) -> None:
+        self._mesh = mesh
+
+    def smooth(self, **options: Any) -> Any:
+        """Smooth the mesh: ``trismooth.smooth(mesh, **options)``. The new mesh is ``.mesh`` of the result."""
+        import trismooth
+
+        return trismooth.smooth(self._mesh, **options)
+
+    def quality(self, **options: Any) -> Any:
+        """Measure the mesh: ``trismooth.quality(mesh, **options)``."""
+        import trismooth
+
+        return trismooth.quality(self._mesh, **options)
+
+
+def register_accessor() -> bool:
+    """Add ``mesh.trismooth`` to PyVista's classes, and return whether that could be done."""
+    pyvista = sys.modules.get("pyvista")
+    register = getattr(pyvista, "register_dataset_accessor", None)
+    if pyvista is None or register is None:
+        return False
+    for cls in (pyvista.PolyData, pyvista.UnstructuredGrid):
+        register("trismooth", cls)(Accessor)
+    return True
+
+
+register_accessor()

@@ -1,0 +1,98 @@
+"""Triangle meshes of scikit-fem: MeshTri1 and MeshTri2."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, Optional
+
+import numpy as np
+
+from .flat import FlatMesh, as_names, choose_fixed, choose_regions, labels_of_sets, no_such_name
+
+SUPPORTS_COPY = True
+
+
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+    """Return the mesh as plain arrays.
+
+    Parameters
+    ----------
+    mesh : skfem.MeshTri1 or skfem.MeshTri2
+    regions : None, False, str, list of str or array_like
+        None: all subdomains. A name or names: of subdomains. An array: a label for each triangle.
+    fixed : None, False, str, list of str or array_like
+        None: the ends of all named boundaries, which may lie inside of the mesh. False: none of them. A name or names:
+        only those of these boundaries. An array, a mask or vertex numbers: those vertices, besides all named
+        boundaries.
+    """
+    _check(mesh)
+    points = np.ascontiguousarray(mesh.doflocs.T)
+    subdomains: Mapping[str, np.ndarray] = mesh.subdomains or {}
+    boundaries: Mapping[str, np.ndarray] = mesh.boundaries or {}
+
+    def default_regions() -> list[np.ndarray]:
+        return [labels_of_sets(map(np.asarray, subdomains.values()), mesh.nelements)] if subdomains else []
+
+    def named_regions(name: str) -> np.ndarray:
+        if name not in subdomains:
+            raise no_such_name("regions", name, "subdomain", subdomains)
+        return labels_of_sets([np.asarray(subdomains[name])], mesh.nelements)
+
+    def all_boundaries() -> Optional[np.ndarray]:
+        return np.asarray(np.any([named_fixed(name) for name in boundaries], axis=0)) if boundaries else None
+
+    def named_fixed(name: str) -> np.ndarray:
+        if name not in boundaries:
+            raise no_such_name("fixed", name, "boundary", boundaries)
+        mask = np.zeros(len(points), dtype=bool)
+        mask[mesh.facets[:, np.asarray(boundaries[name])]] = True
+        return mask
+
+    mask = choose_fixed(fixed, len(points), default=all_boundaries, named=named_fixed)
+    of_boundaries = all_boundaries()
+    if mask is not None and of_boundaries is not None and as_names(fixed) is None:
+        mask = mask | of_boundaries
+    return FlatMesh(
+        points,
+        np.ascontiguousarray(_triangles(mesh)),
+        regions=choose_regions(
+            regions,
+            default=default_regions,
+            named=named_regions,
+            cell_of_triangle=np.arange(mesh.nelements),
+            cell_count=mesh.nelements,
+        ),
+        fixed=mask,
+    )
+
+
+def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
+    """Return the mesh with other points: the mesh itself, or a new one of its class that shares all other arrays."""
+    doflocs = np.ascontiguousarray(points.T)
+    if not inplace:
+        return replace(mesh, doflocs=doflocs)
+    # A new array, not new values: scikit-fem lets meshes share their arrays.
+    mesh.doflocs = doflocs
+    # What scikit-fem derived from the old points: maps of elements and the search tree.
+    for name in ("_cached_mapping", "_cached_tree"):
+        vars(mesh).pop(name, None)
+    return mesh
+
+
+def _triangles(mesh: Any) -> np.ndarray:
+    """Return the nodes of the triangles, of shape (M, 3) or (M, 6)."""
+    # The degrees of freedom of a MeshTri2 are its corners, then the middles of the sides 01, 12 and 02.
+    return np.asarray(mesh.dofs.element_dofs.T if "MeshTri2" in _class_names(mesh) else mesh.t.T)
+
+
+def _class_names(mesh: Any) -> set[str]:
+    return {cls.__name__ for cls in type(mesh).__mro__}
+
+
+def _check(mesh: Any) -> None:
+    names = _class_names(mesh)
+    if "MeshTri1" not in names:
+        raise TypeError(f"points: a {type(mesh).__name__} is no MeshTri1 or MeshTri2")
+    if "MeshDG" in names:
+        raise TypeError(f"points: the triangles of a {type(mesh).__name__} share no vertices, so none could move")

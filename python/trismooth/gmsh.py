@@ -1,0 +1,206 @@
+"""Smoothing of the current model of Gmsh's Python interface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
+
+from .adapters.flat import triangle_width, vertices_of
+
+if TYPE_CHECKING:
+    from . import Result
+
+__all__ = ["smooth"]
+
+# Numbers of Gmsh for types of elements. Gmsh lists the nodes of both as VTK does.
+_TRIANGLE = 2
+_QUADRATIC_TRIANGLE = 9
+
+# How far nodes may be from a plane z = const, as a part of the mesh's size: the tolerance of the command-line program.
+_FLATNESS = 1e-6
+
+
+def smooth(*, fixed: Any = None, **options: Any) -> Result:
+    """Smooth the triangles of the current model, in place.
+
+    Nodes that Gmsh classifies on surfaces move: those inside of them. Nodes on curves and points are held, also where
+    these are embedded in a surface, and so are the borders between surfaces. Nodes of quadrangles and of other elements
+    that are no triangles are held, too, and nodes that are linked as periodic. Where they have parametric coordinates
+    on their surface, moved nodes get those of the new place.
+
+    Surfaces are the regions of the result's reports. Physical groups make no difference: what is between them is on
+    curves.
+
+    Parameters
+    ----------
+    fixed : array_like of int, optional
+        Tags of further nodes to hold.
+    **options
+        Those of :func:`trismooth.smooth`, without ``regions``, ``other_cells``, ``out`` and ``inplace``.
+
+    Returns
+    -------
+    Result
+        What :func:`trismooth.smooth` returns for the arrays of the model: ``points`` has a row for each node, in the
+        order of ``gmsh.model.mesh.getNodes()``.
+
+    Raises
+    ------
+    RuntimeError
+        If Gmsh is not initialized.
+    ValueError
+        If the model has no triangles, or its surfaces do not lie in one plane z = const.
+    """
+    import gmsh
+
+    import trismooth
+
+    if not gmsh.isInitialized():
+        raise RuntimeError("gmsh is not initialized: call gmsh.initialize() and make or open a mesh first")
+    for name in ("regions", "other_cells", "out", "inplace"):
+        if name in options:
+            raise TypeError(f"{name}: is for arrays and meshes; here the model has it all")
+    nodes = _nodes_of_model(gmsh)
+    surfaces = _surfaces(gmsh, nodes)
+    elements = _elements_of(gmsh, nodes, surfaces)
+    held = _held_nodes(nodes, surfaces, fixed)
+    _check_plane(nodes, elements.triangles)
+    result = trismooth.smooth(
+        np.ascontiguousarray(nodes.points[:, :2]),
+        elements.triangles,
+        regions=elements.regions,
+        fixed=held,
+        other_cells=elements.other_nodes,
+        **options,
+    )
+    _move_nodes(gmsh, nodes, surfaces, np.asarray(result.points))
+    return result
+
+
+@dataclass
+class _Nodes:
+    """The nodes of a model. Tags are any numbers; all else counts nodes from 0, in this order."""
+
+    tags: np.ndarray
+    points: np.ndarray
+    order: np.ndarray
+
+    def numbers(self, tags: Any) -> np.ndarray:
+        """Return the numbers of the nodes with these tags, which must be there."""
+        return self.order[np.searchsorted(self.tags, np.asarray(tags), sorter=self.order)]
+
+    def has(self, tags: Any) -> np.ndarray:
+        return np.isin(np.asarray(tags), self.tags)
+
+
+@dataclass
+class _Surface:
+    """A surface of a model, the nodes inside of it, and whether these have parametric coordinates."""
+
+    tag: int
+    nodes: np.ndarray
+    is_parametric: bool
+    periodic_nodes: np.ndarray
+
+
+@dataclass
+class _Elements:
+    """The triangles of a model, the surface of each, and a mask of the nodes of all other elements."""
+
+    triangles: np.ndarray
+    regions: np.ndarray
+    other_nodes: Optional[np.ndarray]
+
+
+def _nodes_of_model(gmsh: Any) -> _Nodes:
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    return _Nodes(tags, coordinates.reshape(-1, 3), np.argsort(tags, kind="stable"))
+
+
+def _surfaces(gmsh: Any, nodes: _Nodes) -> list[_Surface]:
+    surfaces = []
+    for dimension, tag in gmsh.model.getEntities(2):
+        tags, _, parameters = gmsh.model.mesh.getNodes(dimension, tag, returnParametricCoord=True)
+        _, here, there, _ = gmsh.model.mesh.getPeriodicNodes(dimension, tag)
+        periodic = np.concatenate([nodes.numbers(linked) for linked in (here, there)])
+        surfaces.append(_Surface(tag, nodes.numbers(tags), len(parameters) == 2 * len(tags) > 0, periodic))
+    return surfaces
+
+
+def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Surface]) -> _Elements:
+    triangles: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
+    regions: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
+    others = []
+    for surface in surfaces:
+        for kind, _, tags in zip(*gmsh.model.mesh.getElements(2, surface.tag)):
+            numbers = nodes.numbers(tags)
+            if kind in triangles:
+                corners = numbers.reshape(-1, 3 if kind == _TRIANGLE else 6)
+                triangles[kind].append(corners)
+                regions[kind].append(np.full(len(corners), surface.tag, dtype=np.int64))
+            else:
+                others.append(numbers)
+    linear, quadratic = (sum(map(len, triangles[kind])) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE))
+    if linear + quadratic == 0:
+        raise ValueError("the model has no triangles of order 1 or 2: call gmsh.model.mesh.generate(2) first")
+    chosen, left = (_TRIANGLE, _QUADRATIC_TRIANGLE)
+    if triangle_width(linear, quadratic) == 6:
+        chosen, left = left, chosen
+    others += triangles[left]
+    # Elements of curves and points have only nodes that are held anyway, but for meshes of unusual origin.
+    others += [nodes.numbers(tags) for dimension in (0, 1, 3) for tags in gmsh.model.mesh.getElements(dimension)[2]]
+    return _Elements(
+        np.concatenate(triangles[chosen]), np.concatenate(regions[chosen]), vertices_of(others, len(nodes.tags))
+    )
+
+
+def _held_nodes(nodes: _Nodes, surfaces: list[_Surface], fixed: Any) -> np.ndarray:
+    """Return the mask of the nodes that are inside of no surface, are linked as periodic, or are fixed by the user."""
+    held = np.ones(len(nodes.tags), dtype=bool)
+    for surface in surfaces:
+        held[surface.nodes] = False
+    for surface in surfaces:
+        held[surface.periodic_nodes] = True
+    if fixed is not None:
+        held[_numbers_of_fixed(nodes, fixed)] = True
+    return held
+
+
+def _numbers_of_fixed(nodes: _Nodes, fixed: Any) -> np.ndarray:
+    tags = np.asarray(fixed)
+    if tags.size == 0:
+        return np.empty(0, dtype=np.int64)
+    if tags.dtype.kind not in "iu" or tags.ndim != 1:
+        raise TypeError(f"fixed: expected tags of nodes, not values of type {tags.dtype} and shape {tags.shape}")
+    known = nodes.has(tags)
+    if not known.all():
+        raise ValueError(f"fixed: the model has no node {tags[~known][0]}")
+    return nodes.numbers(tags)
+
+
+def _check_plane(nodes: _Nodes, triangles: np.ndarray) -> None:
+    points = nodes.points[np.unique(triangles)]
+    sizes = np.ptp(points, axis=0)
+    if sizes[2] > _FLATNESS * sizes[:2].max():
+        low, high = points[:, 2].min(), points[:, 2].max()
+        raise ValueError(
+            f"the surfaces of the model do not lie in one plane z = const: z goes from {low:g} to {high:g}; only such "
+            "models can be smoothed"
+        )
+
+
+def _move_nodes(gmsh: Any, nodes: _Nodes, surfaces: list[_Surface], points: np.ndarray) -> None:
+    """Move the nodes whose points differ."""
+    has_moved = np.any(points != nodes.points[:, :2], axis=1)
+    for surface in surfaces:
+        moved = surface.nodes[has_moved[surface.nodes]]
+        if moved.size == 0:
+            continue
+        places = np.column_stack([points[moved], nodes.points[moved, 2]])
+        parameters = np.empty((len(moved), 0))
+        if surface.is_parametric:
+            parameters = gmsh.model.getParametrization(2, surface.tag, places.reshape(-1)).reshape(-1, 2)
+        for tag, place, parameter in zip(nodes.tags[moved], places, parameters):
+            gmsh.model.mesh.setNode(int(tag), place, parameter)
