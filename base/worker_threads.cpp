@@ -132,8 +132,11 @@ int start_worker_threads(int count) {
 }
 
 void expect_fork() {
-  static const int refused = pthread_atfork(nullptr, nullptr, [] { lost_threads = true; });
-  (void)refused;  // for want of memory: a child may wait for ever then, as it would without this
+  // A thread that has just ended its part of a loop may have a lock of TBB's allocator, which the child would ask for
+  // at its end. It has none after some microseconds, and long before it sleeps.
+  static const int refused = pthread_atfork([] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }, nullptr,
+                                            [] { lost_threads = true; });
+  static_cast<void>(refused);  // for want of memory: a child may wait for ever then, as it would without this
 }
 
 bool has_lost_threads() {

@@ -54,9 +54,15 @@ struct Workers::Arena {
   tbb::task_arena arena;
 };
 
-Workers::Workers(int threads) : count_(threads_for(threads)), arena_(std::make_unique<Arena>(count_)) {}
+Workers::Workers(int threads)
+    : count_(threads_for(threads)), arena_(count_ > 1 ? std::make_unique<Arena>(count_) : nullptr) {}
 
-Workers::~Workers() = default;
+Workers::~Workers() {
+  if (has_lost_threads()) {
+    // fork() may have come while one of them had a lock of TBB's: here, nobody opens it.
+    static_cast<void>(arena_.release());
+  }
+}
 
 void Workers::start() {
   const int allowed = start_worker_threads(count_);

@@ -290,7 +290,8 @@ class DevicePlan {
 };
 
 /// A new array on a device, of no values yet, that any library takes by DLPack.
-nb::ndarray<nb::device::cuda> new_device_array(std::size_t rows, std::size_t columns, bool is_float32, int device) {
+nb::ndarray<nb::array_api, nb::device::cuda> new_device_array(std::size_t rows, std::size_t columns, bool is_float32,
+                                                              int device) {
   const CurrentDevice current(device);
   void* memory = nullptr;
   const std::size_t bytes = rows * columns * (is_float32 ? sizeof(float) : sizeof(double));

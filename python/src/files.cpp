@@ -17,6 +17,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/cli/command_line.h"
@@ -148,7 +149,8 @@ class FileMesh {
                           std::to_string(document.point_count()) + ", 3) of float64");
       }
       std::vector<double> numbers(document.points.size());
-      points.copy_to(reinterpret_cast<std::byte*>(numbers.data()));
+      Workers this_thread(1);
+      points.copy_to(reinterpret_cast<std::byte*>(numbers.data()), this_thread);
       for (double& number : numbers) {
         number = rounded_to(document.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64,
                             number);

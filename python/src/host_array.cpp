@@ -1,5 +1,6 @@
 #include "trismooth/python/host_array.h"
 
+#include <atomic>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
@@ -71,29 +72,24 @@ void require_list(const HostArray& array, std::size_t count, const char* of_what
   }
 }
 
-/// Of numbers in their order, however they are handed in: each changes the value, since it is multiplied by odd numbers
-/// only.
+/// A sum over the words of an array, each with the odd number of its place: another word at one place changes it.
+/// Blocks of an array may be summed in any order.
 class Digest {
  public:
-  void add(const std::byte* numbers, std::size_t bytes) {
-    std::size_t i = 0;
-    for (; i + sizeof(std::uint64_t) <= bytes; i += sizeof(std::uint64_t)) {
-      add(number_at<std::uint64_t>(numbers + i));
-    }
-    for (; i + sizeof(std::uint32_t) <= bytes; i += sizeof(std::uint32_t)) {
-      add(number_at<std::uint32_t>(numbers + i));
-    }
+  /// Adds the number of `size` bytes, 4 or 8, that begins so many bytes behind the first.
+  void add(const std::byte* number, std::size_t offset, std::size_t size) {
+    const std::uint64_t word =
+        size == sizeof(std::uint64_t) ? number_at<std::uint64_t>(number) : number_at<std::uint32_t>(number);
+    const std::uint64_t factor = first_factor + offset * step;
+    sum_ += (word ^ factor) * factor;
   }
   std::uint64_t value() const { return sum_; }
 
  private:
-  void add(std::uint64_t word) {
-    sum_ += (word ^ factor_) * factor_;
-    factor_ += 0x9e3779b97f4a7c16;  // even: factors stay odd
-  }
+  static constexpr std::uint64_t first_factor = 0xbf58476d1ce4e5b9;
+  static constexpr std::uint64_t step = 0x9e3779b97f4a7c16;  // even: factors stay odd
 
   std::uint64_t sum_ = 0;
-  std::uint64_t factor_ = 0xbf58476d1ce4e5b9;
 };
 
 bool is_integer(const HostArray& array) {
@@ -109,7 +105,7 @@ HostArray::HostArray(nb::handle array, std::string argument, Access access) : ar
     if (access == Access::write && PyObject_CheckBuffer(array.ptr()) != 0) {
       raise_value_error(argument_, "cannot be written: it is read-only");
     }
-    raise_type_error(argument_, std::string("an array is needed, not ") + Py_TYPE(array.ptr())->tp_name);
+    raise_type_error(argument_, std::string("an array is needed, not ") + nb::inst_name(array).c_str());
   }
   kind_ = kind_of(buffer_.format);
   if (kind_ == 0) {
@@ -159,12 +155,13 @@ PointArray::PointArray(const HostArray& array) : array_(array) {
   }
 }
 
-/// Calls visit(number in the array, its place among packed ones, its size as a constant) for every number.
+/// Calls visit(number in the array, its place among packed ones in bytes, its size as a constant) for every number of
+/// the rows.
 template <class Visit>
-void PointArray::for_numbers(const Visit& visit) const {
+void PointArray::for_numbers(std::size_t begin, std::size_t end, const Visit& visit) const {
   const auto for_size = [&](auto size) {
-    std::size_t place = 0;
-    for (std::size_t v = 0; v < this->size(); ++v) {
+    std::size_t place = begin * components() * size;
+    for (std::size_t v = begin; v < end; ++v) {
       std::byte* const row = array_.data() + static_cast<std::ptrdiff_t>(v) * array_.stride(0);
       for (std::size_t k = 0; k < components(); ++k) {
         visit(row + static_cast<std::ptrdiff_t>(k) * array_.stride(1), place, size);
@@ -179,30 +176,43 @@ void PointArray::for_numbers(const Visit& visit) const {
   }
 }
 
-void PointArray::copy_to(std::byte* numbers) const {
-  if (array_.is_contiguous()) {
-    std::memcpy(numbers, array_.data(), bytes());
-  } else {
-    for_numbers([numbers](const std::byte* from, std::size_t to, auto size) { std::memcpy(numbers + to, from, size); });
-  }
+/// Calls visit(begin, end) for blocks of rows, on all workers, and sums up what it answers.
+template <class Visit>
+std::uint64_t PointArray::for_blocks(Workers& workers, const Visit& visit) const {
+  constexpr std::int64_t grain = 32768;
+  std::atomic<std::uint64_t> sum{0};
+  workers.for_blocks(static_cast<std::int64_t>(size()), grain, [&](std::int64_t begin, std::int64_t end) {
+    sum += visit(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+  });
+  return sum;
 }
 
-void PointArray::copy_from(const std::byte* numbers) const {
-  if (array_.is_contiguous()) {
-    std::memcpy(array_.data(), numbers, bytes());
-  } else {
-    for_numbers([numbers](std::byte* to, std::size_t from, auto size) { std::memcpy(to, numbers + from, size); });
-  }
+std::uint64_t PointArray::copy_to(std::byte* numbers, Workers& workers) const {
+  return for_blocks(workers, [&](std::size_t begin, std::size_t end) {
+    Digest digest;
+    for_numbers(begin, end, [&](const std::byte* from, std::size_t to, auto size) {
+      std::memcpy(numbers + to, from, size);
+      digest.add(numbers + to, to, size);
+    });
+    return digest.value();
+  });
 }
 
-std::uint64_t PointArray::digest() const {
-  Digest digest;
-  if (array_.is_contiguous()) {
-    digest.add(array_.data(), bytes());
-  } else {
-    for_numbers([&digest](const std::byte* number, std::size_t, auto size) { digest.add(number, size); });
-  }
-  return digest.value();
+void PointArray::copy_from(const std::byte* numbers, Workers& workers) const {
+  for_blocks(workers, [&](std::size_t begin, std::size_t end) {
+    for_numbers(begin, end,
+                [numbers](std::byte* to, std::size_t from, auto size) { std::memcpy(to, numbers + from, size); });
+    return std::uint64_t{0};
+  });
+}
+
+std::uint64_t PointArray::digest(Workers& workers) const {
+  return for_blocks(workers, [&](std::size_t begin, std::size_t end) {
+    Digest digest;
+    for_numbers(begin, end,
+                [&digest](const std::byte* number, std::size_t place, auto size) { digest.add(number, place, size); });
+    return digest.value();
+  });
 }
 
 PointView packed_points(std::byte* numbers, std::size_t size, std::size_t components, Storage storage) {

@@ -12,6 +12,7 @@
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/base/workers.h"
 
 namespace trismooth::python {
 
@@ -61,16 +62,19 @@ class PointArray {
   Storage storage() const { return array_.item_size() == sizeof(float) ? Storage::float32 : Storage::float64; }
   std::size_t bytes() const { return size() * components() * array_.item_size(); }
 
-  /// Copies the numbers, rows first, to or from memory for bytes() bytes. Linear; needs no GIL.
-  void copy_to(std::byte* numbers) const;
-  void copy_from(const std::byte* numbers) const;
-  /// A number that is another one where one of the numbers is, and hardly ever the same where several are. Linear;
-  /// needs no GIL.
-  std::uint64_t digest() const;
+  /// Copies the numbers, rows first, to or from memory for bytes() bytes. Linear, on all workers; needs no GIL. The
+  /// copy to it answers the digest.
+  std::uint64_t copy_to(std::byte* numbers, Workers& workers) const;
+  void copy_from(const std::byte* numbers, Workers& workers) const;
+  /// A number that is another one where one of the numbers is, and hardly ever the same where several are. Linear, on
+  /// all workers; needs no GIL.
+  std::uint64_t digest(Workers& workers) const;
 
  private:
   template <class Visit>
-  void for_numbers(const Visit& visit) const;
+  std::uint64_t for_blocks(Workers& workers, const Visit& visit) const;
+  template <class Visit>
+  void for_numbers(std::size_t begin, std::size_t end, const Visit& visit) const;
 
   const HostArray& array_;
 };

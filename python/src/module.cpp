@@ -11,6 +11,8 @@
 
 NB_MODULE(_core, module) {
   using namespace trismooth::python;
+  // Of objects that others keep to the end of the process: nothing that its user could do anything about.
+  nanobind::set_leak_warnings(false);
   module.doc() = "The compiled part of trismooth. Use the package trismooth.";
   module.attr("__version__") = TRISMOOTH_VERSION;
   bind_errors(module);

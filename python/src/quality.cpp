@@ -10,7 +10,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/worker_threads.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/results.h"
@@ -42,8 +44,9 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
   QualityReport report;
   {
     const nb::gil_scoped_release no_gil;
-    std::vector<std::byte> packed(points.bytes());
-    points.copy_to(packed.data());
+    Workers workers(threads);
+    BulkVector<std::byte> packed(points.bytes());
+    points.copy_to(packed.data(), workers);
     report = naming_arguments([&] {
       return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()),
                      triangles.corners(), places, QualityOptions{.threads = threads});

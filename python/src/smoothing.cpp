@@ -13,6 +13,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
@@ -47,18 +48,17 @@ struct HeldArrays {
 /// other threads do not disturb.
 class WorkingPoints {
  public:
-  void read(const PointArray& points) {
+  void read(const PointArray& points, Workers& workers) {
     numbers_.resize(points.bytes());
-    points.copy_to(numbers_.data());
-    digest_ = points.digest();
+    digest_ = points.copy_to(numbers_.data(), workers);
     size_ = points.size();
     components_ = points.components();
     storage_ = points.storage();
   }
 
   PointView view() { return packed_points(numbers_.data(), size_, components_, storage_); }
-  bool are_still(const PointArray& points) const { return points.digest() == digest_; }
-  void write(const PointArray& out) const { out.copy_from(numbers_.data()); }
+  bool are_still(const PointArray& points, Workers& workers) const { return points.digest(workers) == digest_; }
+  void write(const PointArray& out, Workers& workers) const { out.copy_from(numbers_.data(), workers); }
 
  private:
   BulkVector<std::byte> numbers_;
@@ -90,7 +90,8 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
   bool are_still = true;
   {
     const nb::gil_scoped_release no_gil;
-    working.read(points);
+    Workers workers(threads);
+    working.read(points, workers);
     naming_arguments([&] {
       std::optional<MeshQuality> quality;
       if (mesh_quality) {
@@ -102,9 +103,9 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
         outcome.after = quality->report(working.view(), {.threads = threads});
       }
     });
-    are_still = working.are_still(points);
+    are_still = working.are_still(points, workers);
     if (are_still) {
-      working.write(out);
+      working.write(out, workers);
     }
   }
   if (!are_still) {

@@ -208,6 +208,7 @@ def test_cuda_is_refused_where_the_build_has_none():
         trismooth.smooth(POINTS, TRIANGLES, backend="cuda")
 
 
+@pytest.mark.skipif(trismooth.build_info()["cuda"], reason="this build has CUDA")
 def test_an_array_on_a_device_is_refused_where_the_build_cannot_take_it():
     class OnDevice:
         shape, ndim = POINTS.shape, 2

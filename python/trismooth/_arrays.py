@@ -83,24 +83,65 @@ def labels(array: Any, argument: str) -> np.ndarray:
         raise TypeError(f"{argument}: its labels cannot be compared: {error}") from None
 
 
-def empty_like(array: Any, numbers: np.ndarray) -> np.ndarray:
-    """A NumPy array for the result: of the shape and type of the caller's array, whose numbers are `numbers`."""
-    return np.empty_like(array if isinstance(array, np.ndarray) else numbers, subok=False)
+class Output:
+    """Where a result in memory of the host goes: the caller's array, or a new one of the kind of the points.
+
+    Attributes
+    ----------
+    numbers : numpy.ndarray
+        What the compiled part writes into.
+    """
+
+    __slots__ = ("numbers", "_points", "_out", "_array")
+
+    def __init__(self, points: Any, numbers: np.ndarray, out: Any) -> None:
+        self._points = points
+        self._out = out
+        if out is None:
+            self._array = np.empty_like(points if isinstance(points, np.ndarray) else numbers, subok=False)
+        else:
+            self._array = _writable_on_host(out, "out")
+        self.numbers = self._array
+        if not is_plain(self._array):
+            _require_like(self._array, numbers)
+            self.numbers = np.empty_like(numbers)
+
+    def delivered(self) -> Any:
+        """The result as the caller gets it."""
+        if self.numbers is not self._array:
+            self._array[...] = self.numbers
+        if self._out is not None:
+            return self._out
+        return self._array if isinstance(self._points, np.ndarray) else _like(self._points, self._array)
+
+    def input_points(self) -> Any:
+        """The points that went in; None where they are overwritten."""
+        return None if self._out is self._points else self._points
 
 
-def like(array: Any, result: np.ndarray) -> Any:
+def _require_like(out: np.ndarray, numbers: np.ndarray) -> None:
+    """What the compiled part asks of arrays that it writes, of one that is copied to."""
+    if not out.flags.writeable:
+        raise ValueError("out: cannot be written: it is read-only")
+    if out.shape != numbers.shape:
+        raise ValueError(f"out: shape {out.shape}; that of points is {numbers.shape}")
+    if out.dtype.newbyteorder("=") != numbers.dtype:
+        raise TypeError(f"out: its numbers are {out.dtype}, those of points {numbers.dtype}")
+
+
+def _like(array: Any, result: np.ndarray) -> Any:
     """The result as an array of the kind that `array` is. Shares the memory where the other library can."""
     library = library_of(array)
     if library == "torch":
         return sys.modules["torch"].from_numpy(result)
     if library == "jax":
-        return sys.modules["jax"].numpy.asarray(result)
+        return sys.modules["jax"].device_put(result, next(iter(array.devices())))
     if hasattr(array, "__array_namespace__") and not isinstance(array, np.ndarray):
         return array.__array_namespace__().asarray(result)
     return result
 
 
-def writable_on_host(array: Any, argument: str) -> np.ndarray:
+def _writable_on_host(array: Any, argument: str) -> np.ndarray:
     """The caller's array to write into, as a NumPy array that shares its memory."""
     if isinstance(array, np.ndarray):
         return array
@@ -115,3 +156,12 @@ def writable_on_host(array: Any, argument: str) -> np.ndarray:
     if hasattr(array, "__dlpack__"):
         return np.from_dlpack(array)
     raise TypeError(f"{argument}: an array that can be written is needed, not {type(array).__name__}")
+
+
+def wants_quality(quality: Any, default: bool) -> bool:
+    """The caller's answer to whether the quality is computed, or the default."""
+    if quality is None:
+        return default
+    if isinstance(quality, (bool, np.bool_)):
+        return bool(quality)
+    raise TypeError(f"quality: True, False or None is needed, not {quality!r}")

@@ -172,4 +172,6 @@ def smooth(
     if getattr(points, "ndim", 0) != 2:
         raise ValueError(f"points: shape {tuple(points.shape)}; expected (N, 2) or (N, 3), a vertex a row")
     options = dict(options, stream=_stream(points, options.get("stream")))
-    return DevicePlan(triangles, points.shape[0], constraints, options).smooth(points, out, bool(quality), progress)
+    return DevicePlan(triangles, points.shape[0], constraints, options).smooth(
+        points, out, _arrays.wants_quality(quality, False), progress
+    )

@@ -50,7 +50,8 @@ class FileResult(Result):
     __slots__ = ("report", "notes", "warnings", "losses")
 
     def __init__(self, outcome: Any, mesh: Mesh) -> None:
-        super().__init__(outcome.outcome, mesh.points, mesh.triangles)
+        linear = mesh.triangles
+        super().__init__(outcome.outcome, mesh.points, linear if len(linear) > 0 else mesh.quadratic_triangles)
         self.mesh = mesh
         self.report: Dict[str, Any] = json.loads(outcome.json)
         self.notes: List[str] = outcome.notes

@@ -42,7 +42,7 @@ def smooth_mesh(
         fixed=flat.fixed,
         other_cells=_united(flat.other_cells, held["other_cells"], len(flat.points)),
         size=size,
-        quality=True if quality is None else quality,
+        quality=_arrays.wants_quality(quality, True),
         progress=progress,
         **options,
     )

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
-import numpy as np
-
 from . import _arrays, _core
 from ._result import Result
 from ._smooth import Progress
@@ -108,16 +106,11 @@ class Plan:
         Result
         """
         if self._on_device:
-            return self._plan.smooth(points, out, quality, progress)
+            return self._plan.smooth(points, out, _arrays.wants_quality(quality, False), progress)
         numbers = _arrays.on_host(points, "points", float)
-        target = _arrays.empty_like(points, numbers) if out is None else _arrays.writable_on_host(out, "out")
-        plain = target if _arrays.is_plain(target) else np.empty_like(numbers)
-        outcome = self._plan.smooth(numbers, plain, quality, progress)
-        if plain is not target:
-            target[...] = plain
-        if out is not None:
-            return Result(outcome, out, self._triangles, None if out is points else points)
-        return Result(outcome, target if isinstance(points, np.ndarray) else _arrays.like(points, target), self._triangles, points)
+        output = _arrays.Output(points, numbers, out)
+        outcome = self._plan.smooth(numbers, output.numbers, _arrays.wants_quality(quality, False), progress)
+        return Result(outcome, output.delivered(), self._triangles, output.input_points())
 
     def __repr__(self) -> str:
         return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} triangles>"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Callable, Optional
 
-import numpy as np
-
 from . import _arrays, _core
 from ._core import SweepRecord
 from ._result import Result
@@ -116,23 +114,17 @@ def smooth(
         raise TypeError("stream: is for arrays on a CUDA device, and points are in memory of the host")
     numbers = _arrays.on_host(points, "points", float)
     corners = _arrays.on_host(triangles, "triangles")
-    target = _arrays.empty_like(points, numbers) if out is None else _arrays.writable_on_host(out, "out")
-    # What the compiled part can write; else it is copied there when all has gone well.
-    plain = target if _arrays.is_plain(target) else np.empty_like(numbers)
+    output = _arrays.Output(points, numbers, out)
     outcome = _core.smooth(
         numbers,
         corners,
-        plain,
+        output.numbers,
         None if regions is None else _arrays.labels(regions, "regions"),
         None if fixed is None else _arrays.on_host(fixed, "fixed"),
         None if other_cells is None else _arrays.on_host(other_cells, "other_cells"),
         None if size is None else _arrays.on_host(size, "size", float),
-        out is None if quality is None else quality,
+        _arrays.wants_quality(quality, out is None),
         progress,
         options,
     )
-    if plain is not target:
-        target[...] = plain
-    if out is not None:
-        return Result(outcome, out, triangles, None if out is points else points)
-    return Result(outcome, target if isinstance(points, np.ndarray) else _arrays.like(points, target), triangles, points)
+    return Result(outcome, output.delivered(), triangles, output.input_points())

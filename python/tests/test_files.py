@@ -1,0 +1,229 @@
+"""Files: read, smoothed and written as the program does it, with nothing lost."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import trismooth
+from conftest import grid
+
+pytestmark = pytest.mark.skipif(not trismooth.build_info()["files"], reason="this build has no files")
+PROGRAM = os.environ.get("TRISMOOTH_PROGRAM")
+
+MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "iron"
+2 2 "air"
+$EndPhysicalNames
+$Nodes
+{nodes}
+$EndNodes
+$Elements
+{elements}
+$EndElements
+$NodeData
+1
+"temperature"
+1
+0.5
+3
+0
+1
+1
+3 21.5
+$EndNodeData
+"""
+
+
+@pytest.fixture
+def msh(tmp_path):
+    """A file of Gmsh with two named regions and data that only the file itself can keep."""
+    points, triangles = grid(12, 9)
+    group = 1 + (points[triangles].mean(axis=1)[:, 0] > 6)
+    nodes = [f"{len(points)}"] + [f"{i + 1} {x!r} {y!r} 0" for i, (x, y) in enumerate(points.tolist())]
+    elements = [f"{len(triangles)}"]
+    elements += [f"{i + 1} 2 2 {g} {g} {a + 1} {b + 1} {c + 1}" for i, (g, (a, b, c)) in enumerate(zip(group, triangles.tolist()))]
+    path = tmp_path / "in.msh"
+    path.write_text(MSH.format(nodes="\n".join(nodes), elements="\n".join(elements)))
+    return path
+
+
+def run_program(*arguments):
+    program = [PROGRAM] if PROGRAM else [sys.executable, "-m", "trismooth"]
+    return subprocess.run([*program, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+def test_the_file_written_is_that_of_the_program_byte_for_byte(msh, tmp_path):
+    mesh = trismooth.read(msh)
+    result = mesh.smooth()
+    assert mesh.write(tmp_path / "python.msh") == []
+    assert run_program("smooth", msh, tmp_path / "program.msh", "--method", "mean-ratio").returncode == 0
+    assert (tmp_path / "python.msh").read_bytes() == (tmp_path / "program.msh").read_bytes()
+    assert result.moved > 0 and result.report["input"]["regions"] == 2
+    assert result.mesh is mesh and np.array_equal(result.points, mesh.points)
+
+
+def test_only_coordinates_differ_from_the_file_that_was_read(msh, tmp_path):
+    mesh = trismooth.read(msh)
+    before = mesh.points
+    mesh.smooth()
+    mesh.write(tmp_path / "out.msh")
+    old, new = msh.read_text().splitlines(), (tmp_path / "out.msh").read_text().splitlines()
+    assert len(old) == len(new)
+    differing = [i for i, (a, b) in enumerate(zip(old, new)) if a != b]
+    first = old.index("$Nodes") + 2
+    moved = np.flatnonzero(np.any(mesh.points != before, axis=1))
+    assert differing == (moved + first).tolist()
+
+
+def test_what_was_read_is_there(msh):
+    mesh = trismooth.read(msh)
+    points, triangles = grid(12, 9)
+    assert mesh.format == "msh" and mesh.path == str(msh)
+    np.testing.assert_array_equal(mesh.points[:, :2], points)
+    np.testing.assert_array_equal(mesh.triangles, triangles)
+    assert set(mesh.cell_types) == {5} and mesh.quadratic_triangles.shape == (0, 6)
+    assert set(np.unique(mesh.cell_data["gmsh:physical"])) == {1, 2}
+    assert "130 points" in repr(mesh) and "in.msh" in repr(mesh)
+
+
+def test_the_quality_is_that_of_the_arrays(msh):
+    mesh = trismooth.read(msh)
+    expected = trismooth.quality(mesh.points, mesh.triangles).summary
+    for name in trismooth.METRICS:
+        assert mesh.quality()[name].mean == expected[name].mean
+    result = mesh.smooth()
+    assert result.before["shape"].min == expected["shape"].min
+    assert mesh.quality()["shape"].min == result.after["shape"].min
+
+
+def test_points_can_be_assigned_and_are_written(msh, tmp_path):
+    mesh = trismooth.read(msh)
+    points = mesh.points
+    points[:, 0] *= 2
+    mesh.points = points
+    mesh.write(tmp_path / "wide.off")
+    np.testing.assert_array_equal(trismooth.read(tmp_path / "wide.off").points, points)
+    for wrong in (points[:-1], points[:, :2], points.astype(np.float32), points.astype(int)):
+        with pytest.raises((ValueError, TypeError), match="^points: "):
+            mesh.points = wrong
+    nan = points.copy()
+    nan[3, 1] = np.nan
+    with pytest.raises(ValueError, match="^points: "):
+        mesh.points = nan
+    np.testing.assert_array_equal(mesh.points, points)
+
+
+def test_losses_of_another_format_are_told(msh, tmp_path):
+    mesh = trismooth.read(msh)
+    losses = mesh.write(tmp_path / "out.off")
+    assert any("OFF holds no cell arrays" in loss for loss in losses), losses
+    assert mesh.write(tmp_path / "shape", format="off") == losses
+
+
+def test_constraints_by_name_and_number(msh):
+    points = trismooth.read(msh).points
+
+    def moved(**options):
+        mesh = trismooth.read(msh)
+        mesh.smooth(**options)
+        return np.any(mesh.points != points, axis=1)
+
+    held = np.arange(0, len(points), 3)
+    assert not moved(fixed=held)[held].any() and moved()[held].any()
+    mask = np.zeros(len(points), bool)
+    mask[held] = True
+    np.testing.assert_array_equal(moved(fixed=mask), moved(fixed=held))
+    assert moved(regions="none").sum() > moved().sum() == moved(regions=["gmsh:physical"]).sum()
+
+
+def test_what_does_not_fit_is_an_exception_and_leaves_the_mesh(msh):
+    mesh = trismooth.read(msh)
+    before = mesh.points
+    with pytest.raises(ValueError, match="no cell array 'steel'"):
+        mesh.smooth(regions="steel")
+    with pytest.raises(ValueError, match="^fixed: vertex 9999"):
+        mesh.smooth(fixed=[9999])
+    with pytest.raises(TypeError, match="no option"):
+        mesh.smooth(iterations=3)
+    with pytest.raises(TypeError, match="^regions: "):
+        mesh.smooth(regions=3)
+    with pytest.raises(ValueError, match="choice of fields"):
+        mesh.smooth(fields="move")
+    with pytest.raises(trismooth.Cancelled):
+        mesh.smooth(progress=lambda sweep: False)
+    np.testing.assert_array_equal(mesh.points, before)
+
+
+def test_files_that_cannot_be_read_or_written(tmp_path, msh):
+    with pytest.raises(FileNotFoundError, match="none.msh"):
+        trismooth.read(tmp_path / "none.msh")
+    with pytest.raises(OSError, match="directory|folder|read"):
+        trismooth.read(tmp_path)
+    broken = tmp_path / "broken.off"
+    broken.write_text("OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n")
+    with pytest.raises(trismooth.ReadError, match="broken.off:4"):
+        trismooth.read(broken)
+    assert issubclass(trismooth.ReadError, OSError) and issubclass(trismooth.WriteError, OSError)
+    mesh = trismooth.read(msh)
+    with pytest.raises(trismooth.WriteError, match="nowhere"):
+        mesh.write(tmp_path / "nowhere" / "out.msh")
+    with pytest.raises(OSError, match="extension"):
+        mesh.write(tmp_path / "out.xyz")
+    with pytest.raises(ValueError, match="^format: unknown format 'xyz'"):
+        trismooth.read(msh, format="xyz")
+
+
+def test_a_mesh_that_is_not_planar_is_refused(tmp_path):
+    path = tmp_path / "tent.off"
+    path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 1\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+    mesh = trismooth.read(path)
+    with pytest.raises(trismooth.ReadError, match="plane"):
+        mesh.smooth()
+    assert mesh.smooth(project="xy").moved == 0
+
+
+def test_a_mesh_in_a_tilted_plane_is_smoothed_there(tmp_path):
+    points, triangles = grid(10, 8)
+    tilted = points @ [[0.6, 0, 0.8], [0, 1, 0]]
+    path = tmp_path / "tilted.off"
+    lines = ["OFF", f"{len(points)} {len(triangles)} 0"] + [" ".join(map(repr, p)) for p in tilted.tolist()]
+    path.write_text("\n".join(lines + ["3 " + " ".join(map(str, t)) for t in triangles.tolist()]))
+    mesh = trismooth.read(path)
+    assert mesh.smooth().moved > 0
+    np.testing.assert_allclose(mesh.points @ [0.8, 0, -0.6], 0, atol=1e-14)
+
+
+def test_the_module_is_the_program(msh, tmp_path):
+    command = [sys.executable, "-m", "trismooth"]
+    done = subprocess.run([*command, "smooth", msh, tmp_path / "out.msh"], capture_output=True, text=True)
+    expected = run_program("smooth", msh, tmp_path / "program.msh")
+    assert done.returncode == expected.returncode == 0
+    assert (tmp_path / "out.msh").read_bytes() == (tmp_path / "program.msh").read_bytes()
+    assert "vertices moved" in done.stdout
+    assert subprocess.run([*command, "smooth", msh], capture_output=True).returncode == 2
+    assert subprocess.run([*command, "quality", "none.msh"], capture_output=True).returncode == 3
+    gate = subprocess.run([*command, "quality", msh, "--require", "min_shape>=0.99"], capture_output=True)
+    assert gate.returncode == 1
+    assert subprocess.run([*command, "--version"], capture_output=True, text=True).stdout.strip().endswith(trismooth.__version__)
+
+
+def test_the_module_ends_at_once_at_ctrl_c(tmp_path):
+    import signal
+    import time
+
+    fifo = tmp_path / "mesh.off"
+    os.mkfifo(fifo)
+    process = subprocess.Popen([sys.executable, "-m", "trismooth", "quality", fifo], stderr=subprocess.PIPE)
+    with open(fifo, "w", encoding="ascii"):
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 130
