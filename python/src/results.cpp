@@ -102,6 +102,8 @@ void bind_quality(nb::module_& module) {
       .def_ro("worst", &QualityReport::worst, "The triangles of smallest shape, the worst first; 10 at most.")
       .def("__getitem__", &summary_of, "metric"_a, nb::rv_policy::reference_internal)
       .def("__str__", [](const QualityReport& report) { return format_table(report); })
+      .def("_repr_html_",
+           [](nb::handle report) { return nb::module_::import_("trismooth._html").attr("quality_html")(report); })
       .def("__repr__", [](const QualityReport& report) {
         std::ostringstream text;
         text << "<QualityReport: " << report.triangles << " triangles, " << report.inverted << " inverted, shape from "

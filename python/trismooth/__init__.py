@@ -14,9 +14,10 @@ from __future__ import annotations
 from typing import Any
 
 from . import adapters as adapters
-from ._core import DeviceError, MeshError, MetricSummary, QualityReport, SweepRecord, WorstElement
+from ._core import Cancelled, DeviceError, MeshError, MetricSummary, QualityReport, ReadError, SweepRecord, WorstElement
+from ._core import WriteError
 from ._core import __version__ as __version__
-from ._mesh import Cancelled, Mesh, ReadError, WriteError, read
+from ._mesh import Mesh, read
 from ._plan import Plan
 from ._quality import METRICS, Quality, quality
 from ._result import NotComputed, Result

@@ -41,7 +41,8 @@ def on_host(array: Any, argument: str, number: Optional[type] = None) -> np.ndar
     argument for what is no array.
     """
     if is_plain(array):
-        return array
+        plain: np.ndarray = array
+        return plain
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         raise ValueError(f"{argument}: some of its elements are masked")
     if device_of(array) is not None:
@@ -150,7 +151,8 @@ def _writable_on_host(array: Any, argument: str) -> np.ndarray:
     if library_of(array) == "jax":
         raise ValueError(f"{argument}: arrays of JAX cannot be written")
     if library_of(array) == "torch":
-        return _detached(array).numpy()
+        shared: np.ndarray = _detached(array).numpy()
+        return shared
     if isinstance(array, memoryview) or hasattr(array, "__array_interface__"):
         return np.asarray(array)
     if hasattr(array, "__dlpack__"):

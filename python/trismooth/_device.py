@@ -64,7 +64,7 @@ def _new_like(points: Any) -> Any:
         torch = sys.modules["torch"]
         return torch.empty(points.shape, dtype=points.dtype, device=points.device)
     is_float32 = np.dtype(str(points.dtype)) == np.float32
-    return _core.new_device_array(points.shape[0], points.shape[1], is_float32, _arrays.device_of(points))
+    return _core.new_device_array(points.shape[0], points.shape[1], is_float32, _arrays.device_of(points) or 0)
 
 
 def _as_given(points: Any, result: Any) -> Any:
@@ -81,9 +81,9 @@ def to_host(array: Any) -> np.ndarray:
     """A copy in memory of the host."""
     library = _arrays.library_of(array)
     if library == "cupy":
-        return array.get()
-    if library == "torch":
-        return array.detach().cpu().numpy()
+        array = array.get()
+    elif library == "torch":
+        array = array.detach().cpu().numpy()
     return np.asarray(array)
 
 
@@ -134,7 +134,7 @@ class DevicePlan:
             _require_writable(out)
         target = _new_like(points) if out is None else out
         stream = self._stream_number
-        before = self._report(points) if quality else None
+        reports = [self._report(points)] if quality else []
         outcome = self._plan.smooth(
             _capsule(points, "points", stream),
             _capsule(target, "out", stream),
@@ -143,7 +143,7 @@ class DevicePlan:
         )
         result_points = _as_given(points, target) if out is None else out
         if quality:
-            outcome = outcome.with_quality(before, self._report(result_points))
+            outcome = outcome.with_quality(reports[0], self._report(result_points))
         return Result(outcome, result_points, self._triangles, None if out is points else points)
 
     def _report(self, points: Any) -> _core.QualityReport:

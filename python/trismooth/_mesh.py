@@ -16,22 +16,6 @@ from ._support import NO_FILES
 
 Path = Union[str, "os.PathLike[str]"]
 
-if _core.has_files:
-    ReadError = _core.ReadError
-    WriteError = _core.WriteError
-    Cancelled = _core.Cancelled
-else:
-
-    class ReadError(OSError):
-        """A mesh file that cannot be read, or that is no planar triangle mesh."""
-
-    class WriteError(OSError):
-        """A file that cannot be written. What stood there before is untouched."""
-
-    class Cancelled(RuntimeError):
-        """The progress callable said stop; the mesh is as it was."""
-
-
 #: VTK's types of cells.
 _TRIANGLE, _QUADRATIC_TRIANGLE = 5, 22
 
@@ -200,7 +184,9 @@ class Mesh:
     def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""
         outcome = self._mesh.check({"project": project, "geographic": geographic}, threads)
-        return outcome.outcome.before
+        report = outcome.outcome.before
+        assert report is not None  # a check always has it
+        return report
 
     def write(self, path: Path, *, format: Optional[str] = None, threads: int = 0) -> List[str]:
         """Writes the mesh. In the format that was read only the coordinates that changed are other than in the file.

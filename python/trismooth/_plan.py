@@ -78,12 +78,12 @@ class Plan:
     @property
     def n_points(self) -> int:
         """The number of vertices."""
-        return self._plan.vertex_count
+        return int(self._plan.vertex_count)
 
     @property
     def n_triangles(self) -> int:
         """The number of triangles."""
-        return self._plan.triangle_count
+        return int(self._plan.triangle_count)
 
     def smooth(
         self, points: Any, *, out: Any = None, quality: bool = False, progress: Optional[Progress] = None
@@ -106,7 +106,8 @@ class Plan:
         Result
         """
         if self._on_device:
-            return self._plan.smooth(points, out, _arrays.wants_quality(quality, False), progress)
+            result: Result = self._plan.smooth(points, out, _arrays.wants_quality(quality, False), progress)
+            return result
         numbers = _arrays.on_host(points, "points", float)
         output = _arrays.Output(points, numbers, out)
         outcome = self._plan.smooth(numbers, output.numbers, _arrays.wants_quality(quality, False), progress)

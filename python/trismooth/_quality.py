@@ -64,17 +64,7 @@ class Quality:
         return f"<trismooth.Quality: {self.summary!r}>"
 
     def _repr_html_(self) -> str:
-        return _report_html(self.summary)
-
-
-def _report_html(report: QualityReport) -> str:
-    from ._html import quality_html
-
-    return quality_html(report)
-
-
-# A report is compiled, and what Jupyter shows of it is not.
-QualityReport._repr_html_ = _report_html  # type: ignore[attr-defined]
+        return self.summary._repr_html_()
 
 
 def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
