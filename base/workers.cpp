@@ -59,8 +59,8 @@ Workers::Workers(int threads)
 
 Workers::~Workers() {
   if (has_lost_threads()) {
-    // fork() may have come while one of them had a lock of TBB's: here, nobody opens it.
-    static_cast<void>(arena_.release());
+    // Not destroyed: fork() may have come while one of them had a lock of TBB's, and here nobody opens it.
+    static_cast<void>(arena_.release());  // NOLINT(bugprone-unused-return-value)
   }
 }
 

@@ -13,6 +13,8 @@
 
 #include "trismooth/smoothing/smooth.h"
 
+#include "run_reporting.h"
+
 namespace {
 
 struct Mesh {
@@ -63,9 +65,7 @@ std::vector<double> times(const Mesh& mesh, const trismooth::SmoothingOptions& o
   return milliseconds;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Times smooth() on arrays of the caller's.");
   std::int32_t vertices = 1'000'000;
   int runs = 7;
@@ -87,4 +87,11 @@ int main(int argc, char** argv) {
   const std::vector<double> ms = times(mesh, options, runs, 1);
   std::cout << fmt::format("{} vertices on the CPU: {:.1f} ms ({:.1f} to {:.1f})\n", mesh.points.size(), ms[middle],
                            ms.front(), ms.back());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_reporting("flat_arrays", run, argc, argv);
 }

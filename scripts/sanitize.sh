@@ -12,6 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 # Of one processor, for all targets together. scripts/fuzz.sh is for longer runs.
 fuzz_seconds=120
+python_fuzz_seconds=20
 # Of the lines of these folders the tests must reach so many.
 covered_folders=(base quality smoothing mesh_io)
 least_coverage=90
@@ -26,7 +27,8 @@ export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-10}
 build() {
   local preset=$1
   shift
-  (cd "$project" && cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" --target "$@")
+  # shellcheck disable=SC2046 # several options
+  (cd "$project" && cmake --preset "$preset" $(python_options) >/dev/null && cmake --build --preset "$preset" --target "$@")
   echo "$preset: built after $SECONDS s"
 }
 
@@ -76,11 +78,28 @@ run_asan() {
   # The longest first.
   local tests=(test_bad_input test_mesh_io test_base test_halfedge test_smoothing test_properties test_quality test_fuzz_regressions)
   export TRISMOOTH_FUZZ_REGRESSIONS=$project/tests/fuzz/regressions
-  build asan "${tests[@]}" fuzz
+  local python_module=()
+  if [[ $(python_options) == *=ON* ]]; then
+    python_module=(trismooth_python)
+  fi
+  build asan "${tests[@]}" fuzz "${python_module[@]}"
   run asan "${tests[@]}"
   print_coverage "${tests[@]}"
   "$project/scripts/fuzz.sh" --no-build --seconds-of-all "$fuzz_seconds"
   echo "asan: fuzzed after $SECONDS s"
+  if ((${#python_module[@]} > 0)); then
+    fuzz_python
+  fi
+}
+
+# Calls from Python with arrays right and wrong, for a moment. Of Python's own memory nothing is said.
+fuzz_python() {
+  local runtime
+  runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so")
+  LLVM_PROFILE_FILE=/dev/null ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 PYTHONMALLOC=malloc \
+    LD_PRELOAD=$runtime PYTHONPATH=$project/build/asan/python \
+    "$python_environment/bin/python" -B "$project/python/fuzz/fuzz_arrays.py" --seconds "$python_fuzz_seconds"
+  echo "asan: fuzzed from Python after $SECONDS s"
 }
 
 run_tsan() {

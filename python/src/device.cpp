@@ -51,6 +51,7 @@ class CurrentDevice {
 cudaStream_t stream_of(std::uintptr_t number) {
   // DLPack's number of the default stream.
   constexpr std::uintptr_t default_stream = 1;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): so Python's libraries hand streams on
   return number == default_stream ? nullptr : reinterpret_cast<cudaStream_t>(number);
 }
 

@@ -1,7 +1,7 @@
-#include "trismooth/python/files.h"
-
 #include <string>
 #include <utility>
+
+#include "trismooth/python/files.h"
 
 namespace trismooth::python {
 

@@ -343,7 +343,7 @@ std::vector<std::int32_t> integers(nb::handle object, const std::string& argumen
     if (!std::in_range<std::int32_t>(number)) {
       array.raise_value("the number " + std::to_string(number) + " has no place in 32 bits");
     }
-    numbers[i] = static_cast<std::int32_t>(number);
+    numbers[i] = static_cast<std::int32_t>(number);  // NOLINT(bugprone-signed-char-misuse): int8 are numbers here
   });
   return numbers;
 }

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -217,12 +219,13 @@ def test_the_module_is_the_program(msh, tmp_path):
 
 
 def test_the_module_ends_at_once_at_ctrl_c(tmp_path):
-    import signal
-    import time
-
     fifo = tmp_path / "mesh.off"
     os.mkfifo(fifo)
-    process = subprocess.Popen([sys.executable, "-m", "trismooth", "quality", fifo], stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "trismooth", "quality", fifo],
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in the background of a script
+    )
     with open(fifo, "w", encoding="ascii"):
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)
