@@ -1,7 +1,8 @@
 """Smoothing planar triangle meshes from Python: what there is, and trismooth.
 
     python benchmarks/python_peers.py [--meshes random holes machine inverted coast farfield]
-                                      [--times 100000 1000000] [--runs 5] [--optimesh-python PATH]
+                                      [--times 100000 1000000] [--runs 5] [--peers TEXT ...]
+                                      [--optimesh-python PATH]
 
 Prints tables in Markdown. Each peer is one function from arrays to arrays, as a user would write it; its lines are
 counted from its source. Quality is measured by one function for all, and not by trismooth: shape and angle by Verdict
@@ -691,6 +692,7 @@ def main() -> None:
     parser.add_argument("--meshes", nargs="*", choices=list(MESHES), default=list(MESHES))
     parser.add_argument("--times", nargs="*", type=int, default=[100_000, 1_000_000], help="vertices")
     parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--peers", nargs="*", metavar="TEXT", help="only those whose names contain one of these")
     parser.add_argument("--most-seconds", type=float, default=60, help="for one run of a peer at the larger --times")
     parser.add_argument("--optimesh-python", metavar="PATH", help="an interpreter that can import optimesh")
     arguments = parser.parse_args()
@@ -708,6 +710,8 @@ def main() -> None:
     if not arguments.optimesh_python:
         print("Left out: optimesh, as there is no --optimesh-python.\n")
     peers = peers_of(arguments.optimesh_python)
+    if arguments.peers:
+        peers = [peer for peer in peers if any(text in peer.name for text in arguments.peers)]
     print_lines(peers)
     for name in arguments.meshes:
         print_mesh(MESHES[name](), peers, arguments.runs)
