@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +24,7 @@
 #include "trismooth/python/interruption.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
+#include "trismooth/python/turns.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -137,11 +137,7 @@ class DevicePlan {
     if (out.type_text() != points.type_text()) {
       out.raise_type("its numbers are " + out.type_text() + ", those of points " + points.type_text());
     }
-    std::unique_lock lock(mutex_, std::defer_lock);
-    if (!lock.try_lock()) {
-      const nb::gil_scoped_release no_gil;
-      lock.lock();
-    }
+    const Turn turn(turns_, "the plan");
     Interruption interruption(progress);
     interruption_ = &interruption;
     const nb::gil_scoped_release no_gil;
@@ -287,7 +283,7 @@ class DevicePlan {
   cuda::DeviceBuffer<std::uint8_t> fixed_flags_;
   cuda::DeviceBuffer<std::uint8_t> other_cell_flags_;
   std::optional<cuda::Plan> plan_;
-  std::mutex mutex_;
+  Turns turns_;
 };
 
 /// A new array on a device, of no values yet, that any library takes by DLPack.

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +27,8 @@
 #include "trismooth/python/interruption.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
+#include "trismooth/python/text.h"
+#include "trismooth/python/turns.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -59,7 +60,7 @@ nb::object array_of(const DataArray& array) {
 nb::dict arrays_of(const std::vector<DataArray>& arrays) {
   nb::dict by_name;
   for (const DataArray& array : arrays) {
-    by_name[nb::str(array.name.data(), array.name.size())] = array_of(array);
+    by_name[text_of_file(array.name)] = array_of(array);
   }
   return by_name;
 }
@@ -67,7 +68,7 @@ nb::dict arrays_of(const std::vector<DataArray>& arrays) {
 nb::list texts(const std::vector<std::string>& lines) {
   nb::list list;
   for (const std::string& line : lines) {
-    list.append(nb::cast(line));
+    list.append(text_of_file(line));
   }
   return list;
 }
@@ -76,22 +77,41 @@ std::vector<std::string> names_of(nb::handle value, const char* name) {
   if (value.is_none()) {
     return {};
   }
-  std::vector<std::string> names;
   if (PyUnicode_Check(value.ptr())) {
-    names.push_back(nb::cast<std::string>(value));
-  } else if (!nb::try_cast(value, names)) {
+    return {bytes_of_text(value)};
+  }
+  std::vector<std::string> names;
+  if (PyList_Check(value.ptr()) || PyTuple_Check(value.ptr())) {
+    for (const nb::handle element : value) {
+      if (PyUnicode_Check(element.ptr())) {
+        names.push_back(bytes_of_text(element));
+      }
+    }
+  }
+  if (names.empty() || names.size() != nb::len(value)) {
     raise_type_error(name, "a name or a list of names is needed");
   }
   return names;
 }
 
-template <class Enum>
-std::optional<Enum> choice_or_none(nb::handle value) {
-  return value.is_none() ? std::nullopt : std::optional(parse_enum<Enum>(nb::cast<std::string>(value)));
+std::optional<std::string> text_or_none(nb::handle value, const char* name) {
+  if (value.is_none()) {
+    return std::nullopt;
+  }
+  if (!PyUnicode_Check(value.ptr())) {
+    raise_type_error(name, "a str is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return bytes_of_text(value);
 }
 
-std::optional<std::string> text_or_none(nb::handle value) {
-  return value.is_none() ? std::nullopt : std::optional(nb::cast<std::string>(value));
+template <class Enum>
+std::optional<Enum> choice_or_none(nb::handle value, const char* name) {
+  const std::optional<std::string> text = text_or_none(value, name);
+  try {
+    return text ? std::optional(parse_enum<Enum>(*text)) : std::nullopt;
+  } catch (const std::invalid_argument& error) {
+    raise_value_error(name, error.what());
+  }
 }
 
 /// What the program tells of a run beside its figures.
@@ -104,7 +124,7 @@ struct FileOutcome {
 };
 
 std::optional<FileFormat> format_or_none(nb::handle value) {
-  const std::optional<std::string> name = text_or_none(value);
+  const std::optional<std::string> name = text_or_none(value, "format");
   if (!name) {
     return std::nullopt;
   }
@@ -119,17 +139,14 @@ std::optional<FileFormat> format_or_none(nb::handle value) {
 class FileMesh {
   template <class Function>
   auto with_document(const Function& function) {
-    std::unique_lock lock(mutex_, std::defer_lock);
-    if (!lock.try_lock()) {
-      const nb::gil_scoped_release no_gil;
-      lock.lock();
-    }
+    const Turn turn(turns_, "the mesh");
     return function(document_);
   }
 
  public:
-  FileMesh(std::filesystem::path path, nb::handle format, int threads) : path_(std::move(path)) {
+  FileMesh(std::filesystem::path path, nb::handle format, nb::handle threads_object) : path_(std::move(path)) {
     const std::optional<FileFormat> told = format_or_none(format);
+    const int threads = threads_of(threads_object);
     const nb::gil_scoped_release no_gil;
     document_ = read_mesh(path_, FileOptions{threads, told});
   }
@@ -195,7 +212,10 @@ class FileMesh {
   std::string format() {
     return with_document([](MeshDocument& document) { return std::string(to_string(document.format)); });
   }
-  std::string path() const { return path_.string(); }
+  nb::object path() const {
+    const std::string& name = path_.native();
+    return nb::steal(PyUnicode_DecodeFSDefaultAndSize(name.data(), static_cast<Py_ssize_t>(name.size())));
+  }
 
   FileOutcome smooth(const nb::dict& arguments, const nb::dict& file_arguments, const nb::object& progress) {
     PipelineOptions options = pipeline_options(file_arguments);
@@ -205,15 +225,16 @@ class FileMesh {
     return run(options, smooth_document);
   }
 
-  FileOutcome check(const nb::dict& file_arguments, int threads) {
+  FileOutcome check(const nb::dict& file_arguments, nb::handle threads) {
     PipelineOptions options = pipeline_options(file_arguments);
-    options.smoothing.threads = threads;
+    options.smoothing.threads = threads_of(threads);
     return run(options, check_document);
   }
 
   /// Answers what the file does not hold of the mesh.
-  nb::list write(const std::filesystem::path& path, nb::handle format, int threads) {
+  nb::list write(const std::filesystem::path& path, nb::handle format, nb::handle threads_object) {
     const std::optional<FileFormat> told = format_or_none(format);
+    const int threads = threads_of(threads_object);
     return with_document([&](MeshDocument& document) {
       std::vector<std::string> losses;
       {
@@ -238,7 +259,7 @@ class FileMesh {
       if (name == "regions") {
         options.region_arrays = names_of(value, "regions");
       } else if (name == "fixed_array") {
-        options.fixed_array = text_or_none(value);
+        options.fixed_array = text_or_none(value, "fixed_array");
       } else if (name == "fixed_sets") {
         options.fixed_sets = names_of(value, "fixed_sets");
       } else if (name == "fixed") {
@@ -249,15 +270,15 @@ class FileMesh {
           }
         }
       } else if (name == "size") {
-        options.size_array = text_or_none(value);
+        options.size_array = text_or_none(value, "size");
       } else if (name == "fields") {
-        options.fields = choice_or_none<Fields>(value);
+        options.fields = choice_or_none<Fields>(value, "fields");
       } else if (name == "field_arrays") {
         options.field_arrays = names_of(value, "field_arrays");
       } else if (name == "project") {
-        options.project = choice_or_none<Projection>(value);
+        options.project = choice_or_none<Projection>(value, "project");
       } else {
-        options.geographic = nb::cast<bool>(value);
+        options.geographic = flag_of(value, "geographic");
       }
     }
     return options;
@@ -282,13 +303,13 @@ class FileMesh {
 
   std::filesystem::path path_;
   MeshDocument document_;
-  std::mutex mutex_;
+  Turns turns_;
 };
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(const std::vector<nb::bytes>& arguments) {
   std::vector<const char*> pointers;
   pointers.reserve(arguments.size());
-  for (const std::string& argument : arguments) {
+  for (const nb::bytes& argument : arguments) {
     pointers.push_back(argument.c_str());
   }
   const nb::gil_scoped_release no_gil;
@@ -312,7 +333,7 @@ void bind_files(nb::module_& module) {
       .def_prop_ro("warnings", [](const FileOutcome& outcome) { return texts(outcome.warnings); })
       .def_prop_ro("losses", [](const FileOutcome& outcome) { return texts(outcome.losses); });
   nb::class_<FileMesh>(module, "FileMesh")
-      .def(nb::init<std::filesystem::path, nb::handle, int>(), "path"_a, "format"_a.none(), "threads"_a)
+      .def(nb::init<std::filesystem::path, nb::handle, nb::handle>(), "path"_a, "format"_a.none(), "threads"_a.none())
       .def_prop_rw("points", &FileMesh::points, &FileMesh::set_points)
       .def("cells", &FileMesh::cells, "type"_a, "nodes"_a)
       .def_prop_ro("cell_types", &FileMesh::cell_types)
@@ -322,8 +343,8 @@ void bind_files(nb::module_& module) {
       .def_prop_ro("format", &FileMesh::format)
       .def_prop_ro("path", &FileMesh::path)
       .def("smooth", &FileMesh::smooth, "options"_a, "file_options"_a, "progress"_a.none())
-      .def("check", &FileMesh::check, "file_options"_a, "threads"_a)
-      .def("write", &FileMesh::write, "path"_a, "format"_a.none(), "threads"_a);
+      .def("check", &FileMesh::check, "file_options"_a, "threads"_a.none())
+      .def("write", &FileMesh::write, "path"_a, "format"_a.none(), "threads"_a.none());
   module.def("run_program", &run_program, "arguments"_a);
   module.def("format_list", [] { return titled_format_list(); });
 }

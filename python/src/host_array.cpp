@@ -96,6 +96,15 @@ bool is_integer(const HostArray& array) {
   return array.kind() == 'i' || array.kind() == 'u';
 }
 
+/// Raises TypeError for numbers that are 0 and 1 alone and as many as vertices: what was meant is a mask.
+void require_no_mask(const HostArray& array, std::size_t vertex_count) {
+  bool is_mask = array.extent(0) == vertex_count && vertex_count > 2;
+  for_integers(array, [&is_mask](std::size_t, auto number) { is_mask = is_mask && (number == 0 || number == 1); });
+  if (is_mask) {
+    array.raise_type("0 and 1 for each vertex; say whether vertices are flagged (bool) or numbered");
+  }
+}
+
 }  // namespace
 
 HostArray::HostArray(nb::handle array, std::string argument, Access access) : argument_(std::move(argument)) {
@@ -226,6 +235,15 @@ PointView packed_points(std::byte* numbers, std::size_t size, std::size_t compon
 
 TriangleArray::TriangleArray(const HostArray& array)
     : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {
+  if (array.dimensions() == 1 && array.extent(0) == 0) {
+    size_ = 0;  // an empty list
+    nodes_ = 3;
+    row_stride_ = 3 * sizeof(std::int64_t);
+    column_stride_ = sizeof(std::int64_t);
+    is_wide_ = true;
+    is_signed_ = true;
+    return;
+  }
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
@@ -309,12 +327,16 @@ std::vector<std::uint8_t> vertex_flags(nb::handle object, const std::string& arg
                       "; expected one dimension: a bool for each vertex, or vertex numbers");
   }
   std::vector<std::uint8_t> flags(vertex_count, 0);
+  if (array.extent(0) == 0 && array.kind() != '?') {
+    return flags;  // of an empty list the type says nothing
+  }
   if (array.kind() == '?') {
     require_list(array, vertex_count, "vertex");
     for (std::size_t v = 0; v < vertex_count; ++v) {
       flags[v] = number_at<std::uint8_t>(array.data() + static_cast<std::ptrdiff_t>(v) * array.stride(0)) != 0 ? 1 : 0;
     }
   } else if (is_integer(array)) {
+    require_no_mask(array, vertex_count);
     for_integers(array, [&](std::size_t, auto number) {
       if (!std::in_range<std::int64_t>(number) || std::cmp_less(number, 0) ||
           std::cmp_greater_equal(number, vertex_count)) {

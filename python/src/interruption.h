@@ -11,8 +11,8 @@
 namespace trismooth::python {
 
 /// A progress callback for a smoothing that runs without the GIL. Calls the caller's `progress` with each sweep, and
-/// looks for Ctrl-C many times a second. Answers stop where `progress` returns False; what it raises, and
-/// KeyboardInterrupt, leaves the smoothing as an exception.
+/// looks for Ctrl-C many times a second. Answers stop where `progress` returns what is false, but for None; what it
+/// raises, and KeyboardInterrupt, leaves the smoothing as an exception.
 class Interruption {
  public:
   /// `progress`: a callable, or None. Raises TypeError for anything else.
@@ -35,7 +35,15 @@ class Interruption {
         throw nanobind::python_error();
       }
     }
-    return has_callback && progress_(sweep).ptr() == Py_False ? Progress::stop : Progress::proceed;
+    if (!has_callback) {
+      return Progress::proceed;
+    }
+    const nanobind::object answer = progress_(sweep);
+    const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+    if (goes_on < 0) {
+      throw nanobind::python_error();
+    }
+    return goes_on == 1 ? Progress::proceed : Progress::stop;
   }
 
  private:

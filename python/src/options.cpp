@@ -11,6 +11,7 @@
 #include <nanobind/stl/string.h>
 
 #include "trismooth/base/suggestion.h"
+#include "trismooth/base/worker_threads.h"
 #include "trismooth/python/backends.h"
 #include "trismooth/python/errors.h"
 
@@ -26,10 +27,21 @@ struct Parsed {
   std::string backend = "auto";
 };
 
+/// Whether it is a bool, of Python's or NumPy's.
+bool is_flag(nb::handle value) {
+  if (PyBool_Check(value.ptr())) {
+    return true;
+  }
+  const auto module = nb::cast<std::string>(value.type().attr("__module__"));
+  const auto name = nb::cast<std::string>(value.type().attr("__name__"));
+  return module == "numpy" && (name == "bool" || name == "bool_");
+}
+
 double real_of(nb::handle value, const char* name) {
-  const nb::object number = nb::steal(PyNumber_Float(value.ptr()));
+  const bool is_text = PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr());
+  const nb::object number = nb::steal(is_text ? nullptr : PyNumber_Float(value.ptr()));
   if (!number.is_valid()) {
-    const nb::python_error error;
+    PyErr_Clear();
     raise_type_error(name, "a number is needed, not " + nb::cast<std::string>(nb::repr(value)));
   }
   return nb::cast<double>(number);
@@ -47,13 +59,6 @@ T integer_of(nb::handle value, const char* name) {
     raise_value_error(name, nb::cast<std::string>(nb::repr(value)) + " is out of range");
   }
   return result;
-}
-
-bool flag_of(nb::handle value, const char* name) {
-  if (!PyBool_Check(value.ptr())) {
-    raise_type_error(name, "True or False is needed, not " + nb::cast<std::string>(nb::repr(value)));
-  }
-  return value.ptr() == Py_True;
 }
 
 std::string text_of(nb::handle value, const char* name) {
@@ -91,8 +96,8 @@ void parse_flag(nb::handle value, const char* name, Parsed& parsed) {
 }
 
 void parse_untangle(nb::handle value, const char* name, Parsed& parsed) {
-  if (PyBool_Check(value.ptr())) {
-    parsed.options.untangle = value.ptr() == Py_True ? Untangle::on : Untangle::off;
+  if (is_flag(value)) {
+    parsed.options.untangle = flag_of(value, name) ? Untangle::on : Untangle::off;
   } else {
     parse_choice<&SmoothingOptions::untangle>(value, name, parsed);
   }
@@ -145,8 +150,12 @@ const Option* find_option(std::string_view name) {
   return option == options.end() ? nullptr : option;
 }
 
+/// The key of an option; empty where it is none that an option could have.
 std::string_view text_view(nb::handle key) {
-  return PyUnicode_Check(key.ptr()) ? nb::borrow<nb::str>(key).c_str() : "";
+  Py_ssize_t size = 0;
+  const char* const text = PyUnicode_Check(key.ptr()) ? PyUnicode_AsUTF8AndSize(key.ptr(), &size) : nullptr;
+  PyErr_Clear();
+  return text == nullptr ? std::string_view() : std::string_view(text, static_cast<std::size_t>(size));
 }
 
 /// Raises ValueError for options that do not fit. It begins with the name of the one that by itself is to blame, if one
@@ -171,6 +180,21 @@ void validate(const SmoothingOptions& all, const nb::dict& arguments) {
 
 }  // namespace
 
+bool flag_of(nb::handle value, const char* name) {
+  if (!is_flag(value)) {
+    raise_type_error(name, "True or False is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return PyObject_IsTrue(value.ptr()) == 1;
+}
+
+int threads_of(nb::handle value) {
+  try {
+    return checked_threads(integer_of<int>(value, "threads"));
+  } catch (const std::invalid_argument& error) {
+    raise_value_error("threads", error.what());
+  }
+}
+
 std::vector<std::string> option_names() {
   std::vector<std::string> names;
   for (const Option& option : options) {
@@ -184,9 +208,9 @@ SmoothingOptions parse_options(const nb::dict& arguments) {
   for (const auto& [key, value] : arguments) {
     const Option* const option = find_option(text_view(key));
     if (option == nullptr) {
-      const std::string name(text_view(key));
       const std::vector<std::string> names = option_names();
-      throw nb::type_error(("'" + name + "' is no option" + did_you_mean(name, names)).c_str());
+      throw nb::type_error(
+          (nb::cast<std::string>(nb::repr(key)) + " is no option" + did_you_mean(text_view(key), names)).c_str());
     }
     option->parse(value, option->name, parsed);
   }

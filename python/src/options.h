@@ -14,6 +14,12 @@ namespace trismooth::python {
 /// the name. `backend` is chosen here as the program chooses it; DeviceError where it is asked for and not there.
 SmoothingOptions parse_options(const nanobind::dict& arguments);
 
+/// A number of threads, 0 to most_threads(); the exception names `threads`.
+int threads_of(nanobind::handle value);
+
+/// True or False, also NumPy's; raises TypeError for anything else.
+bool flag_of(nanobind::handle value, const char* name);
+
 /// The names of all options, for messages and tests.
 std::vector<std::string> option_names();
 

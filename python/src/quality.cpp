@@ -1,7 +1,9 @@
 #include "trismooth/quality/quality.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,10 +13,10 @@
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/worker_threads.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
+#include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/smoothing.h"
 #include "trismooth/quality/metrics.h"
@@ -29,12 +31,12 @@ namespace {
 using Values = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
 /// The report, and a list of arrays in the order of the metrics, one value a triangle.
-nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_object, int threads) {
+nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle threads_object) {
   const HostArray points_array(points_object, "points");
   const PointArray points(points_array);
   const HostArray numbers(triangles_object, "triangles");
   const TriangleArray triangles(numbers);
-  checked_threads(threads);
+  const int threads = threads_of(threads_object);
   const std::size_t count = triangles.size();
   auto values = std::make_unique<std::vector<double>>(metric_count * count);
   ElementValues places;
@@ -48,8 +50,15 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
     BulkVector<std::byte> packed(points.bytes());
     points.copy_to(packed.data(), workers);
     report = naming_arguments([&] {
-      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()),
-                     triangles.corners(), places, QualityOptions{.threads = threads});
+      // Copied: another thread may change the caller's while they are read.
+      std::vector<Triangle> kept;
+      const std::span<const Triangle> listed =
+          triangles.corners().triangles(static_cast<std::int64_t>(points.size()), kept);
+      if (listed.data() != kept.data()) {
+        kept.assign(listed.begin(), listed.end());
+      }
+      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()), kept, places,
+                     QualityOptions{.threads = threads});
     });
   }
   double* const first = values->data();
@@ -73,10 +82,21 @@ nb::list metrics() {
   return list;
 }
 
+/// vertex_flags() as an array of bool.
+nb::object vertex_mask(nb::handle array, const std::string& argument, std::size_t vertex_count) {
+  auto flags = std::make_unique<std::vector<std::uint8_t>>(vertex_flags(array, argument, vertex_count));
+  void* const first = flags->data();
+  const nb::capsule owner(flags.release(), [](void* memory) noexcept {
+    const std::unique_ptr<std::vector<std::uint8_t>> gone(static_cast<std::vector<std::uint8_t>*>(memory));
+  });
+  return nb::cast(nb::ndarray<nb::numpy, bool, nb::ndim<1>>(first, {vertex_count}, owner));
+}
+
 }  // namespace
 
 void bind_quality_of_arrays(nb::module_& module) {
-  module.def("quality", &quality_of_arrays, "points"_a, "triangles"_a, "threads"_a);
+  module.def("quality", &quality_of_arrays, "points"_a, "triangles"_a, "threads"_a.none());
+  module.def("vertex_mask", &vertex_mask, "array"_a, "argument"_a, "vertex_count"_a);
   module.def("metrics", &metrics, "Name, unit, meaning of each metric, and whether larger values are better.");
 }
 

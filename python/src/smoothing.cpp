@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "trismooth/python/interruption.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
+#include "trismooth/python/turns.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -104,13 +104,17 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
       }
     });
     are_still = working.are_still(points, workers);
-    if (are_still) {
-      working.write(out, workers);
-    }
   }
   if (!are_still) {
     points_array.raise_value("changed while they were smoothed; out is as it was");
   }
+  // The last moment for Ctrl-C: from here on it comes too late.
+  if (PyErr_CheckSignals() != 0) {
+    throw nb::python_error();
+  }
+  const nb::gil_scoped_release no_gil;
+  Workers workers(threads);
+  working.write(out, workers);
   return outcome;
 }
 
@@ -178,11 +182,7 @@ class HostPlan {
                                std::to_string(vertex_count_) + " vertices");
     }
     const HostArray out(out_object, "out", HostArray::Access::write);
-    std::unique_lock lock(mutex_, std::defer_lock);
-    if (!lock.try_lock()) {
-      const nb::gil_scoped_release no_gil;
-      lock.lock();
-    }
+    const Turn turn(turns_, "the plan");
     Interruption interruption(progress);
     interruption_ = &interruption;
     std::function<MeshQuality()> mesh_quality;
@@ -204,7 +204,7 @@ class HostPlan {
   Interruption* interruption_ = nullptr;  ///< of the call that is at work
   std::optional<SmoothingPlan> plan_;
   WorkingPoints working_;  ///< kept: new memory costs as much as a sweep
-  std::mutex mutex_;
+  Turns turns_;
 };
 
 }  // namespace

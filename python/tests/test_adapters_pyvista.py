@@ -311,3 +311,22 @@ def test_as_many_are_held_as_the_program_says(name: str, held: int) -> None:
     mesh = pv.read(DATA / name)
     has_moved = moved(mesh, trismooth.smooth(mesh).mesh)
     assert (~has_moved).sum() == held
+
+
+def test_points_of_integers_become_floats():
+    points = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [3, 3, 0]])
+    faces = np.array([[3, 0, 1, 4], [3, 1, 2, 4], [3, 2, 3, 4], [3, 3, 0, 4]]).ravel()
+    for inplace in (False, True):
+        mesh = pv.PolyData(points, faces, force_float=False)
+        result = trismooth.smooth(mesh, inplace=inplace)
+        np.testing.assert_array_equal(np.asarray(result.mesh.points), result.points)
+        assert result.mesh.points.dtype.kind == "f" and (result.input_points is None) == inplace
+
+
+def test_other_cells_of_the_user_are_checked_beside_those_of_the_mesh():
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.9, 0.8, 0]])
+    mesh = pv.PolyData(points, faces=[3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 3, 4, 3, 3, 0, 4], lines=[2, 0, 1])
+    assert trismooth.smooth(mesh, other_cells=[4]).moved == 0
+    for wrong, error in (([-1], ValueError), ([10**6], ValueError), ([1.5], TypeError)):
+        with pytest.raises(error, match="^other_cells: "):
+            trismooth.smooth(mesh, other_cells=wrong)

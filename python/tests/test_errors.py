@@ -98,6 +98,11 @@ CASES = [
     ({"stream": 3}, TypeError, "stream"),
     ({"inplace": True}, TypeError, "inplace"),
     ({"smooth": 3}, TypeError, "'smooth' is no option"),
+    ({"tolerance": "3"}, TypeError, "tolerance"),
+    ({"\ud800": 3}, TypeError, "'\\ud800' is no option"),
+    ({"threads\0x": 3}, TypeError, "'threads\\x00x' is no option"),
+    ({"fixed": np.arange(len(POINTS)) % 2}, TypeError, "fixed"),
+    ({"out": np.ma.masked_array(POINTS)}, ValueError, "out"),
     ({"tolerence": 3}, TypeError, "'tolerence' is no option (did you mean 'tolerance'?)"),
 ]
 
@@ -191,6 +196,42 @@ def test_progress_that_returns_false_ends_with_a_valid_mesh():
     result = trismooth.smooth(points, triangles, progress=lambda sweep: seen.append(sweep.sweep) or len(seen) < 2)
     assert result.stop_reason == "cancelled" and seen == [1, 2]
     assert result.after.inverted == 0 and result.after["shape"].min >= result.before["shape"].min
+
+
+@pytest.mark.parametrize("answer", [False, np.False_, 0])
+def test_what_is_false_ends_the_smoothing(answer):
+    points, triangles = grid(30, 30)
+    assert trismooth.smooth(points, triangles, progress=lambda _: answer).sweeps == 1
+
+
+def test_a_plan_or_mesh_inside_its_own_progress_is_an_error_and_no_deadlock():
+    plan = trismooth.Plan(TRIANGLES, len(POINTS))
+    with pytest.raises(RuntimeError, match="the plan is at work"):
+        plan.smooth(POINTS, progress=lambda _: plan.smooth(POINTS))
+    np.testing.assert_array_equal(plan.smooth(POINTS).points, trismooth.smooth(POINTS, TRIANGLES).points)
+
+
+def test_empty_lists_are_none_of_what_they_list():
+    expected = trismooth.smooth(POINTS, TRIANGLES).points
+    np.testing.assert_array_equal(trismooth.smooth(POINTS, TRIANGLES, fixed=[], other_cells=()).points, expected)
+    np.testing.assert_array_equal(trismooth.smooth(POINTS, []).points, POINTS)
+
+
+def test_flags_of_numpy_are_flags():
+    expected = trismooth.smooth(POINTS, TRIANGLES, guard=False, untangle=True).points
+    given = trismooth.smooth(POINTS, TRIANGLES, guard=np.False_, untangle=np.True_)
+    np.testing.assert_array_equal(given.points, expected)
+
+
+@pytest.mark.parametrize("threads", [None, 1.5, "1", 2**40, -1])
+def test_threads_of_quality_are_checked(threads):
+    with pytest.raises((TypeError, ValueError), match="^threads: "):
+        trismooth.quality(POINTS, TRIANGLES, threads=threads)
+
+
+def test_a_view_of_points_as_out_leaves_no_input_points():
+    points = POINTS.copy()
+    assert trismooth.smooth(points, TRIANGLES, out=points[:]).input_points is None
 
 
 def test_quality_that_was_not_asked_for_says_how_to_get_it():

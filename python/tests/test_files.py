@@ -165,6 +165,46 @@ def test_what_does_not_fit_is_an_exception_and_leaves_the_mesh(msh):
     np.testing.assert_array_equal(mesh.points, before)
 
 
+def test_names_that_are_no_utf8_go_through(tmp_path):
+    path = tmp_path / "latin.vtk"
+    path.write_bytes(
+        b"# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0 1 0 0 1 1 0 0 1 0 .9 .8 0\n"
+        b"CELLS 4 16\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\nCELL_TYPES 4\n5 5 5 5\nCELL_DATA 4\n"
+        b"SCALARS mat\xe9rial int 1\nLOOKUP_TABLE default\n1 1 1 1\n"
+    )
+    mesh = trismooth.read(path)
+    (name,) = mesh.cell_data
+    assert name.encode("utf-8", "surrogateescape") == b"mat\xe9rial"
+    assert mesh.smooth(regions=name).moved == 1
+    assert any("mat" in loss for loss in mesh.write(tmp_path / "out.off"))
+    odd = tmp_path / os.fsdecode(b"\xe9.vtk")
+    mesh.write(odd)
+    assert trismooth.read(odd).path == str(odd)
+    run = subprocess.run([sys.executable, "-m", "trismooth", "quality", odd], capture_output=True)
+    assert run.returncode == 0
+
+
+def test_a_mesh_inside_its_own_progress_is_an_error(msh):
+    mesh = trismooth.read(msh)
+    before = mesh.points
+    with pytest.raises(RuntimeError, match="the mesh is at work"):
+        mesh.smooth(progress=lambda _: mesh.points)
+    np.testing.assert_array_equal(mesh.points, before)
+
+
+def test_arguments_of_the_wrong_type_are_named(msh):
+    mesh = trismooth.read(msh)
+    for name in ("fixed_array", "size", "fields", "project", "geographic"):
+        with pytest.raises(TypeError, match=f"^{name}: "):
+            mesh.smooth(**{name: 5})
+    for call in (lambda: trismooth.read(msh, format=5), lambda: mesh.write("x.msh", format=5)):
+        with pytest.raises(TypeError, match="^format: "):
+            call()
+    for call in (lambda: trismooth.read(msh, threads="1"), lambda: mesh.quality(threads=1.5)):
+        with pytest.raises(TypeError, match="^threads: "):
+            call()
+
+
 def test_files_that_cannot_be_read_or_written(tmp_path, msh):
     with pytest.raises(FileNotFoundError, match="none.msh"):
         trismooth.read(tmp_path / "none.msh")

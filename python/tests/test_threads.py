@@ -63,6 +63,26 @@ def test_threads_that_share_a_plan_take_turns():
     in_threads(4, work)
 
 
+def test_triangles_that_change_while_their_quality_is_found_do_no_harm():
+    points, triangles = grid(300, 200)
+    triangles = triangles.astype(np.int32)
+    end = time.monotonic() + 2
+
+    def change():
+        while time.monotonic() < end:
+            triangles[::50] += 2**30
+            triangles[::50] -= 2**30
+
+    changer = threading.Thread(target=change)
+    changer.start()
+    while time.monotonic() < end:
+        try:
+            trismooth.quality(points, triangles)
+        except trismooth.MeshError:
+            pass
+    changer.join()
+
+
 def test_python_runs_on_while_a_mesh_is_smoothed(large_mesh):
     points, triangles = large_mesh
     ticks = []

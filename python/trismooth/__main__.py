@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 from typing import List, Optional
 
@@ -15,9 +17,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
         print(f"error: {NO_FILES}", file=sys.stderr)
         return 2
     # What Python has kept of its own output comes before the program's.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    return _core.run_program(["trismooth", *(sys.argv[1:] if arguments is None else arguments)])
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it; the program ends by it, as others do
+    given = sys.argv[1:] if arguments is None else arguments
+    return _core.run_program([b"trismooth", *(os.fsencode(argument) for argument in given)])
 
 
 if __name__ == "__main__":

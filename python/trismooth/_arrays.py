@@ -117,7 +117,10 @@ class Output:
 
     def input_points(self) -> Any:
         """The points that went in; None where they are overwritten."""
-        return None if self._out is self._points else self._points
+        is_overwritten = self._out is not None and (
+            self._out is self._points or np.may_share_memory(self._array, np.asarray(self._points))
+        )
+        return None if is_overwritten else self._points
 
 
 def _require_like(out: np.ndarray, numbers: np.ndarray) -> None:
@@ -144,6 +147,8 @@ def _like(array: Any, result: np.ndarray) -> Any:
 
 def _writable_on_host(array: Any, argument: str) -> np.ndarray:
     """The caller's array to write into, as a NumPy array that shares its memory."""
+    if isinstance(array, np.ma.MaskedArray):
+        raise ValueError(f"{argument}: masked arrays are not written")
     if isinstance(array, np.ndarray):
         return array
     if device_of(array) is not None:

@@ -6,7 +6,7 @@ from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 
-from . import _arrays, adapters
+from . import _arrays, _core, adapters
 from ._result import Result
 
 
@@ -46,6 +46,8 @@ def smooth_mesh(
         progress=progress,
         **options,
     )
+    if inplace:
+        result.input_points = None
     result.mesh = adapter.with_points(mesh, flat, result.points, inplace=inplace)
     return result
 
@@ -54,12 +56,8 @@ def _united(of_mesh: Any, of_user: Any, count: int) -> Any:
     """The vertices of both; None where there are none."""
     if of_mesh is None or of_user is None:
         return of_mesh if of_user is None else of_user
-    given = _arrays.on_host(of_user, "other_cells")
-    if given.dtype == bool and given.shape != (count,):
-        raise ValueError(f"other_cells: shape {given.shape}; expected ({count},), one for each vertex")
-    mask = np.array(of_mesh, dtype=bool)
-    mask[given] = True
-    return mask
+    given = _core.vertex_mask(_arrays.on_host(of_user, "other_cells"), "other_cells", count)
+    return given | _core.vertex_mask(np.asarray(of_mesh), "other_cells", count)
 
 
 def arrays_of(mesh: Any) -> Tuple[Any, Any]:

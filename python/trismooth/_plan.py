@@ -54,7 +54,7 @@ class Plan:
         options["backend"] = backend
         self._triangles = triangles
         self._on_device = _arrays.device_of(triangles) is not None
-        if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or n_points < 0:
+        if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
             raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
         if self._on_device:
             from . import _device

@@ -63,8 +63,8 @@ def smooth(
         Whether ``result.before`` and ``result.after`` are computed. Default: where ``out`` is not given and ``points``
         are in memory of the host.
     progress : callable, optional
-        Called with a SweepRecord after each sweep, on this thread. Returning False ends the smoothing: the result is a
-        valid mesh. Ctrl-C raises KeyboardInterrupt.
+        Called with a SweepRecord after each sweep, on this thread. Returning False, or what is false but None, ends the
+        smoothing: the result is a valid mesh. Ctrl-C raises KeyboardInterrupt.
     **options
         ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``precision`` "double" or "single";
         ``max_sweeps`` 1000 (0: no limit); ``tolerance`` 1e-6; ``time_limit`` None (seconds); ``target_quality`` None

@@ -67,6 +67,7 @@ def smooth(*, fixed: Any = None, **options: Any) -> Result:
     elements = _elements_of(gmsh, nodes, surfaces)
     held = _held_nodes(nodes, surfaces, fixed)
     _check_plane(nodes, elements.triangles)
+    model = gmsh.model.getCurrent()
     result = trismooth.smooth(
         np.ascontiguousarray(nodes.points[:, :2]),
         elements.triangles,
@@ -75,7 +76,10 @@ def smooth(*, fixed: Any = None, **options: Any) -> Result:
         other_cells=elements.other_nodes,
         **options,
     )
+    current = gmsh.model.getCurrent()  # the caller's progress may have changed it
+    gmsh.model.setCurrent(model)
     _move_nodes(gmsh, nodes, surfaces, np.asarray(result.points))
+    gmsh.model.setCurrent(current)
     return result
 
 

@@ -70,7 +70,11 @@ def vertices_of(nodes: Iterable[Any], count: int) -> Optional[np.ndarray]:
     """Return the mask of the vertices that any of the arrays of vertex numbers has; None if there are none."""
     mask = np.zeros(count, dtype=bool)
     for array in nodes:
-        mask[np.asarray(array, dtype=np.int64).ravel()] = True
+        numbers = np.asarray(array, dtype=np.int64).ravel()
+        outside = numbers[(numbers < 0) | (numbers >= count)]
+        if outside.size > 0:
+            raise ValueError(f"points: a cell names vertex {outside[0]} of {count}")
+        mask[numbers] = True
     return mask if mask.any() else None
 
 

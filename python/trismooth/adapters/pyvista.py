@@ -92,10 +92,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
 def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
     """Return the mesh with other points: the mesh itself, or a deep copy of its class."""
     target = mesh if inplace else _copy(mesh)
-    if _is_array_of_structs(target.GetPoints().GetData()):
-        _numpy_support().vtk_to_numpy(target.GetPoints().GetData())[...] = points
+    data = target.GetPoints().GetData()
+    if _is_array_of_structs(data) and _numpy_support().vtk_to_numpy(data).dtype == points.dtype:
+        _numpy_support().vtk_to_numpy(data)[...] = points
         target.GetPoints().Modified()
-    else:
+    else:  # of integers, say, which have no place for the result
         target.GetPoints().SetData(_numpy_support().numpy_to_vtk(points, deep=True))
     target.Modified()
     return target

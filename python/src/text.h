@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include <nanobind/nanobind.h>
+
+namespace trismooth::python {
+
+/// Text of a file as a str. What is no UTF-8 goes through, as Python lets it through in names of files.
+inline nanobind::str text_of_file(const std::string& text) {
+  return nanobind::steal<nanobind::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+}
+
+/// The way back. Raises where the object is no str.
+inline std::string bytes_of_text(nanobind::handle text) {
+  const nanobind::object bytes = nanobind::steal(PyUnicode_AsEncodedString(text.ptr(), "utf-8", "surrogateescape"));
+  if (!bytes.is_valid()) {
+    throw nanobind::python_error();
+  }
+  const auto view = nanobind::borrow<nanobind::bytes>(bytes);
+  return {view.c_str(), view.size()};
+}
+
+}  // namespace trismooth::python
