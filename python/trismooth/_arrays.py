@@ -93,10 +93,11 @@ class Output:
         What the compiled part writes into.
     """
 
-    __slots__ = ("numbers", "_points", "_out", "_array")
+    __slots__ = ("numbers", "_points", "_given", "_out", "_array")
 
     def __init__(self, points: Any, numbers: np.ndarray, out: Any) -> None:
         self._points = points
+        self._given = numbers
         self._out = out
         if out is None:
             self._array = np.empty_like(points if isinstance(points, np.ndarray) else numbers, subok=False)
@@ -118,7 +119,7 @@ class Output:
     def input_points(self) -> Any:
         """The points that went in; None where they are overwritten."""
         is_overwritten = self._out is not None and (
-            self._out is self._points or np.may_share_memory(self._array, np.asarray(self._points))
+            self._out is self._points or np.may_share_memory(self._array, self._given)
         )
         return None if is_overwritten else self._points
 
