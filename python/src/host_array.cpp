@@ -92,6 +92,12 @@ class Digest {
   std::uint64_t sum_ = 0;
 };
 
+/// What helps where rows and columns are the other way round, as scikit-fem has them; else nothing.
+std::string transposed(const HostArray& array, const char* name, std::size_t rows) {
+  const bool may_be = array.dimensions() == 2 && (array.extent(0) == rows || array.extent(0) == 3);
+  return may_be ? std::string("; ") + name + ".T has them so" : std::string();
+}
+
 bool is_integer(const HostArray& array) {
   return array.kind() == 'i' || array.kind() == 'u';
 }
@@ -160,7 +166,8 @@ PointArray::PointArray(const HostArray& array) : array_(array) {
     array.raise_type("float64 or float32 is needed, not " + array.type_text());
   }
   if (array.dimensions() != 2 || (array.extent(1) != 2 && array.extent(1) != 3)) {
-    array.raise_value("shape " + array.shape_text() + "; expected (N, 2) or (N, 3), a vertex a row");
+    array.raise_value("shape " + array.shape_text() + "; expected (N, 2) or (N, 3), a vertex a row" +
+                      transposed(array, "points", 2));
   }
 }
 
@@ -248,7 +255,8 @@ TriangleArray::TriangleArray(const HostArray& array)
     array.raise_type("integers are needed, not " + array.type_text());
   }
   if (array.dimensions() != 2 || (array.extent(1) != 3 && array.extent(1) != 6)) {
-    array.raise_value("shape " + array.shape_text() + "; expected (M, 3), or (M, 6) for triangles of six nodes");
+    array.raise_value("shape " + array.shape_text() + "; expected (M, 3), or (M, 6) for triangles of six nodes" +
+                      transposed(array, "triangles", 3));
   }
   size_ = array.extent(0);
   nodes_ = array.extent(1);

@@ -209,8 +209,9 @@ SmoothingOptions parse_options(const nb::dict& arguments) {
     const Option* const option = find_option(text_view(key));
     if (option == nullptr) {
       const std::vector<std::string> names = option_names();
-      throw nb::type_error(
-          (nb::cast<std::string>(nb::repr(key)) + " is no option" + did_you_mean(text_view(key), names)).c_str());
+      throw nb::type_error((nb::cast<std::string>(nb::repr(key)) + " is no option" +
+                            did_you_mean(text_view(key), names) + "; help(trismooth.smooth) lists them")
+                               .c_str());
     }
     option->parse(value, option->name, parsed);
   }

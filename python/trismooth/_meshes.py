@@ -12,6 +12,8 @@ from ._result import Result
 
 def _adapter_of(mesh: Any) -> Any:
     adapter = adapters.find(mesh)
+    if adapter is None and (isinstance(mesh, (list, tuple)) or hasattr(mesh, "__array__") or hasattr(mesh, "__dlpack__")):
+        raise TypeError("triangles: are needed beside an array of points")
     if adapter is None:
         raise TypeError(
             f"points: {type(mesh).__module__}.{type(mesh).__qualname__} is no mesh that trismooth knows; "
