@@ -78,6 +78,12 @@ void require_same_form(const HostArray& out, const HostArray& points) {
   }
 }
 
+/// Of few points this thread has copied all before another one is awake.
+int threads_to_copy(const PointArray& points, int threads) {
+  constexpr std::size_t few = 32768;
+  return points.size() <= few ? 1 : threads;
+}
+
 /// Smooths `points` into `out` by smooth(PointView), which returns a SmoothingResult; the GIL is not held while it
 /// runs. `mesh_quality` makes the MeshQuality for the reports before and after; null where they are not wanted.
 template <class Smooth>
@@ -90,7 +96,7 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
   bool are_still = true;
   {
     const nb::gil_scoped_release no_gil;
-    Workers workers(threads);
+    Workers workers(threads_to_copy(points, threads));
     working.read(points, workers);
     naming_arguments([&] {
       std::optional<MeshQuality> quality;
@@ -113,7 +119,7 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
     throw nb::python_error();
   }
   const nb::gil_scoped_release no_gil;
-  Workers workers(threads);
+  Workers workers(threads_to_copy(points, threads));
   working.write(out, workers);
   return outcome;
 }

@@ -118,9 +118,9 @@ class Output:
 
     def input_points(self) -> Any:
         """The points that went in; None where they are overwritten."""
-        is_overwritten = self._out is not None and (
-            self._out is self._points or np.may_share_memory(self._array, self._given)
-        )
+        if self._out is None:
+            return self._points
+        is_overwritten = self._out is self._points or np.may_share_memory(self._array, self._given)
         return None if is_overwritten else self._points
 
 
