@@ -14,6 +14,7 @@ inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
 inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
 inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
 inline constexpr std::uint8_t named = 64;        ///< named by the user
+inline constexpr std::uint8_t line = 128;        ///< of a line or a link that the caller names
 
 /// Whether a vertex held for these reasons is of no cell at all. It stays where it is, and nothing depends on where.
 constexpr TRISMOOTH_HOST_DEVICE bool is_unused(std::uint8_t reasons) {

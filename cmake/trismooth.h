@@ -11,6 +11,7 @@
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
+#include "trismooth/quality/region_area.h"
 #include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/size_change.h"
 #include "trismooth/quality/size_fit.h"
@@ -19,6 +20,7 @@
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/sliding.h"
 #include "trismooth/smoothing/smooth.h"
 
 #if __has_include("trismooth/mesh_io/mesh_file.h")

@@ -24,6 +24,7 @@
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
 #include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 
 namespace trismooth::cuda {
@@ -193,6 +194,9 @@ class CudaBackend final : public Backend {
                                                  const SmoothingOptions& options) const override {
     options.validate();
     require_device();
+    if (mesh.slidable.any()) {
+      return cpu_backend().prepare(mesh, triangles, local, options);
+    }
     return std::make_unique<RingSmoother>(mesh, triangles, local, options);
   }
 

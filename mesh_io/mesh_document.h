@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -73,6 +74,8 @@ struct MeshDocument {
   /// Points that the file tells to be bound though no set of it names them: nodes of points and curves of the geometry,
   /// periodic ones. They hold where they are inside the mesh. Files of other formats do not get these sets.
   std::vector<NamedSet> implied_sets;
+  /// Pairs of points that the file says are the same place of something that repeats itself, as the file lists them.
+  std::vector<std::array<std::int32_t, 2>> periodic_pairs;
   std::vector<NamedSet> cell_sets;  ///< in the file's order; they may overlap
   /// Point arrays that say something of a place, not of a vertex (depths): where vertices move, values follow the mesh.
   std::vector<std::string> arrays_of_places;

@@ -31,7 +31,7 @@ HeldVertices count_held(const ReasonCounts& counts) {
   for (std::size_t bits = 0; bits < counts.size(); ++bits) {
     const auto has = [bits](std::uint8_t bit) { return (bits & bit) != 0; };
     const bool non_manifold = has(hold::non_manifold);
-    const bool other_cell = has(hold::other_cell);
+    const bool other_cell = has(hold::other_cell) || has(hold::line);
     const std::array<std::pair<std::int64_t*, bool>, 7> figures{{{&held.boundary, has(hold::boundary)},
                                                                  {&held.interface, has(hold::interface)},
                                                                  {&held.non_manifold, non_manifold},

@@ -55,6 +55,7 @@ class Run {
     const Stopwatch watch;
     PipelineTimings& timings = state_.result.timings_ms;
     options_.smoothing.validate();
+    options_.slide.validate();
     require_known_formats(options_);
     starting_ = start_backend(options_);
     timed(Stage::read, timings.read, read_input);
@@ -70,6 +71,7 @@ class Run {
   PipelineResult run_on(MeshDocument& document) {
     const Stopwatch watch;
     options_.smoothing.validate();
+    options_.slide.validate();
     const std::vector<double> points = document.points;
     const std::vector<DataArray> point_arrays = document.point_arrays;
     state_.document = std::move(document);

@@ -23,6 +23,7 @@
 #include "trismooth/quality/size_fit.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/sliding.h"
 
 namespace trismooth {
 
@@ -51,6 +52,9 @@ struct PipelineOptions {
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
+  /// Which vertices of boundaries and interfaces slide along them. Lines, their tags and links are those of the file,
+  /// in place of its own. Meshes of quadratic triangles slide on straight stretches alone.
+  Sliding slide{};
   /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
   /// smoothing.mean_ratio.target_lengths.
   std::optional<std::string> size_array;
@@ -115,6 +119,15 @@ struct PipelineTimings {
          guard = 0, check_after = 0, write = 0, total = 0, fields = 0;
 };
 
+/// The area of a region, in the file's units, before the smoothing and after it.
+struct RegionArea {
+  double before = 0;
+  double after = 0;
+
+  /// How much it changed, as a part of what it was.
+  double relative_change() const { return before != 0 ? (after - before) / before : 0; }
+};
+
 /// What a run did and found. Cells and centroids of worst elements are those of the file, regions places in
 /// `region_names`.
 struct PipelineResult {
@@ -129,6 +142,8 @@ struct PipelineResult {
   std::optional<SizeFit> size_fit_after;             ///< likewise
   std::vector<InterpolatedField> fields;             ///< point arrays whose values followed the mesh
   std::vector<std::string> region_names;             ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionArea> areas;                     ///< of each region, where vertices may slide; of all triangles
+                                                     ///< together where there are no regions
   std::vector<RegionQuality> regions_before;         ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;          ///< likewise, and where nothing was smoothed
   std::uint64_t coordinates_hash = 0;                ///< XXH64 of the output coordinates x, y, z as float64

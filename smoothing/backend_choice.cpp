@@ -16,7 +16,8 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
                     std::span<const Triangle> triangles, const Constraints& constraints,
                     const std::function<MeshRings()>& on_host) {
   std::string note;
-  if (options.prefers_topology_of_device()) {
+  // A device does not know of chains.
+  if (options.prefers_topology_of_device() && !constraints.slide.any()) {
     try {
       if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
         return *std::move(found);

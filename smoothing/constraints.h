@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/base/array_view.h"
+#include "trismooth/smoothing/sliding.h"
 
 namespace trismooth {
 
@@ -15,10 +16,11 @@ struct Constraints {
   ArrayView<std::int32_t> fixed_ids{};    ///< vertex numbers from 0, in any order, also more than once
   ArrayView<std::uint8_t> other_cells{};  ///< one flag a vertex; not zero: used by a cell that is not a triangle, fixed
   ArrayView<std::int32_t> regions{};      ///< one number a triangle; ends of edges between two regions are fixed
+  Sliding slide{};                        ///< which of those that boundaries and interfaces hold move along them
 };
 
-/// Throws std::invalid_argument for a view of the wrong length and for the first vertex number out of range.
-/// Complexity: linear in fixed_ids.
+/// Throws std::invalid_argument for a view of the wrong length, for the first vertex number out of range, and for an
+/// angle or a deviation that is none. Complexity: linear in fixed_ids, lines and links.
 void check_constraints(const Constraints& constraints, std::int32_t vertex_count, std::int64_t triangle_count);
 
 }  // namespace trismooth

@@ -17,7 +17,10 @@
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
+#include "trismooth/smoothing/slide/packed_slidable.h"
+#include "trismooth/smoothing/slide/slide_guard.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
+#include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/sweep_driver.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
@@ -37,7 +40,11 @@ class CpuSmoother final : public PreparedSmoother {
     const Stopwatch watch;
     rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_);
     if (options.measures_shape() || options.untangles()) {
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, fixed_, workers_);
+      // Those of vertices that may slide are in the chains.
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_);
+    }
+    if (mesh.slidable.any()) {
+      slidable_ = PackedSlidable(std::move(mesh.slidable), mesh.reversed, rings_.input_index);
     }
     if (options.untangles()) {
       triangles_.assign(triangles.begin(), triangles.end());
@@ -93,8 +100,21 @@ class CpuSmoother final : public PreparedSmoother {
     const PackedRings& rings = turned ? turned->rings : rings_;
     const FixedTriangles& fixed_triangles = turned ? turned->fixed_triangles : fixed_triangles_;
     const auto input = [&](std::int32_t v) { return frame.enter(points[v]); };
-    SweepDriver<T>(rings, options_, workers_, inverse_sizes_)
-        .run(working, fixed_triangles.smallest_quotient(input), result);
+    // (Where components are turned over their chains are, too, and what is on which side of them.)
+    const SlideChains chains =
+        slidable_.any() && !turned ? slidable_.chains(points, before, storage, frame) : SlideChains{};
+    std::optional<SlidePass<T>> slide;
+    HeldNeighbours held;
+    if (chains.any()) {
+      slide.emplace(chains, workers_);
+      held = chains.neighbours(rings_.free_count(), rings_.vertex_count());
+    }
+    double fixed_quotient = fixed_triangles.smallest_quotient(input);
+    if (!slide) {
+      fixed_quotient = std::min(fixed_quotient, chains.smallest_quotient(std::span<const Point2<double>>(before)));
+    }
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, slide ? &*slide : nullptr)
+        .run(working, fixed_quotient, result);
     result.timings.smooth += watch.lap();
 
     // Where each vertex would be stored, and what that is in the local frame.
@@ -114,29 +134,56 @@ class CpuSmoother final : public PreparedSmoother {
     BulkVector<Point2<double>> after(before.size());
     for_vertices(rings_.vertex_count(),
                  [&](std::int32_t v) { after[v] = v < rings_.free_count() ? entered_from(working, v) : before[v]; });
-    if (options_.guard) {
-      const auto list = [&](const GuardOutcome& outcome) {
-        result.guard_rounds += outcome.rounds;
-        for (const std::int32_t v : outcome.reverted) {
-          result.reverted.push_back({rings_.input_index[v], stored(v)});
-        }
-      };
-      if (!start.empty()) {
-        // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
-        // far takes others along.
-        BulkVector<Point2<double>> untangled = before;
-        for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(start, v); });
-        const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_);
-        list(outcome);
-        for (const std::int32_t v : outcome.reverted) {
+    const std::vector<SlidVertex> slid =
+        slide ? slid_vertices(chains, slide->places(), frame, storage) : std::vector<SlidVertex>{};
+    for (const SlidVertex& vertex : slid) {
+      after[vertex.vertex] = frame.enter(vertex.stored);
+    }
+    const auto list = [&](std::span<const std::int32_t> reverted) {
+      for (const std::int32_t v : reverted) {
+        const auto slider = std::ranges::lower_bound(slid, v, {}, &SlidVertex::vertex);
+        const bool slides = slider != slid.end() && slider->vertex == v;
+        result.reverted.push_back({rings_.input_index[v], slides ? slider->stored : stored(v)});
+      }
+    };
+    const auto guarded = [&](const GuardOutcome& outcome) {
+      result.guard_rounds += outcome.rounds;
+      list(outcome.reverted);
+      return !outcome.reverted.empty() && outcome.reverted.back() >= rings_.free_count();
+    };
+    if (options_.guard && !start.empty()) {
+      // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
+      // far takes others along.
+      BulkVector<Point2<double>> untangled = before;
+      for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(start, v); });
+      const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_, held);
+      guarded(outcome);
+      for (const std::int32_t v : outcome.reverted) {
+        if (v < rings_.free_count()) {
           working[v] = start[v];
         }
       }
-      if (turned) {
-        list(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
-      } else {
-        list(keep_never_worse(rings.view(), before, after, workers_));
+    }
+    if (slide) {
+      // Lines and elements have their say in turn: who goes back for one may spoil the other.
+      SlideGuard lines(chains, slide->places(), before, after, options_.guard);
+      bool again = true;
+      while (again) {
+        std::vector<std::int32_t> reverted;
+        result.guard_rounds += lines.settle(reverted);
+        list(reverted);
+        again = options_.guard && guarded(keep_never_worse(rings.view(), before, after, workers_, held));
       }
+      const LineDeviation deviation = lines.deviation();
+      result.sliding = {.chains = std::ssize(chains.chains),
+                        .vertices = chains.vertex_count(),
+                        .slid = lines.slid_vertices(),
+                        .largest_deviation = deviation.distance * frame.length_scale(),
+                        .relative_deviation = deviation.relative};
+    } else if (options_.guard && turned) {
+      guarded(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
+    } else if (options_.guard) {
+      guarded(keep_never_worse(rings.view(), before, after, workers_));
     }
     std::atomic<std::int64_t> moved{0};
     workers_.for_blocks(rings_.free_count(), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -149,10 +196,17 @@ class CpuSmoother final : public PreparedSmoother {
       }
       moved.fetch_add(moved_here, std::memory_order_relaxed);
     });
+    for (const SlidVertex& vertex : slid) {
+      if (!(after[vertex.vertex] == before[vertex.vertex])) {
+        points[rings_.input_index[vertex.vertex]] = vertex.stored;
+        ++moved;
+      }
+    }
     result.moved_vertices = moved;
     name_reverted(result, points);
     if (result.untangling) {
       count_inverted(turned ? turned->components : TurnedComponents{}, after, input, *result.untangling);
+      result.untangling->inverted_fixed += chains.inverted(after);
     }
     result.timings.commit = watch.lap();
   }
@@ -221,6 +275,7 @@ class CpuSmoother final : public PreparedSmoother {
   Workers workers_;
   std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
   PackedRings rings_;
+  PackedSlidable slidable_;
   FixedTriangles fixed_triangles_;      ///< where they are asked for
   std::vector<Triangle> triangles_;     ///< of the mesh, where it may have to be untangled
   std::vector<std::uint8_t> reversed_;  ///< as MeshRings::reversed, likewise

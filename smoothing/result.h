@@ -75,6 +75,15 @@ struct UntanglingResult {
   std::vector<std::uint8_t> turned{};  ///< one byte a triangle, 1 where it is of these components; empty: there is none
 };
 
+/// What became of vertices that may slide along boundaries and interfaces.
+struct SlidingResult {
+  std::int64_t chains = 0;        ///< those linked with each other count once
+  std::int64_t vertices = 0;      ///< that may slide
+  std::int64_t slid = 0;          ///< that did
+  double largest_deviation = 0;   ///< between the old lines and the new ones, in the units of the coordinates
+  double relative_deviation = 0;  ///< the largest, as a part of the length of the edge nearby: see Sliding::deviation
+};
+
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.
 struct SmoothingResult {
   std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
@@ -83,11 +92,12 @@ struct SmoothingResult {
   std::int64_t moved_vertices = 0;             ///< vertices whose stored coordinates differ from the input's
   std::int64_t reverted_vertices = 0;          ///< vertices that the guard took back
   std::int64_t guard_rounds = 0;               ///< rounds of the guard that took vertices back
-  std::int64_t free_vertices = 0;              ///< vertices that nothing holds fixed
+  std::int64_t free_vertices = 0;              ///< vertices that nothing holds fixed, nor to a line
   std::int32_t colours = 0;                    ///< of Form B; 0 for Form A
   std::vector<SweepRecord> history;            ///< one record a sweep
   std::vector<RevertedVertex> reverted;        ///< ascending by vertex
   std::optional<UntanglingResult> untangling;  ///< where it was asked for
+  std::optional<SlidingResult> sliding;        ///< likewise
   std::string backend;                         ///< "cpu", "cuda"
   std::string device;                          ///< the processor or GPU by name
   int threads = 0;                             ///< of the CPU; 0 where a device made the sweeps

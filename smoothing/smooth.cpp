@@ -27,7 +27,8 @@ class SmoothingPlan::Implementation {
     check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()));
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
     const std::span<const Triangle> listed = indices.triangles(vertex_count, triangles_);
-    if (options.prefers_topology_of_device()) {
+    // A device does not know of chains.
+    if (options.prefers_topology_of_device() && !constraints.slide.any()) {
       try {
         smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
       } catch (const DeviceError& error) {
@@ -47,6 +48,7 @@ class SmoothingPlan::Implementation {
     }
     connectivity_ = MeshConnectivity(vertex_count_, triangles_, workers_);
     mesh_.fixed = connectivity_.fixed_vertices(triangles_, constraints, workers_);
+    mesh_.slidable = find_slidable(triangles_, mesh_.fixed, constraints, workers_);
   }
 
   SmoothingResult smooth(const PointView& points, Storage storage) {

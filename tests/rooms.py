@@ -9,19 +9,20 @@ import pathlib
 import re
 import sys
 
-FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "options", "result")},
+FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "options", "result", "sliding")},
          "cuda/device_constraints.h": "cuda faces"}
 
 SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/sweeps",
-             "smoothing/guard", "smoothing/untangle", "smoothing"]
+             "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
     "smoothing faces": ["base"],
     "smoothing/methods": ["base", "quality", "smoothing faces"],
     "smoothing/rings": ["base", "quality", "smoothing faces"],
-    "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings"],
     "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings"],
+    "smoothing/slide": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
+    "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/slide"],
     "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
     "mesh_io": ["base"],

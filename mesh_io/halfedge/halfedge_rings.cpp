@@ -66,6 +66,7 @@ MeshRings read_rings(const Halfedges& halfedges, std::span<const Point2<double>>
   if (!constraints.regions.empty()) {
     hold_interfaces(halfedges, constraints.regions, found.fixed, workers);
   }
+  found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   // A component that the halfedges run through clockwise is read the other way round.
   std::vector<std::uint8_t> clockwise(triangles.size());
   workers.for_blocks(std::ssize(clockwise), rings_grain, [&](std::int64_t begin, std::int64_t end) {

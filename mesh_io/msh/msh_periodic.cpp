@@ -1,7 +1,5 @@
 #include "trismooth/mesh_io/msh/msh_periodic.h"
 
-#include <algorithm>
-
 namespace trismooth {
 
 namespace {
@@ -22,18 +20,13 @@ void pass_affine_map(MshInput& input) {
 
 }  // namespace
 
-std::vector<std::int32_t> read_msh_periodic(MshInput& input, const MshTags& nodes) {
+std::vector<std::array<std::int32_t, 2>> read_msh_periodic(MshInput& input, const MshTags& nodes) {
   // Before 4.1 the section is text in binary files too.
   const bool of_4_1 = input.header().version >= 41;
   const auto size = [&](std::string_view what) {
     return of_4_1 ? input.size(what) : input.text().next_integer(what, 0, largest_msh_int);
   };
-  std::vector<std::int32_t> found;
-  const auto add = [&](std::int64_t tag) {
-    if (const std::int64_t vertex = nodes.find(tag); vertex >= 0) {
-      found.push_back(static_cast<std::int32_t>(vertex));
-    }
-  };
+  std::vector<std::array<std::int32_t, 2>> found;
   for (std::int64_t links = size("the number of periodic links"); links > 0; --links) {
     for (int number = 0; number < 3; ++number) {
       constexpr std::string_view what = "a dimension or a tag of an entity";
@@ -42,12 +35,13 @@ std::vector<std::int32_t> read_msh_periodic(MshInput& input, const MshTags& node
     }
     pass_affine_map(input);
     for (std::int64_t pairs = size("the number of linked nodes"); pairs > 0; --pairs) {
-      add(size("the tag of a node"));
-      add(size("the tag of a node"));
+      const std::int64_t first = nodes.find(size("the tag of a node"));
+      const std::int64_t second = nodes.find(size("the tag of a node"));
+      if (first >= 0 && second >= 0) {
+        found.push_back({static_cast<std::int32_t>(first), static_cast<std::int32_t>(second)});
+      }
     }
   }
-  std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

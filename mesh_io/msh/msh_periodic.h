@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,9 +9,9 @@
 
 namespace trismooth {
 
-/// Reads the section $Periodic behind its first line: the nodes that it links, both of each pair, ascending, each once.
-/// Tags that no node has are passed over: Gmsh writes 0 for nodes that it leaves out. `nodes` are finished. Throws
-/// ReadError for what is no such section. Complexity: n log n in the links.
-std::vector<std::int32_t> read_msh_periodic(MshInput& input, const MshTags& nodes);
+/// Reads the section $Periodic behind its first line: the pairs of nodes that it links. Those with a tag that no node
+/// has are passed over: Gmsh writes 0 for nodes that it leaves out. `nodes` are finished. Throws ReadError for what is
+/// no such section. Complexity: linear in the links, but for finding nodes by their tags.
+std::vector<std::array<std::int32_t, 2>> read_msh_periodic(MshInput& input, const MshTags& nodes);
 
 }  // namespace trismooth

@@ -208,7 +208,7 @@ class MshReader {
   void read_periodic() {
     const std::size_t begin = input_.offset();
     try {
-      periodic_ = read_msh_periodic(input_, nodes_.tags);
+      document_.periodic_pairs = read_msh_periodic(input_, nodes_.tags);
     } catch (const ReadError&) {
       document_.notes.emplace_back("The section $Periodic is not understood, so it holds no nodes.");
     }
@@ -294,7 +294,13 @@ class MshReader {
       add("gmsh:points", nodes_.on_points);
       add("gmsh:curves", nodes_.on_curves);
     }
-    add("gmsh:periodic", periodic_);
+    std::vector<std::int32_t> periodic;
+    for (const auto& [first, second] : document_.periodic_pairs) {
+      periodic.insert(periodic.end(), {first, second});
+    }
+    std::ranges::sort(periodic);
+    periodic.erase(std::unique(periodic.begin(), periodic.end()), periodic.end());
+    add("gmsh:periodic", periodic);
   }
 
   void add_notes() {
@@ -322,7 +328,6 @@ class MshReader {
   MshElements elements_;
   std::vector<std::int32_t> all_physical_;
   std::vector<ValueName> value_names_;
-  std::vector<std::int32_t> periodic_;  ///< nodes
   std::vector<MshDataSection> data_;
   std::vector<std::string> kept_sections_;
   FreeNames point_names_;

@@ -78,6 +78,31 @@ void add_mean_ratio_options(CLI::App& command, PipelineOptions& pipeline) {
       ->group(group);
 }
 
+void add_slide_options(CLI::App& command, Sliding& slide) {
+  const char* const group = "Sliding boundaries";
+  add_enum_option(
+      command, "--slide", slide.along,
+      "Move vertices of boundaries and interfaces along them: on stretches that are straight to rounding, or "
+      "also round bends, as far as --deviation allows")
+      ->group(group);
+  add_parsed_option(command, "--corner-angle", "DEGREES",
+                    "A vertex where a line turns by more is a corner, which stays [30]",
+                    [&slide](const std::string& text) { slide.corner_angle = parse_finite(text); })
+      ->group(group);
+  add_parsed_option(
+      command, "--deviation", "X",
+      "With curves: how far a line may get from where it was, in edge lengths; checked in the result [1e-3]",
+      [&slide](const std::string& text) { slide.deviation = parse_finite(text); })
+      ->group(group);
+  add_enum_option(command, "--curve", slide.curve,
+                  "With curves: slide on the edges as they are, or on a smooth curve through their vertices")
+      ->group(group);
+  command
+      .add_flag("--slide-coincident", slide.coincident,
+                "Vertices in the same place, as on the faces of a crack, slide together; else they stay")
+      ->group(group);
+}
+
 void add_stop_options(CLI::App& command, SmoothingOptions& options) {
   const char* const group = "Stopping";
   add_parsed_option(
@@ -142,6 +167,7 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   PipelineOptions& options = settings.run.pipeline;
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
+  options.slide.validate();
   const CudaSupport cuda = environment.cuda();
   const CudaOrCpu automatic(cuda);
   choose_backend(settings.backend, cuda, automatic, options.smoothing);
@@ -164,6 +190,7 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
       ->required();
   add_algorithm_options(command, *settings);
   add_mean_ratio_options(command, options);
+  add_slide_options(command, options.slide);
   add_stop_options(command, options.smoothing);
   add_mesh_options(command, settings->run);
   add_field_options(command, options);

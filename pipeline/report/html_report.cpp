@@ -292,6 +292,12 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
             {"tolerance", fmt::format("{}", chosen.tolerance)},
             {"time limit", optional_number(chosen.time_limit_seconds, " s")},
             {"quality target", chosen.target_quality ? fmt::format("{}", *chosen.target_quality) : "none"}};
+  if (options.slide.along != Slide::off) {
+    rows.emplace_back("slide", std::string(to_string(options.slide.along)));
+    rows.emplace_back("corner angle", fmt::format("{} degrees", options.slide.corner_angle));
+    rows.emplace_back("deviation", fmt::format("{}", options.slide.deviation));
+    rows.emplace_back("curve", std::string(to_string(options.slide.curve)));
+  }
   if (chosen.method == Method::mean_ratio) {
     const MeanRatioOptions& mean_ratio = chosen.mean_ratio;
     rows.emplace_back("size weight", fmt::format("{}", mean_ratio.size_weight));
@@ -330,7 +336,9 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
   return row_table(rows);
 }
 
-std::string outcome_table(const SmoothingResult& smoothing, const std::vector<InterpolatedField>& fields) {
+std::string outcome_table(const PipelineResult& result) {
+  const SmoothingResult& smoothing = *result.smoothing;
+  const std::vector<InterpolatedField>& fields = result.fields;
   Rows rows{{"stopped by", escape_html(to_string(smoothing.stop_reason))},
             {"sweeps", count_text(smoothing.sweeps)},
             {"vertex updates", count_text(smoothing.vertex_updates)},
@@ -339,6 +347,9 @@ std::string outcome_table(const SmoothingResult& smoothing, const std::vector<In
             {"guard rounds", count_text(smoothing.guard_rounds)}};
   if (smoothing.untangling) {
     rows.emplace_back("untangling", untangling_text(*smoothing.untangling));
+  }
+  if (smoothing.sliding) {
+    rows.emplace_back("sliding", sliding_text(result));
   }
   if (!fields.empty()) {
     std::string names;
@@ -419,7 +430,7 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   }
   if (result.smoothing) {
     html += "<div class=\"two\">\n" + html_section("Options", options_table(options, *result.smoothing)) +
-            html_section("Smoothing", outcome_table(*result.smoothing, result.fields)) + "</div>\n";
+            html_section("Smoothing", outcome_table(result)) + "</div>\n";
   }
   return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);
 }

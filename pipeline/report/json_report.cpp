@@ -117,6 +117,11 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"power", is_mean_ratio && mean_ratio.power > 0 ? Json(mean_ratio.power) : Json(nullptr)},
           {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
           {"size_array", is_mean_ratio ? text_or_null(options.size_array) : Json(nullptr)},
+          {"slide", name_of(options.slide.along)},
+          {"corner_angle", number_json(options.slide.corner_angle)},
+          {"deviation", number_json(options.slide.deviation)},
+          {"curve", name_of(options.slide.curve)},
+          {"slide_coincident", options.slide.coincident},
           {"project", options.project ? name_of(*options.project) : Json(nullptr)},
           {"geographic", options.geographic},
           {"fields", options.fields ? name_of(*options.fields) : Json(nullptr)},
@@ -203,6 +208,28 @@ Json untangling_json(const std::optional<UntanglingResult>& untangling) {
           {"turned_components", untangling->turned_components}};
 }
 
+Json sliding_json(const std::optional<SlidingResult>& sliding) {
+  if (!sliding) {
+    return nullptr;
+  }
+  return {{"lines", sliding->chains},
+          {"vertices", sliding->vertices},
+          {"slid", sliding->slid},
+          {"largest_deviation", number_json(sliding->largest_deviation)},
+          {"relative_deviation", number_json(sliding->relative_deviation)}};
+}
+
+Json areas_json(const PipelineResult& result) {
+  Json areas = Json::array();
+  for (std::size_t region = 0; region < result.areas.size(); ++region) {
+    const bool has_name = region < result.region_names.size();
+    areas.push_back({{"region", has_name ? Json(result.region_names[region]) : Json(nullptr)},
+                     {"before", number_json(result.areas[region].before)},
+                     {"after", number_json(result.areas[region].after)}});
+  }
+  return areas;
+}
+
 Json smoothing_json(const SmoothingResult& smoothing) {
   Json history = Json::array();
   for (const SweepRecord& record : smoothing.history) {
@@ -225,6 +252,7 @@ Json smoothing_json(const SmoothingResult& smoothing) {
           {"device_memory_bytes", smoothing.device_memory_bytes},
           {"guard_rounds", smoothing.guard_rounds},
           {"untangling", untangling_json(smoothing.untangling)},
+          {"sliding", sliding_json(smoothing.sliding)},
           {"history", std::move(history)}};
 }
 
@@ -288,6 +316,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"size_array", size_array_json(result.input)},
       {"size_fit", size_fit_json(result)},
       {"fields", fields_json(result.fields)},
+      {"areas", areas_json(result)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

@@ -115,6 +115,9 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
   std::string lines = smoothing.untangling && (smoothing.untangling->inverted_before > 0 || detail == TextDetail::all)
                           ? labelled_line("untangling:", untangling_text(*smoothing.untangling))
                           : std::string{};
+  if (smoothing.sliding) {
+    lines += labelled_line("sliding:", sliding_text(result));
+  }
   lines += labelled_line("result:", text + "; stopped by " + reason);
   if (detail == TextDetail::all) {
     if (smoothing.reverted_vertices > 0) {
@@ -225,6 +228,28 @@ std::string untangling_text(const UntanglingResult& untangling) {
   }
   if (untangling.turned_components > 0) {
     text += fmt::format("; {} turned over", counted(untangling.turned_components, "component", "components"));
+  }
+  return text;
+}
+
+std::string sliding_text(const PipelineResult& result) {
+  const SlidingResult& sliding = *result.smoothing->sliding;
+  if (sliding.vertices == 0) {
+    return "no vertex of a boundary or an interface can slide";
+  }
+  std::string text =
+      fmt::format("{} of {} on {} slid", count_text(sliding.slid), counted(sliding.vertices, "vertex", "vertices"),
+                  counted(sliding.chains, "line", "lines"));
+  if (sliding.slid > 0) {
+    text += sliding.largest_deviation > 0
+                ? fmt::format("; lines are up to {:.3g} from where they were, {:.3g} of an edge",
+                              sliding.largest_deviation, sliding.relative_deviation)
+                : std::string("; lines are where they were");
+    double change = 0;
+    for (const RegionArea& area : result.areas) {
+      change = std::max(change, std::abs(area.relative_change()));
+    }
+    text += fmt::format("; areas{} changed by {:.2g} at most", result.areas.size() > 1 ? " of regions" : "", change);
   }
   return text;
 }

@@ -30,6 +30,9 @@ std::string launches_text(const SmoothingResult& smoothing);
 /// "12 triangles not valid before, 0 after it, 0 in the result": what untangling did.
 std::string untangling_text(const UntanglingResult& untangling);
 
+/// "396 of 396 vertices on 4 lines slid, which are ..": what became of vertices that may slide.
+std::string sliding_text(const PipelineResult& result);
+
 /// How valid quadratic triangles are, as a sentence; empty where the mesh has none.
 std::string quadratic_text(const PipelineResult& result);
 

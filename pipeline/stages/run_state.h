@@ -30,6 +30,7 @@ struct RunState {
   LocalPoints local;  ///< mesh.points in their local frame: those of the input, after the smoothing of the result
   SizeArray sizes;
   Regions regions;
+  Slide slide = Slide::off;  ///< of the options, where this mesh can
   MeshRings found;
   std::vector<std::size_t> fields;        ///< point arrays of the document that follow the mesh
   std::vector<double> input_points;       ///< for annotations of a smoothing

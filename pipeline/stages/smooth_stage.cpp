@@ -1,5 +1,7 @@
 #include "trismooth/pipeline/stages/smooth_stage.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,6 +16,7 @@
 #include "trismooth/pipeline/stages/stored_result.h"
 #include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/pipeline/stages/write_stage.h"
+#include "trismooth/quality/region_area.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 
@@ -51,6 +54,20 @@ void compare_sizes(RunState& run, const TriangleView& before) {
     result.size_fit_after = size_fit(run.view(), asked, run.found.fixed, threads);
   }
   result.timings_ms.check_after += watch.milliseconds();
+}
+
+/// Where vertices may slide.
+void compare_areas(RunState& run, const TriangleView& before) {
+  const Stopwatch watch;
+  const std::int32_t count = std::max(run.regions.count(), 1);
+  const std::vector<double> areas_before = region_areas(before, run.regions.of_triangle, count);
+  const std::vector<double> areas_after = region_areas(run.view(), run.regions.of_triangle, count);
+  // (The frame of the result may be another one.)
+  for (std::size_t region = 0; region < areas_before.size(); ++region) {
+    run.result.areas.push_back({std::ldexp(areas_before[region], 2 * before.exponent),
+                                std::ldexp(areas_after[region], 2 * run.local.frame.exponent)});
+  }
+  run.result.timings_ms.check_after += watch.milliseconds();
 }
 
 SmoothingResult smooth_points(RunState& run) {
@@ -94,7 +111,11 @@ void smooth_mesh(RunState& run) {
   warn_of_folds_put_back(run, smoothing);
   move_fields(run, input);
   hash_coordinates(run, points_read, smoothing);
-  compare_sizes(run, {input.points, run.mesh.triangles, input_reversed, input.frame.exponent});
+  const TriangleView before{input.points, run.mesh.triangles, input_reversed, input.frame.exponent};
+  compare_sizes(run, before);
+  if (smoothing.sliding) {
+    compare_areas(run, before);
+  }
   PipelineTimings& timings = run.result.timings_ms;
   timings.topology += smoothing.timings.prepare;
   timings.transfer_in = smoothing.timings.transfer_in;

@@ -14,6 +14,7 @@
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/line_groups.h"
 #include "trismooth/pipeline/input/point_sets.h"
+#include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -81,6 +82,43 @@ void find_sizes(RunState& run) {
     run.result.input.sizes_are_areas = run.sizes.of_cells;
     run.smoothing.mean_ratio.target_lengths = run.sizes.lengths;
   }
+}
+
+/// Finds whether vertices of this mesh can slide where the options want it.
+void settle_sliding(RunState& run) {
+  if (run.options.slide.along == Slide::off) {
+    return;
+  }
+  if (run.options.geographic) {
+    throw std::invalid_argument(
+        "--slide is for lines in a plane, which --geographic makes curves of; leave out one of them");
+  }
+  if (!run.mesh.quadratics.empty()) {
+    run.note("the mesh has quadratic triangles, whose sides have middles: no vertex slides");
+  } else if (!run.mesh.plane.aligned) {
+    run.note("the mesh lies in a tilted plane, where rounding takes points off their lines: no vertex slides");
+  } else if (run.document.most_coordinate_characters > 0) {
+    run.note("the file has room for few digits of a coordinate, which takes points off their lines: no vertex slides");
+  } else {
+    run.slide = run.options.slide.along;
+  }
+}
+
+/// What the file says of lines, where vertices slide.
+SlideLines slide_lines_of(const RunState& run) {
+  return run.slide != Slide::off ? find_slide_lines(run.document, run.mesh, run.regions.arrays) : SlideLines{};
+}
+
+/// `lines` outlive it.
+Sliding sliding_of(const RunState& run, const SlideLines& lines) {
+  if (run.slide == Slide::off) {
+    return {};
+  }
+  Sliding slide = run.options.slide;
+  slide.lines = lines.lines;
+  slide.line_tags = lines.tags;
+  slide.links = lines.links;
+  return slide;
 }
 
 MeshRings rings_of(RunState& run, const Constraints& constraints) {
@@ -169,10 +207,17 @@ void connect_mesh(RunState& run) {
     add_vertices(fixed, ids, document.point_count());
     settle_middles(mesh, fixed);
   }
-  run.found = rings_of(
-      run, {.fixed = fixed, .fixed_ids = ids, .other_cells = mesh.in_other_cell, .regions = run.regions.of_triangle});
+  settle_sliding(run);
+  const SlideLines lines = slide_lines_of(run);
+  run.found = rings_of(run, {.fixed = fixed,
+                             .fixed_ids = ids,
+                             .other_cells = run.slide != Slide::off ? lines.in_other_cell : mesh.in_other_cell,
+                             .regions = run.regions.of_triangle,
+                             .slide = sliding_of(run, lines)});
   if (!options.project && !mesh.map && settle_plane(mesh, document, run.found.fixed, options.input, run.workers)) {
     run.enter_frame();
+    // (On the way it may have become a tilted one.)
+    run.found.slidable = mesh.plane.aligned ? std::move(run.found.slidable) : Slidable{};
   }
   const ReasonCounts reasons = count_vertices(run);
   note_irregular_vertices(run, reasons);

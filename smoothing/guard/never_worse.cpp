@@ -101,11 +101,12 @@ class ElementGatherer {
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
-        Workers& workers)
+        Workers& workers, const HeldNeighbours& held)
       : rings_(rings),
         before_(before),
         after_(after),
         workers_(workers),
+        held_(held),
         has_gaps_(has_gaps(rings, workers)),
         block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
         tree_(static_cast<std::size_t>(block_count_)) {}
@@ -193,7 +194,7 @@ class Guard {
   /// The moved corners of the offending elements in blocks_, each once.
   void find_offenders() {
     const double threshold = tree_.total().before;
-    listed_.resize(static_cast<std::size_t>(rings_.size()), 0);
+    listed_.resize(before_.size(), 0);
     offenders_.clear();
     std::mutex joining;
     workers_.for_blocks(std::ssize(blocks_), block_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -227,10 +228,14 @@ class Guard {
     blocks_.clear();
     for (const std::int32_t v : offenders_) {
       after_[v] = before_[v];
-      blocks_.push_back(v / vertices_a_block);
-      for (const std::int32_t neighbour : rings_[v]) {
-        if (neighbour < rings_.size()) {
-          blocks_.push_back(neighbour / vertices_a_block);
+      measure_again(v);
+      if (v < rings_.size()) {
+        for (const std::int32_t neighbour : rings_[v]) {
+          measure_again(neighbour);
+        }
+      } else {
+        for (const std::int32_t neighbour : held_[v]) {
+          measure_again(neighbour);
         }
       }
     }
@@ -242,10 +247,18 @@ class Guard {
     tree_.update(blocks_);
   }
 
+  /// Lists the block of the vertex, if it is one with a ring.
+  void measure_again(std::int32_t v) {
+    if (v < rings_.size()) {
+      blocks_.push_back(v / vertices_a_block);
+    }
+  }
+
   const RingView& rings_;
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
   Workers& workers_;
+  const HeldNeighbours& held_;
   bool has_gaps_;
   std::int64_t block_count_;
   GuardTree tree_;
@@ -257,8 +270,8 @@ class Guard {
 }  // namespace
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers) {
-  return Guard(rings, before, after, workers).run();
+                              std::span<Point2<double>> after, Workers& workers, const HeldNeighbours& held) {
+  return Guard(rings, before, after, workers, held).run();
 }
 
 void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {

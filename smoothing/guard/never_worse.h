@@ -7,6 +7,7 @@
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/rings/held_neighbours.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
@@ -28,8 +29,11 @@ struct GuardOutcome {
 /// evaluated in float64 in canonical corner order (smallest input index first), so each gives the same bits from every
 /// vertex, in the report too. Ends: each round returns a vertex. Complexity: one pass over the elements of free
 /// vertices; a round costs what it takes back (times log n), not the mesh.
+///
+/// `held`: of vertices that may have moved without having a ring. They are judged as corners of the elements of others,
+/// and go back as these do.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers);
+                              std::span<Point2<double>> after, Workers& workers, const HeldNeighbours& held = {});
 
 /// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
 /// the first found it; who is there again, at `points`, is not.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -147,12 +146,7 @@ class MeanRatio {
       EdgeTensor<T> edges = targets_.edges[v];
       edges.add(targets_.edges[na]);
       edges.add(targets_.edges[nb]);
-      const T determinant = edges.xx * edges.yy - edges.xy * edges.xy;
-      if (!(determinant > T(0))) {
-        return {T(1), T(0), T(1)};
-      }
-      const T scale = T(1) / std::sqrt(determinant);
-      return {scale * edges.yy, -scale * edges.xy, scale * edges.xx};
+      return metric_of(edges);
     } else {
       return {};
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -35,6 +36,17 @@ struct EdgeTensor {
 template <class V>
 constexpr TRISMOOTH_HOST_DEVICE V squared_length_in(const EdgeTensor<V>& metric, Point2<V> e) {
   return (metric.xx * (e.x * e.x) + metric.yy * (e.y * e.y)) + (metric.xy + metric.xy) * (e.x * e.y);
+}
+
+/// The metric, of determinant 1, in which a triangle with edges of that sum is equilateral; Euclid's where it is none.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> metric_of(const EdgeTensor<T>& edges) {
+  const T determinant = edges.xx * edges.yy - edges.xy * edges.xy;
+  if (!(determinant > T(0))) {
+    return {T(1), T(0), T(1)};
+  }
+  const T scale = T(1) / std::sqrt(determinant);
+  return {scale * edges.yy, -scale * edges.xy, scale * edges.xx};
 }
 
 /// The metric where shapes aimed at are equilateral.

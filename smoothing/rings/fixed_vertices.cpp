@@ -31,6 +31,12 @@ void hold_named_vertices(const Constraints& constraints, std::span<std::uint8_t>
   for (const std::int32_t v : constraints.fixed_ids) {
     reasons[v] |= hold::named;
   }
+  for (const std::int32_t v : constraints.slide.lines) {
+    reasons[v] |= hold::line;
+  }
+  for (const std::int32_t v : constraints.slide.links) {
+    reasons[v] |= hold::line;
+  }
 }
 
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,

@@ -23,6 +23,7 @@ MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<cons
   Orientation orientation = orient(connectivity.components(), triangles, points, workers);
   MeshRings found;
   found.fixed = connectivity.fixed_vertices(triangles, constraints, workers);
+  found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   found.reversed = std::move(orientation.reversed);
   found.components = connectivity.components().components;
   found.reoriented_triangles = orientation.reoriented_triangles;

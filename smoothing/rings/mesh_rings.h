@@ -10,6 +10,7 @@
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth {
 
@@ -22,6 +23,7 @@ struct MeshRings {
   std::int32_t components = 0;         ///< connected through edges with exactly two triangles
   std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
   OneRings rings;                         ///< of the free vertices
+  Slidable slidable;                      ///< the fixed vertices that may slide
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 

@@ -41,6 +41,9 @@ class HostTargets {
     }
   }
 
+  /// What all vertices have in common.
+  const MeanRatioMesh& mesh() const { return mesh_; }
+
   MeanRatioTargets<T> view() const {
     return {inverse_areas_.data(), largest_shares_.data(), &scales_, edges_.empty() ? nullptr : edges_.data()};
   }
@@ -58,7 +61,7 @@ class HostTargets {
             raise(fixed[u - free_count].largest, std::bit_cast<std::uint64_t>(area));
           });
         });
-    const MeanRatioMesh mesh = MeanRatioMesh::of(sums, options.size_weight, options.power);
+    const MeanRatioMesh& mesh = mesh_ = MeanRatioMesh::of(sums, options.size_weight, options.power);
     scales_ = scales_of<T>(mesh);
     for_rings(points, rings, workers, [&](std::int32_t v, const auto& ring) {
       for_fixed_corners(points[v], ring, free_count, [&](std::int32_t u, double area, std::uint64_t times) {
@@ -85,7 +88,7 @@ class HostTargets {
         measure(points, rings, workers, [&](std::int32_t v, const auto& ring, MeanRatioSums& own) {
           add_sizes(v, points[v], sizes.data(), ring, own);
         });
-    const MeanRatioMesh mesh = MeanRatioMesh::of(sums, options.size_weight, options.power, true);
+    const MeanRatioMesh& mesh = mesh_ = MeanRatioMesh::of(sums, options.size_weight, options.power, true);
     scales_ = scales_of<T>(mesh);
     for (std::size_t v = 0; v < sizes.size(); ++v) {
       inverse_areas_[v] = inverse_asked_area(sizes[v], mesh);
@@ -154,6 +157,7 @@ class HostTargets {
   std::vector<T> inverse_areas_;   ///< one a vertex
   std::vector<T> largest_shares_;  ///< one a free vertex
   MeanRatioScales<T> scales_;
+  MeanRatioMesh mesh_{};
   std::vector<EdgeTensor<T>> edges_;  ///< one a vertex, zeros of fixed ones; where shapes are to be kept
 };
 

@@ -60,4 +60,12 @@ class Stages {
   bool has_far_to_go_;
 };
 
+/// Whether vertices slide behind a sweep: every fifth of a stage (from 1), where it settles, and behind the last one
+/// that may be. More often brings the elements no further (found by experiment: docs/sliding.md), and a device would
+/// have to be asked as often.
+constexpr bool slides_behind(std::int64_t sweep_of_stage, bool settled, bool is_limit) {
+  constexpr std::int64_t every = 5;
+  return sweep_of_stage % every == 0 || settled || is_limit;
+}
+
 }  // namespace trismooth

@@ -19,6 +19,7 @@
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"
 #include "trismooth/smoothing/sweeps/mean_ratio_lanes.h"
+#include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
@@ -36,10 +37,15 @@ namespace trismooth {
 template <class T>
 class SweepDriver {
  public:
-  /// `inverse_sizes`: see HostTargets.
+  /// `inverse_sizes`: see HostTargets. `slide`: what slides, where slides_behind() says so; null: nothing.
   SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers,
-              std::span<const double> inverse_sizes = {})
-      : rings_(rings), view_(rings.view()), options_(options), workers_(workers), inverse_sizes_(inverse_sizes) {}
+              std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr)
+      : rings_(rings),
+        view_(rings.view()),
+        options_(options),
+        workers_(workers),
+        inverse_sizes_(inverse_sizes),
+        slide_(slide) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -62,6 +68,9 @@ class SweepDriver {
     const HostTargets<T> targets = options_.method == Method::mean_ratio
                                        ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_)
                                        : HostTargets<T>();
+    if (slide_ != nullptr && options_.method == Method::mean_ratio) {
+      slide_->aim(points, targets.view(), targets.mesh(), !inverse_sizes_.empty());
+    }
     Stages stages(options_, rings_.free_count());
     std::optional<StopReason> reason;
     for (;;) {
@@ -83,11 +92,17 @@ class SweepDriver {
     marked_.assign(points.size(), 1);
     other_marked_.assign(swaps ? points.size() : 0, 0);
     for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
-      const SweepTally<T> tally = swaps ? sweep(method, points, other_points_, marked_, other_marked_)
-                                        : sweep(method, points, points, marked_, marked_);
+      SweepTally<T> tally = swaps ? sweep(method, points, other_points_, marked_, other_marked_)
+                                  : sweep(method, points, points, marked_, marked_);
       if (swaps) {
         points.swap(other_points_);
         marked_.swap(other_marked_);
+      }
+      const auto settled = [&] { return settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves()); };
+      if (slide_ != nullptr &&
+          slides_behind(sweep_of_stage, settled().has_value(), result.sweeps + 1 == options_.max_sweeps)) {
+        tally.join(slide_->run(method, {points, other_points_, marked_, other_marked_,
+                                        options_.evaluation == Evaluation::all, static_cast<T>(options_.tolerance)}));
       }
       SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
                          static_cast<double>(std::sqrt(tally.max_relative_squared))};
@@ -96,13 +111,12 @@ class SweepDriver {
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
-      const auto settled = settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves());
-      const auto reason = reason_to_stop(stages.is_last() ? settled : std::nullopt, record, watch);
+      const auto reason = reason_to_stop(stages.is_last() ? settled() : std::nullopt, record, watch);
       if (reason) {
         return reason;
       }
-      if (settled || sweep_of_stage == stages.sweeps()) {
-        stages.next(tally.moved, settled.has_value());
+      if (settled() || sweep_of_stage == stages.sweeps()) {
+        stages.next(tally.moved, settled().has_value());
         return std::nullopt;
       }
     }
@@ -203,6 +217,9 @@ class SweepDriver {
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);
     });
+    if (slide_ != nullptr) {
+      smallest = std::min(smallest, slide_->smallest_quotient(points));
+    }
     return min_shape_of(static_cast<double>(smallest), fixed_quotient);
   }
 
@@ -211,6 +228,7 @@ class SweepDriver {
   const SmoothingOptions& options_;
   Workers& workers_;
   std::span<const double> inverse_sizes_;
+  SlidePass<T>* slide_;
   BulkVector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;

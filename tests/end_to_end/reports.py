@@ -19,17 +19,17 @@ METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ra
            "scaled_jacobian", "equiangle_skew"}
 REPORT_KEYS = {
     "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_array",
-         "size_fit", "fields", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
+         "size_fit", "fields", "areas", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
          "peak_memory_bytes"},
     "input": {"path", "format", "vertices", "triangles", "other_cells", "regions", "components", "fixed_vertices",
               "free_vertices", "reoriented_triangles", "region_arrays", "fixed_array", "fixed_array_vertices",
               "fixed_ids_vertices", "held"},
     "options": {"method", "form", "layout", "backend", "execution", "order", "topology", "precision", "threads",
                 "max_sweeps", "tolerance", "size_weight", "power", "target", "size_array", "fields",
-                "field_arrays", "project", "geographic"},
+                "field_arrays", "project", "geographic", "slide", "corner_angle", "deviation", "curve", "slide_coincident"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
                   "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
-                  "guard_rounds", "untangling", "history"},
+                  "guard_rounds", "untangling", "sliding", "history"},
     "timings_ms": {"read", "topology", "check_before", "transfer_in", "untangle", "smooth", "transfer_out", "commit",
                    "fields", "check_after", "write", "total"},
 }

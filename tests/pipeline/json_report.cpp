@@ -32,7 +32,7 @@ using Keys = std::vector<std::string>;
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
   CHECK(keys_of(report) == Keys{"trismooth", "date", "command", "input", "options", "before", "after", "size_change",
-                                "size_array", "size_fit", "fields", "gates", "smoothing", "coordinates_hash",
+                                "size_array", "size_fit", "fields", "areas", "gates", "smoothing", "coordinates_hash",
                                 "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
   CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
@@ -81,7 +81,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
   CHECK(keys_of(report["smoothing"]) == Keys{"sweeps", "stop_reason", "vertex_updates", "moved_vertices",
                                              "reverted_vertices", "device", "backend_note", "reproducible",
                                              "kernel_launches", "child_launches", "device_memory_bytes", "guard_rounds",
-                                             "untangling", "history"});
+                                             "untangling", "sliding", "history"});
   CHECK(keys_of(report["smoothing"]["history"][0]) ==
         Keys{"sweep", "evaluated", "moved", "max_relative_move", "min_shape"});
   CHECK(keys_of(report["timings_ms"]) == Keys{"read", "topology", "check_before", "transfer_in", "untangle", "smooth",

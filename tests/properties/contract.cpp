@@ -189,6 +189,7 @@ Connectivity connectivity_of(const RandomMesh& mesh) {
       left.erase(t);
     }
     found.is_tied = found.is_tied || (balance == 0 && is_free);
+    found.is_tied_anywhere = found.is_tied_anywhere || balance == 0;
     found.is_held = found.is_held && is_held;
     if (balance < 0 || (balance == 0 && first < 0)) {
       for (const std::size_t t : component) {

@@ -18,6 +18,7 @@ struct Connectivity {
   std::vector<bool> fixed;
   /// Some component with a free vertex has as many inverted triangles as others: their order says which they are.
   bool is_tied = false;
+  bool is_tied_anywhere = false;  ///< the same of any component
   /// Every component has a fixed vertex.
   bool is_held = true;
 };

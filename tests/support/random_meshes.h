@@ -22,9 +22,10 @@ struct RandomMesh {
   std::vector<std::int32_t> fixed_ids;
   std::vector<std::uint8_t> other_cells;
   std::vector<std::int32_t> regions;
+  trismooth::Sliding slide{};  ///< off, unless a test says otherwise; without lines and links
 
   /// Views of this mesh's arrays.
-  trismooth::Constraints constraints() const { return {fixed, fixed_ids, other_cells, regions}; }
+  trismooth::Constraints constraints() const { return {fixed, fixed_ids, other_cells, regions, slide}; }
 };
 
 /// A mesh of 0 to about 300 vertices, most of them small: Delaunay meshes, grids, stars, rings around holes, closed

@@ -1,0 +1,78 @@
+#include "trismooth/pipeline/input/slide_lines.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/pipeline/input/value_numbers.h"
+
+namespace trismooth {
+
+namespace {
+
+bool is_straight_line(std::uint8_t type) {
+  return type == cell_type::line || type == cell_type::poly_line;
+}
+
+bool tells_lines_apart(const DataArray& array, std::span<const RegionArray> regions) {
+  if (array.components != 1) {
+    return false;
+  }
+  const bool names_lines =
+      array.description != nullptr && std::ranges::any_of(array.description->value_names, [](const ValueName& name) {
+        return name.dimension == cell_type::dimension(cell_type::line);
+      });
+  return names_lines || is_region_name(array.name) ||
+         std::ranges::any_of(regions, [&](const RegionArray& region) { return region.name == array.name; });
+}
+
+}  // namespace
+
+SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh,
+                            std::span<const RegionArray> regions) {
+  SlideLines found;
+  const CellList& cells = document.cells;
+  found.in_other_cell = mesh.in_other_cell;
+  if (mesh.other_cells > 0) {
+    // (What the mesh keeps as it is: all cells but its triangles.)
+    std::ranges::fill(found.in_other_cell, 0);
+    std::vector<std::int32_t> line_cells;
+    auto triangle = mesh.cells.begin();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      bool is_triangle = false;
+      for (; triangle != mesh.cells.end() && static_cast<std::size_t>(*triangle) == c; ++triangle) {
+        is_triangle = true;
+      }
+      if (is_triangle) {
+        continue;
+      }
+      if (is_straight_line(cells.types[c]) && cells[c].size() >= 2) {
+        line_cells.push_back(static_cast<std::int32_t>(c));
+        continue;
+      }
+      for (const std::int32_t v : cells[c]) {
+        found.in_other_cell[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+    ValueNumbers tags;
+    tags.of_item.assign(line_cells.size(), 0);
+    for (const DataArray& array : document.cell_arrays) {
+      if (tells_lines_apart(array, regions)) {
+        tags = number_pairs(tags, number_values(array, line_cells));
+      }
+    }
+    for (std::size_t i = 0; i < line_cells.size(); ++i) {
+      const auto vertices = cells[static_cast<std::size_t>(line_cells[i])];
+      for (std::size_t j = 0; j + 1 < vertices.size(); ++j) {
+        found.lines.insert(found.lines.end(), {vertices[j], vertices[j + 1]});
+        found.tags.push_back(tags.of_item[i]);
+      }
+    }
+  }
+  for (const auto& [first, second] : document.periodic_pairs) {
+    found.links.insert(found.links.end(), {first, second});
+  }
+  return found;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,40 @@
+#include "trismooth/quality/region_area.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace trismooth {
+
+namespace {
+
+struct CompensatedSum {
+  double sum = 0;
+  double lost = 0;
+
+  void add(double value) {
+    const double total = sum + value;
+    lost += std::abs(sum) >= std::abs(value) ? (sum - total) + value : (value - total) + sum;
+    sum = total;
+  }
+};
+
+}  // namespace
+
+std::vector<double> region_areas(const TriangleView& view, std::span<const std::int32_t> region_of,
+                                 std::int32_t region_count) {
+  std::vector<CompensatedSum> sums(static_cast<std::size_t>(region_count));
+  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
+    const auto [a, b, c] = canonical_corners(view, t);
+    const auto at = [&](std::int32_t v) { return view.points[static_cast<std::size_t>(v)]; };
+    CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[t])];
+    sum.add(cross(at(b) - at(a), at(c) - at(a)) / 2);
+  }
+  std::vector<double> areas;
+  areas.reserve(sums.size());
+  for (const CompensatedSum& sum : sums) {
+    areas.push_back(sum.sum + sum.lost);
+  }
+  return areas;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/constraints.h"
+
+namespace trismooth {
+
+class Workers;
+
+/// What is to be known of a mesh's connectivity for vertices to slide, wherever they are. Vertices are numbered here
+/// from 0 in the order of `vertices`, which are those of the triangles around the vertices that may slide.
+struct Slidable {
+  static constexpr std::int32_t none = -1;
+
+  std::vector<std::int32_t> vertices;  ///< their numbers in the mesh, ascending
+  std::vector<std::uint8_t> is_free;   ///< one flag a vertex: it moves in the plane
+  /// Per vertex: the two that it has on its chain, the smaller one first; none where it cannot slide.
+  std::vector<std::array<std::int32_t, 2>> neighbours;
+  std::vector<Triangle> triangles;             ///< with a vertex that may slide, as they are listed
+  std::vector<std::int32_t> triangle_numbers;  ///< of these in the mesh
+  std::vector<std::array<std::int32_t, 2>> links;
+
+  Slide along = Slide::off;
+  double corner_angle = 0;  ///< in degrees
+  double deviation = 0;
+  SlideCurve curve = SlideCurve::polyline;
+  bool coincident = false;
+
+  bool may_slide(std::int32_t vertex) const { return neighbours[static_cast<std::size_t>(vertex)][0] != none; }
+  /// Whether any vertex may slide.
+  bool any() const { return !triangles.empty(); }
+  /// Takes the vertices that may slide out of the fixed ones. `fixed`: as MeshRings::fixed.
+  std::vector<std::uint8_t> truly_fixed(std::span<const std::uint8_t> fixed) const;
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertices.size()); }
+};
+
+/// Finds which vertices may slide as far as connectivity says it: those that nothing but a boundary, an interface or a
+/// line holds, and where exactly two edges of such meet that have the same regions on their sides and the same tag.
+/// None where constraints.slide says off. `fixed`: as MeshRings::fixed; the constraints have been checked. Complexity:
+/// linear, and n log n in the triangles of held vertices.
+Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
+                       const Constraints& constraints, Workers& workers);
+
+}  // namespace trismooth

@@ -1,0 +1,67 @@
+#include "trismooth/smoothing/slide/packed_slidable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "trismooth/base/bulk_memory.h"
+
+namespace trismooth {
+
+PackedSlidable::PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed,
+                               std::span<const std::int32_t> input_index)
+    : slidable_(std::move(slidable)) {
+  for (const std::int32_t t : slidable_.triangle_numbers) {
+    reversed_.push_back(reversed[static_cast<std::size_t>(t)]);
+  }
+  constexpr std::int32_t not_one = -1;
+  std::vector<std::int32_t> places(input_index.size(), not_one);
+  for (std::int32_t i = 0; i < slidable_.vertex_count(); ++i) {
+    places[static_cast<std::size_t>(slidable_.vertices[static_cast<std::size_t>(i)])] = i;
+  }
+  numbers_.resize(slidable_.vertices.size());
+  for (std::size_t v = 0; v < input_index.size(); ++v) {
+    if (const std::int32_t place = places[static_cast<std::size_t>(input_index[v])]; place != not_one) {
+      numbers_[static_cast<std::size_t>(place)] = static_cast<std::int32_t>(v);
+    }
+  }
+}
+
+SlideChains PackedSlidable::chains(std::span<const Point2<double>> stored, std::span<const Point2<double>> local,
+                                   Storage storage, const LocalFrame& frame) const {
+  std::vector<Point2<double>> points(numbers_.size());
+  std::vector<double> roundings(numbers_.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point2<double> at = stored[static_cast<std::size_t>(slidable_.vertices[i])];
+    points[i] = local[static_cast<std::size_t>(numbers_[i])];
+    // A coordinate is stored to half a unit in its last place; that of the smallest numbers has a size of its own.
+    const double farthest = std::max(std::abs(at.x), std::abs(at.y));
+    const double half_unit =
+        storage == Storage::float64 ? std::max(0x1p-53 * farthest, 0x1p-1074) : std::max(0x1p-24 * farthest, 0x1p-149);
+    // Of both axes, and of three vertices:
+    roundings[i] = 4 * local_frame_details::scaled(half_unit, -frame.exponent);
+  }
+  return find_slide_chains(slidable_, {points, numbers_, reversed_, roundings});
+}
+
+std::vector<SlidVertex> slid_vertices(const SlideChains& chains, std::span<const SlidePlace> places,
+                                      const LocalFrame& frame, Storage storage) {
+  const SlideView view = chains.view();
+  std::vector<SlidVertex> slid;
+  for (const Slider& slider : chains.sliders) {
+    const SlidePlace& place = places[static_cast<std::size_t>(slider.knot)];
+    if (place.arc == chains.places[static_cast<std::size_t>(slider.knot)].arc) {
+      continue;
+    }
+    const ChainCurve curve(view, slider.chain);
+    for (std::int32_t copy = 0; copy < curve.chain().copies; ++copy) {
+      const std::int32_t v = chains.vertices[static_cast<std::size_t>(slider.knot + copy * curve.chain().count)];
+      slid.push_back({v, rounded_to(storage, frame.leave(curve.position(place, copy), largest_stored(storage)))});
+    }
+  }
+  std::ranges::sort(slid, {}, &SlidVertex::vertex);
+  return slid;
+}
+
+}  // namespace trismooth

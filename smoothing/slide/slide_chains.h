@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/rings/held_neighbours.h"
+#include "trismooth/smoothing/rings/slidable.h"
+#include "trismooth/smoothing/slide/slide_update.h"
+#include "trismooth/smoothing/slide/slide_view.h"
+
+namespace trismooth {
+
+/// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views.
+struct SlideChains {
+  std::vector<SlideChain> chains;
+  std::vector<Point2<double>> knots;
+  std::vector<std::int32_t> vertices;
+  std::vector<double> arcs;              ///< one a knot of all copies; those of the first copy count
+  std::vector<double> lengths;           ///< likewise: of the shorter one of both segments
+  std::vector<double> limits;            ///< likewise: how far the new line may be from the knot before it is stored...
+  std::vector<double> allowed;           ///< ...and how far it may be then: rounding, of what is stored, is between
+  std::vector<Slider> sliders;           ///< by colour: those of one may be updated at the same time
+  std::vector<std::int32_t> batches{0};  ///< colour c has sliders batches[c] .. batches[c + 1]
+  std::vector<std::int32_t> fans{0};
+  std::vector<FanSide> sides;
+  std::vector<SlidePlace> places;  ///< of the knots themselves
+  /// The triangles with a vertex that may slide, as far as connectivity says it, and none that is free: no one-ring has
+  /// them. In canonical order.
+  std::vector<Triangle> held_triangles;
+  SlideCurve curve = SlideCurve::polyline;
+
+  bool any() const { return !sliders.empty(); }
+  /// How many vertices slide, those of all copies.
+  std::int64_t vertex_count() const;
+  /// The smallest shape quotient of held_triangles, and how many of them are inverted or degenerate. `points`: of all
+  /// vertices by the numbers that they have here.
+  template <class T>
+  T smallest_quotient(std::span<const Point2<T>> points) const {
+    T smallest = std::numeric_limits<T>::infinity();
+    for (const auto& [a, b, c] : held_triangles) {
+      smallest = std::min(smallest, shape_quotient(points[a], points[b], points[c]));
+    }
+    return smallest;
+  }
+  std::int64_t inverted(std::span<const Point2<double>> points) const {
+    return std::ranges::count_if(held_triangles, [&](const Triangle& corners) {
+      return !(shape_quotient(points[corners[0]], points[corners[1]], points[corners[2]]) > 0);
+    });
+  }
+  /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
+  HeldNeighbours neighbours(std::int32_t first, std::int32_t end) const;
+  SlideView view() const {
+    return {chains.data(),  knots.data(), vertices.data(), arcs.data(), limits.data(),
+            sliders.data(), fans.data(),  sides.data(),    curve};
+  }
+};
+
+/// Where the vertices of a Slidable are, and how they are to be numbered.
+struct SlideMesh {
+  std::span<const Point2<double>> points;  ///< of its vertices, in the local frame
+  std::span<const std::int32_t> numbers;   ///< of its vertices in the result; the triangles' canonical order is by
+                                           ///< Slidable::vertices still
+  std::span<const std::uint8_t> reversed;  ///< one flag a triangle of the Slidable, as MeshRings::reversed
+  std::span<const double> roundings;  ///< how far rounding may have brought each point from where it was meant to be
+};
+
+/// Finds the chains: which vertices turn too much to slide on them, which lie in the same place as others, which are
+/// linked; in what order they are visited (greedy colouring, as colour_free_vertices() does it). Complexity: n log n in
+/// the vertices that may slide.
+SlideChains find_slide_chains(const Slidable& slidable, const SlideMesh& mesh);
+
+}  // namespace trismooth

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/smoothing/slide/slide_chains.h"
+
+namespace trismooth {
+
+/// How far the lines of a result are from those of the input.
+struct LineDeviation {
+  double distance = 0;  ///< the largest, in the local frame
+  double relative = 0;  ///< the largest part of the length of the edge nearby
+};
+
+/// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements,
+/// this is for lines, and for the triangles that no one-ring has. Whoever is linked goes back together.
+class SlideGuard {
+ public:
+  /// `places`: where the vertices are on their chains, by knot. `before` and `after` are all packed vertices as they
+  /// were stored and as they would be, in the local frame. All outlive it. `guards_triangles`: else lines alone.
+  SlideGuard(const SlideChains& chains, std::span<SlidePlace> places, std::span<const Point2<double>> before,
+             std::span<Point2<double>> after, bool guards_triangles);
+
+  /// Puts back in rounds, until nothing is beyond what is allowed. Vertices that somebody else has put back in `after`
+  /// since are taken for what they are. Adds the vertices that went back to `reverted`. Returns the rounds.
+  /// Complexity of a round: linear in the knots.
+  std::int64_t settle(std::vector<std::int32_t>& reverted);
+
+  LineDeviation deviation() const;
+  /// Vertices that are elsewhere on their chains.
+  std::int64_t slid_vertices() const;
+
+ private:
+  bool has_slid(const Slider& slider) const;
+  bool put_back(std::int32_t slider, std::vector<std::int32_t>& reverted);
+  bool settle_links(std::vector<std::int32_t>& reverted);
+  bool settle_lines(std::vector<std::int32_t>& reverted);
+  bool settle_triangles(std::vector<std::int32_t>& reverted);
+  template <class Visit>
+  void for_edges(const std::vector<double>& limits, const Visit& visit) const;
+
+  const SlideChains& chains_;
+  SlideView view_;
+  std::span<SlidePlace> places_;
+  std::span<const Point2<double>> before_;
+  std::span<Point2<double>> after_;
+  bool guards_triangles_;
+  std::vector<std::int32_t> slider_at_;  ///< of each knot of the first copies; -1: it is an end
+};
+
+}  // namespace trismooth

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/smoothing/methods/mean_ratio_targets.h"
+#include "trismooth/smoothing/slide/slide_update.h"
+
+namespace trismooth {
+
+/// What the mean-ratio method aims at around a slider, from the mesh as it is before the first sweep. `points(v)`: the
+/// position of a packed vertex; `mesh`: what its free vertices have in common; `asked`: MeanRatioTargets::inverse_areas
+/// of the vertex, where sizes are asked for, else 0.
+template <class Points>
+TRISMOOTH_HOST_DEVICE FanTarget fan_target(const SlidingVertex<Points>& vertex, const MeanRatioMesh& mesh,
+                                           double asked) {
+  double areas = 0;
+  double largest_share = 0;
+  int count = 0;
+  vertex.for_sides(vertex.own(), [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+    const Point2<double> a = vertex.point(side.from) - position;
+    const Point2<double> b = vertex.point(side.to) - position;
+    const double area = cross(a, b);
+    ++count;
+    if (area > 0) {
+      areas += area;
+      const double share = share_of_error(area, squared_length(a) + squared_length(b) + squared_length(b - a));
+      largest_share = share > largest_share ? share : largest_share;
+    }
+  });
+  const double mean_area = areas / static_cast<double>(count);
+  if (asked > 0) {
+    return {asked, growth_bound(largest_share, 1 / asked, mesh)};
+  }
+  return {inverse_target_area(mean_area, mesh), growth_bound(largest_share, mean_area, mesh)};
+}
+
+}  // namespace trismooth

@@ -1,0 +1,323 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/mean_ratio.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/methods/weighted_laplacian.h"
+#include "trismooth/smoothing/slide/slide_curve.h"
+#include "trismooth/smoothing/slide/slide_deviation.h"
+
+/// What a method says of a vertex that slides: the same as of a free one, in one variable, the arc. All in double,
+/// whatever the precision of the sweeps.
+namespace trismooth {
+
+/// Where the sliding vertices are, by knot of the first copies. Those that do not slide are at their own knot.
+struct SlidePlaces {
+  SlidePlace* places = nullptr;
+
+  TRISMOOTH_HOST_DEVICE SlidePlace& operator[](std::int32_t knot) const { return places[knot]; }
+};
+
+/// What the mean-ratio method knows of a fan, as MeanRatioTargets of a free vertex.
+struct FanTarget {
+  double inverse_area;
+  double largest_share;
+};
+
+/// What a vertex that slides does.
+struct SlideMove {
+  SlidePlace place;
+  bool moved;
+  double squares;  ///< see VertexMove, of all copies
+  int neighbours;  ///< likewise
+};
+
+/// One slider and its surroundings. `Points`: points(v) is the position of a packed vertex.
+template <class Points>
+class SlidingVertex {
+ public:
+  TRISMOOTH_HOST_DEVICE SlidingVertex(const SlideView& view, const SlidePlaces& places, const Slider& slider,
+                                      const Points& points)
+      : view_(view), slider_(slider), points_(points), curve_(view, slider.chain), own_(places[slider.knot]) {
+    const SlideChain& chain = curve_.chain();
+    const std::int32_t i = slider.knot - chain.first;
+    // The places of a closed chain are counted on from its first knot, which those beyond the seam do not know.
+    const auto shifted = [&](std::int32_t knot, std::int32_t rounds) {
+      const SlidePlace& place = places[chain.first + knot];
+      return SlidePlace{place.arc + static_cast<double>(rounds) * chain.length, place.segment + rounds * chain.count};
+    };
+    before_ = i > 0 ? shifted(i - 1, 0) : shifted(chain.count - 1, -1);
+    after_ = i + 1 < chain.count ? shifted(i + 1, 0) : shifted(0, 1);
+  }
+
+  TRISMOOTH_HOST_DEVICE const ChainCurve& curve() const { return curve_; }
+  TRISMOOTH_HOST_DEVICE const SlidePlace& own() const { return own_; }
+  TRISMOOTH_HOST_DEVICE const SlidePlace& before() const { return before_; }
+  TRISMOOTH_HOST_DEVICE const SlidePlace& after() const { return after_; }
+  TRISMOOTH_HOST_DEVICE std::int32_t copies() const { return curve_.chain().copies; }
+  TRISMOOTH_HOST_DEVICE Point2<double> point(std::int32_t v) const { return points_(v); }
+
+  /// Whether it may be at this place: between its neighbours on the chain, and the line no further from the old one
+  /// than it may be.
+  TRISMOOTH_HOST_DEVICE bool may_be_at(const SlidePlace& place) const {
+    if (!(place.arc > before_.arc && place.arc < after_.arc)) {
+      return false;
+    }
+    for (std::int32_t copy = 0; copy < copies(); ++copy) {
+      const Point2<double> here = curve_.position(place, copy);
+      const EdgeDeviation first = deviation_of(curve_, copy, before_, curve_.position(before_, copy), place, here);
+      const EdgeDeviation second = deviation_of(curve_, copy, place, here, after_, curve_.position(after_, copy));
+      if (!(first.share <= 1 && second.share <= 1)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The place at `arc`, or if it may not be there the one half as far away, and so on; its own where that becomes
+  /// next to nothing.
+  TRISMOOTH_HOST_DEVICE SlidePlace as_far_as_it_may(double arc) const {
+    const double least = 0x1p-10 * (after_.arc - before_.arc);
+    double step = arc - own_.arc;
+    for (int tries = 0; tries < most_halvings; ++tries) {
+      const SlidePlace place = curve_.at(own_.arc + step, own_.segment);
+      if (may_be_at(place)) {
+        return place;
+      }
+      step = 0.5 * step;
+      if (!(std::abs(step) > least)) {
+        break;
+      }
+    }
+    return own_;
+  }
+
+  /// Calls visit(copy, position, side) for all triangles of all copies where it is at `place`.
+  template <class Visit>
+  TRISMOOTH_HOST_DEVICE void for_sides(const SlidePlace& place, const Visit& visit) const {
+    for (std::int32_t copy = 0; copy < copies(); ++copy) {
+      const Point2<double> position = curve_.position(place, copy);
+      const std::int32_t fan = slider_.fan + copy;
+      for (std::int32_t i = view_.fans[fan]; i < view_.fans[fan + 1]; ++i) {
+        visit(copy, position, view_.sides[i]);
+      }
+    }
+  }
+
+  /// The smallest shape quotient of its triangles, and how many are inverted.
+  TRISMOOTH_HOST_DEVICE double worst_quotient(const SlidePlace& place, int& inverted) const {
+    double worst = 1;
+    inverted = 0;
+    for_sides(place, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+      const double quotient = shape_quotient(position, point(side.from), point(side.to));
+      // A quotient that is no number is the worst.
+      worst = quotient >= worst ? worst : quotient;
+      inverted += quotient < 0 ? 1 : 0;
+    });
+    return worst;
+  }
+
+  TRISMOOTH_HOST_DEVICE SlideMove stays() const { return {own_, false, 0, 0}; }
+  TRISMOOTH_HOST_DEVICE SlideMove moves_to(const SlidePlace& place) const {
+    if (place.arc == own_.arc) {
+      return stays();
+    }
+    SlideMove move{place, true, 0, 0};
+    for_sides(own_, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+      move.squares += squared_length(point(side.from) - position);
+      ++move.neighbours;
+    });
+    return move;
+  }
+
+  /// To the place if the worst of its triangles gets better there and no more are inverted.
+  TRISMOOTH_HOST_DEVICE SlideMove smart_move(const SlidePlace& place) const {
+    int inverted_before = 0;
+    int inverted_after = 0;
+    const double before = worst_quotient(own_, inverted_before);
+    const double after = worst_quotient(place, inverted_after);
+    return after > before && inverted_after <= inverted_before ? moves_to(place) : stays();
+  }
+
+  TRISMOOTH_HOST_DEVICE double middle() const { return before_.arc + 0.5 * (after_.arc - before_.arc); }
+
+ private:
+  static constexpr int most_halvings = 10;
+
+  const SlideView& view_;
+  const Slider& slider_;
+  const Points& points_;
+  ChainCurve curve_;
+  SlidePlace own_;
+  SlidePlace before_{};  ///< the neighbours on the chain
+  SlidePlace after_{};
+};
+
+/// To the middle of its neighbours on the chain.
+template <class Points>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const Laplacian& /*method*/, const SlidingVertex<Points>& vertex,
+                                      const FanTarget& /*target*/) {
+  return vertex.moves_to(vertex.as_far_as_it_may(vertex.middle()));
+}
+
+/// The same if the worst of its triangles gets better (the paper's rule, section 3.3.4).
+template <class Points>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const SmartLaplacian& /*method*/, const SlidingVertex<Points>& vertex,
+                                      const FanTarget& /*target*/) {
+  return vertex.smart_move(vertex.as_far_as_it_may(vertex.middle()));
+}
+
+/// As length_weighted_position(), along the chain.
+template <class Points>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const WeightedLaplacian& /*method*/, const SlidingVertex<Points>& vertex,
+                                      const FanTarget& /*target*/) {
+  const double back = vertex.own().arc - vertex.before().arc;
+  const double on = vertex.after().arc - vertex.own().arc;
+  const double way = 2 * (on * on - back * back) / (3 * (back + on));
+  return vertex.smart_move(vertex.as_far_as_it_may(vertex.own().arc + way));
+}
+
+/// The energy of a fan along the chain.
+template <class T, bool shaped, bool is_last, class Points>
+class SlidingEnergy {
+ public:
+  TRISMOOTH_HOST_DEVICE SlidingEnergy(const MeanRatio<T, shaped, is_last>& method, const SlidingVertex<Points>& vertex,
+                                      const FanTarget& target)
+      : targets_(method.targets()),
+        vertex_(vertex),
+        target_(target),
+        energy_{is_last ? targets_.scales->power : 1, static_cast<double>(targets_.scales->size_weight),
+                static_cast<double>(targets_.scales->least_quotient)} {}
+
+  /// The derivatives by the arc, on either side of a place that is at a knot.
+  struct Expansion {
+    double value = 0;
+    double back_slope = 0, back_curvature = 0;
+    double on_slope = 0, on_curvature = 0;
+    bool is_valid = true;
+  };
+
+  TRISMOOTH_HOST_DEVICE Expansion expansion(const SlidePlace& place) const {
+    Expansion found;
+    // Before the knot that the place is at, if it is at one that it can come over.
+    const ChainCurve& curve = vertex_.curve();
+    const bool at_knot = place.arc == curve.arc(place.segment) && (curve.chain().is_closed || place.segment > 0);
+    const SlidePlace back{place.arc, at_knot ? place.segment - 1 : place.segment};
+    vertex_.for_sides(place, [&](std::int32_t copy, Point2<double> position, const FanSide& side) {
+      const SideTerms<double, 7> terms = energy_.expansion(triangle(position, side));
+      found.value += terms.values[0];
+      found.is_valid = found.is_valid && terms.margin > 0;
+      add(terms, curve.tangent(place, copy), found.on_slope, found.on_curvature);
+      add(terms, curve.tangent(back, copy), found.back_slope, found.back_curvature);
+    });
+    return found;
+  }
+
+  /// Whether the energy is smaller than `value` at the place, every triangle positive and none beyond the growth bound
+  /// that was not.
+  TRISMOOTH_HOST_DEVICE bool is_better_at(const SlidePlace& place, double value) const {
+    double sum = 0;
+    bool good = true;
+    double largest = 0;
+    vertex_.for_sides(place, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+      const SideTerms<double, 1> terms = energy_.value(triangle(position, side));
+      sum += terms.values[0];
+      good = good && terms.margin > 0;
+      largest = terms.share > largest ? terms.share : largest;
+    });
+    return good && sum < value && (largest <= target_.largest_share || largest <= largest_share_now());
+  }
+
+  TRISMOOTH_HOST_DEVICE int power() const { return energy_.power; }
+
+ private:
+  static TRISMOOTH_HOST_DEVICE void add(const SideTerms<double, 7>& terms, Point2<double> along, double& slope,
+                                        double& curvature) {
+    slope += along.x * terms.values[1] + along.y * terms.values[2];
+    curvature += (along.x * along.x) * terms.values[3] + (along.y * along.y) * terms.values[5] +
+                 2 * (along.x * along.y) * terms.values[4];
+  }
+
+  TRISMOOTH_HOST_DEVICE double largest_share_now() const {
+    double largest = 0;
+    vertex_.for_sides(vertex_.own(), [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+      const double share = energy_.value(triangle(position, side)).share;
+      largest = share > largest ? share : largest;
+    });
+    return largest;
+  }
+
+  TRISMOOTH_HOST_DEVICE double inverse_area(std::int32_t v, bool is_unknown) const {
+    return is_unknown ? target_.inverse_area : static_cast<double>(targets_.inverse_areas[v]);
+  }
+
+  TRISMOOTH_HOST_DEVICE auto triangle(Point2<double> position, const FanSide& side) const {
+    const Point2<double> from = vertex_.point(side.from);
+    const Point2<double> to = vertex_.point(side.to);
+    const double areas = target_.inverse_area + inverse_area(side.from, side.from_is_unknown) +
+                         inverse_area(side.to, side.to_is_unknown);
+    return triangle_of<double>(spoke_to(from, position), spoke_to(to, position),
+                               side_between<double>(from, to, areas, metric(side)));
+  }
+
+  TRISMOOTH_HOST_DEVICE auto metric(const FanSide& side) const {
+    if constexpr (shaped) {
+      EdgeTensor<double> edges = widened(targets_.edges[side.from]);
+      edges.add(widened(targets_.edges[side.to]));
+      return metric_of(edges);
+    } else {
+      return EuclideanMetric<double>{};
+    }
+  }
+  static TRISMOOTH_HOST_DEVICE EdgeTensor<double> widened(const EdgeTensor<T>& tensor) {
+    return {static_cast<double>(tensor.xx), static_cast<double>(tensor.xy), static_cast<double>(tensor.yy)};
+  }
+
+  const MeanRatioTargets<T>& targets_;
+  const SlidingVertex<Points>& vertex_;
+  const FanTarget& target_;
+  MeanRatioEnergy<double, is_last ? 0 : 1> energy_;
+};
+
+/// One damped Newton step in the arc on the energy of the fan, as MeanRatio makes it in the plane.
+template <class T, bool shaped, bool is_last, class Points>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const MeanRatio<T, shaped, is_last>& method, const SlidingVertex<Points>& vertex,
+                                      const FanTarget& target) {
+  constexpr int most_tries = 4;
+  const SlidingEnergy<T, shaped, is_last, Points> energy(method, vertex, target);
+  const auto at = energy.expansion(vertex.own());
+  if (!at.is_valid) {
+    return slide(SmartLaplacian{}, vertex, target);
+  }
+  // At a kink the energy may fall on one side of it alone.
+  const bool goes_on = at.on_slope < 0;
+  const double slope = goes_on ? at.on_slope : at.back_slope;
+  const double curvature = goes_on ? at.on_curvature : at.back_curvature;
+  if (!(goes_on || slope > 0) || !(curvature > 0)) {
+    return vertex.stays();
+  }
+  const double newton = -slope / curvature;
+  const double gain = static_cast<double>(energy.power()) * -slope * newton;
+  if (!(gain > static_cast<double>(method.step().least_gain) * at.value)) {
+    return vertex.stays();
+  }
+  double length = static_cast<double>(method.step().relaxation);
+  for (int tries = 0; tries < most_tries; ++tries) {
+    const SlidePlace place = vertex.as_far_as_it_may(vertex.own().arc + length * newton);
+    if (place.arc == vertex.own().arc) {
+      break;
+    }
+    if (energy.is_better_at(place, at.value)) {
+      return vertex.moves_to(place);
+    }
+    length = length > 1 ? 1 : 0.5 * length;
+  }
+  return vertex.stays();
+}
+
+}  // namespace trismooth

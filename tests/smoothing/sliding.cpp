@@ -1,0 +1,339 @@
+// Sliding as the library offers it, on meshes whose lines are known.
+
+#include "trismooth/smoothing/sliding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/distorted_meshes.h"
+#include "support/same_bits.h"
+#include "support/test_meshes.h"
+
+using test_meshes::Mesh;
+using test_meshes::Point;
+using trismooth::Constraints;
+using trismooth::Method;
+using trismooth::Slide;
+using trismooth::SlideCurve;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+using trismooth::Triangle;
+
+namespace {
+
+constexpr std::int32_t side = 12;
+
+/// A grid whose inner vertices are off their places, and those on the sides along these.
+Mesh square_with_uneven_sides(std::uint64_t seed) {
+  test_meshes::Random random(seed);
+  return distorted_meshes::grid(side, [&](Point p) {
+    const double most = 0.4 / (side - 1);
+    const Point by{random.between(-most, most), random.between(-most, most)};
+    return Point{p.x > 0 && p.x < 1 ? p.x + by.x : p.x, p.y > 0 && p.y < 1 ? p.y + by.y : p.y};
+  });
+}
+
+/// Rings of `around` vertices from radius 0.3 to 1, those of each circle unevenly spaced on it.
+Mesh annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) {
+  test_meshes::Random random(seed);
+  Mesh mesh;
+  for (std::int32_t r = 0; r < rings; ++r) {
+    for (std::int32_t i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + random.between(-0.35, 0.35)) / around;
+      const double radius = 0.3 + 0.7 * r / (rings - 1);
+      mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  }
+  for (std::int32_t r = 0; r + 1 < rings; ++r) {
+    for (std::int32_t i = 0; i < around; ++i) {
+      const std::int32_t a = r * around + i;
+      const std::int32_t b = r * around + (i + 1) % around;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, a + around, b}, {b, a + around, b + around}});
+    }
+  }
+  return mesh;
+}
+
+struct Smoothed {
+  std::vector<double> xy;
+  SmoothingResult result;
+
+  Point at(std::int32_t v) const { return {xy[2 * v], xy[2 * v + 1]}; }
+};
+
+Smoothed smoothed(const Mesh& mesh, const Constraints& constraints, Method method = Method::mean_ratio) {
+  Smoothed found{mesh.xy(), {}};
+  SmoothingOptions options;
+  options.method = method;
+  found.result = trismooth::smooth(trismooth::xy_points(found.xy), mesh.indices(), constraints, options);
+  return found;
+}
+
+bool is_at(const Smoothed& found, const Mesh& mesh, std::int32_t v) {
+  return same_bits(found.xy[2 * v], mesh.points[v].x) && same_bits(found.xy[2 * v + 1], mesh.points[v].y);
+}
+
+std::string complaint(const Constraints& constraints) {
+  const Mesh mesh = square_with_uneven_sides(1);
+  try {
+    smoothed(mesh, constraints);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// The largest of | |p| - radius | over points and middles of the edges of a circle of vertices.
+double off_circle(const std::vector<Point>& circle, double radius) {
+  double most = 0;
+  for (std::size_t i = 0; i < circle.size(); ++i) {
+    const Point a = circle[i];
+    const Point b = circle[(i + 1) % circle.size()];
+    for (const Point p : {a, Point{(a.x + b.x) / 2, (a.y + b.y) / 2}}) {
+      most = std::max(most, std::abs(std::hypot(p.x, p.y) - radius));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("vertices of a square's sides slide, its corners stay, and the sides keep their coordinate to the bit") {
+  for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+    const Mesh mesh = square_with_uneven_sides(2);
+    Constraints constraints;
+    constraints.slide.along = Slide::straight;
+    const Smoothed found = smoothed(mesh, constraints, method);
+    REQUIRE(found.result.sliding);
+    CHECK(found.result.sliding->chains == 4);
+    CHECK(found.result.sliding->vertices == 4 * (side - 2));
+    CHECK(found.result.sliding->slid > side);
+    CHECK(found.result.sliding->largest_deviation < 1e-15);
+    for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+      const Point before = mesh.points[v];
+      for (const double wall : {0.0, 1.0}) {
+        CHECK((before.x != wall || found.at(v).x == wall));
+        CHECK((before.y != wall || found.at(v).y == wall));
+      }
+    }
+    for (const std::int32_t corner : {0, side - 1, side * (side - 1), side * side - 1}) {
+      CHECK(is_at(found, mesh, corner));
+    }
+  }
+}
+
+TEST_CASE("without being asked to nothing slides") {
+  const Mesh mesh = square_with_uneven_sides(3);
+  const Smoothed found = smoothed(mesh, {});
+  CHECK_FALSE(found.result.sliding);
+  for (std::int32_t v = 0; v < side; ++v) {
+    CHECK(is_at(found, mesh, v));
+  }
+}
+
+TEST_CASE("vertices of circles slide all round, no further from them than they may") {
+  constexpr std::int32_t around = 60;
+  constexpr std::int32_t rings = 8;
+  const Mesh mesh = annulus(around, rings, 4);
+  Constraints constraints;
+  constraints.slide.along = Slide::curves;
+  for (const double deviation : {1e-3, 1e-2, 0.1}) {
+    constraints.slide.deviation = deviation;
+    const Smoothed found = smoothed(mesh, constraints);
+    REQUIRE(found.result.sliding);
+    CHECK(found.result.sliding->chains == 2);
+    CHECK(found.result.sliding->vertices == 2 * around);
+    CHECK(found.result.sliding->slid > around);
+    CHECK(found.result.sliding->relative_deviation <= deviation);
+    CHECK(found.result.sliding->relative_deviation > 0.1 * deviation);
+    CHECK(found.result.sliding->largest_deviation <= deviation * 2 * std::numbers::pi / around * 1.7);
+  }
+  constraints.slide.along = Slide::straight;
+  const Smoothed straight = smoothed(mesh, constraints);
+  CHECK(straight.result.sliding->vertices == 0);
+}
+
+TEST_CASE("on the spline through its vertices a circle stays a circle, where edges would cut it") {
+  constexpr std::int32_t around = 200;
+  constexpr std::int32_t rings = 12;
+  const Mesh mesh = annulus(around, rings, 5);
+  Constraints constraints;
+  constraints.slide.along = Slide::curves;
+  constraints.slide.deviation = 0.05;
+  const auto outer = [&](SlideCurve curve) {
+    constraints.slide.curve = curve;
+    const Smoothed found = smoothed(mesh, constraints);
+    CHECK(found.result.sliding->slid > around);
+    CHECK(found.result.sliding->relative_deviation <= 0.05);
+    std::vector<Point> circle;
+    double off = 0;
+    for (std::int32_t v = (rings - 1) * around; v < rings * around; ++v) {
+      circle.push_back(found.at(v));
+      off = std::max(off, std::abs(std::hypot(found.at(v).x, found.at(v).y) - 1));
+    }
+    return std::pair(off, off_circle(circle, 1));
+  };
+  const auto [vertices_on_spline, edges_on_spline] = outer(SlideCurve::spline);
+  const auto [vertices_on_edges, edges_on_edges] = outer(SlideCurve::polyline);
+  CHECK(vertices_on_spline < 2e-6);  // a cubic of steps of 2 pi / 200
+  CHECK(vertices_on_edges > 1e-4);
+  CHECK(edges_on_spline < edges_on_edges);
+}
+
+TEST_CASE("linked sides stay equal to the bit, and slide") {
+  Mesh mesh = square_with_uneven_sides(6);
+  std::vector<std::int32_t> links;
+  for (std::int32_t i = 0; i < side; ++i) {
+    mesh.points[i * side + side - 1].y = mesh.points[i * side].y;  // right as left
+    mesh.points[(side - 1) * side + i].x = mesh.points[i].x;       // top as bottom
+    links.insert(links.end(), {i * side, i * side + side - 1, (side - 1) * side + i, i});
+  }
+  for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+    Constraints constraints;
+    constraints.slide.along = Slide::straight;
+    constraints.slide.links = links;
+    const Smoothed found = smoothed(mesh, constraints, method);
+    CHECK(found.result.sliding->chains == 2);
+    CHECK(found.result.sliding->vertices == 4 * (side - 2));
+    CHECK(found.result.sliding->slid > side);
+    for (std::int32_t i = 0; i < side; ++i) {
+      CHECK(same_bits(found.at(i * side).y, found.at(i * side + side - 1).y));
+      CHECK(same_bits(found.at(i).x, found.at((side - 1) * side + i).x));
+      CHECK(found.at(i * side).x == 0);
+      CHECK(found.at(i * side + side - 1).x == 1);
+    }
+  }
+}
+
+TEST_CASE("sides that are linked in part stay, and so does what a link holds inside") {
+  const Mesh mesh = square_with_uneven_sides(7);
+  Constraints constraints;
+  constraints.slide.along = Slide::straight;
+  const std::int32_t inside = 5 * side + 5;
+  const std::vector<std::int32_t> links{3 * side, 3 * side + side - 1, inside, inside + 2};
+  constraints.slide.links = links;
+  const Smoothed found = smoothed(mesh, constraints);
+  for (const std::int32_t v : links) {
+    CHECK(is_at(found, mesh, v));
+  }
+}
+
+TEST_CASE("tags end lines, contradicting tags hold, and lines inside a region are slid on") {
+  test_meshes::Random random(8);
+  const Mesh mesh = distorted_meshes::grid(side, [&random](Point p) {
+    const double off = 0.3 / (side - 1) * random.between(-1, 1);
+    return Point{p.x > 0 && p.x < 1 ? p.x + off : p.x, p.y};
+  });
+  // The bottom in two parts, and row 5 inside as a line.
+  std::vector<std::int32_t> lines;
+  std::vector<std::int32_t> tags;
+  for (std::int32_t i = 0; i + 1 < side; ++i) {
+    lines.insert(lines.end(), {i, i + 1});
+    tags.push_back(i < 4 ? 7 : 8);
+    lines.insert(lines.end(), {5 * side + i, 5 * side + i + 1});
+    tags.push_back(9);
+  }
+  Constraints constraints;
+  constraints.slide.along = Slide::straight;
+  constraints.slide.lines = lines;
+  constraints.slide.line_tags = tags;
+  const Smoothed found = smoothed(mesh, constraints);
+  CHECK(is_at(found, mesh, 4));
+  // Four sides, of which one is in two parts, and two of which the line inside divides; and that.
+  CHECK(found.result.sliding->chains == 8);
+  CHECK(found.result.sliding->slid > side);
+  for (std::int32_t i = 0; i < side; ++i) {
+    CHECK(found.at(5 * side + i).y == mesh.points[5 * side + i].y);
+  }
+  lines.insert(lines.end(), {8, 9});  // once more, with another tag
+  tags.push_back(1);
+  constraints.slide.lines = lines;
+  constraints.slide.line_tags = tags;
+  const Smoothed contradicting = smoothed(mesh, constraints);
+  CHECK(is_at(contradicting, mesh, 8));
+  CHECK(is_at(contradicting, mesh, 9));
+  constraints.slide.along = Slide::off;
+  const Smoothed held = smoothed(mesh, constraints);
+  CHECK_FALSE(held.result.sliding);
+  CHECK(is_at(held, mesh, 5 * side + 5));
+}
+
+TEST_CASE("the faces of a crack slide only if asked to, and then together") {
+  // A square whose middle row is there twice, between columns 2 and side - 3, each face with its own triangles.
+  Mesh mesh = square_with_uneven_sides(9);
+  const std::int32_t row = 6;
+  for (std::int32_t i = 0; i < side; ++i) {
+    mesh.points[row * side + i].y = 0.5;
+  }
+  std::vector<std::pair<std::int32_t, std::int32_t>> faces;
+  for (std::int32_t i = 3; i < side - 3; ++i) {
+    const std::int32_t below = row * side + i;
+    const std::int32_t above = mesh.vertex_count();
+    mesh.points.push_back(mesh.points[below]);
+    faces.emplace_back(below, above);
+    for (Triangle& triangle : mesh.triangles) {
+      if (std::ranges::all_of(triangle, [&](std::int32_t v) { return v >= row * side; })) {
+        std::ranges::replace(triangle, below, above);
+      }
+    }
+  }
+  Constraints constraints;
+  constraints.slide.along = Slide::straight;
+  const Smoothed apart = smoothed(mesh, constraints);
+  constraints.slide.coincident = true;
+  const Smoothed together = smoothed(mesh, constraints);
+  int slid = 0;
+  for (const auto& [below, above] : faces) {
+    CHECK(is_at(apart, mesh, below));
+    CHECK(is_at(apart, mesh, above));
+    CHECK(together.at(below) == together.at(above));
+    CHECK(together.at(below).y == 0.5);
+    slid += is_at(together, mesh, below) ? 0 : 1;
+  }
+  CHECK(slid > 0);
+}
+
+TEST_CASE("a line of one edge has nothing that slides, and one of two edges a vertex") {
+  const Mesh one{{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}};
+  Constraints constraints;
+  constraints.slide.along = Slide::curves;
+  constraints.slide.corner_angle = 10;
+  CHECK(smoothed(one, constraints).result.sliding->vertices == 0);
+  const Mesh two{{{0, 0}, {0.2, 0}, {1, 0}, {0.5, 1}}, {{0, 1, 3}, {1, 2, 3}}};
+  const Smoothed found = smoothed(two, constraints);
+  CHECK(found.result.sliding->vertices == 1);
+  CHECK(std::abs(found.at(1).x - 0.5) < 0.01);
+  CHECK(found.at(1).y == 0);
+}
+
+TEST_CASE("numbers of sliding that are none are refused by name") {
+  Constraints constraints;
+  constraints.slide.along = Slide::straight;
+  constraints.slide.corner_angle = -1;
+  CHECK(complaint(constraints) == "the corner angle of sliding is to be from 0 to 180 degrees");
+  constraints.slide.corner_angle = 30;
+  constraints.slide.deviation = std::nan("");
+  CHECK(complaint(constraints) == "the deviation of sliding is to be from 0 to 1 edge lengths");
+  constraints.slide.deviation = 0;
+  const std::vector<std::int32_t> odd{0, 1, 2};
+  constraints.slide.lines = odd;
+  CHECK(complaint(constraints) == "Sliding::lines has 3 entries, expected two vertices for each");
+  const std::vector<std::int32_t> beyond{0, side * side};
+  constraints.slide.lines = {};
+  constraints.slide.links = beyond;
+  CHECK(complaint(constraints) == "Sliding::links: vertex 144 is not one of the 144 vertices");
+  const std::vector<std::int32_t> edge{0, 1};
+  constraints.slide.links = {};
+  constraints.slide.lines = edge;
+  constraints.slide.line_tags = odd;
+  CHECK(complaint(constraints) == "Sliding::line_tags has 3 entries, expected 1 or none");
+}
