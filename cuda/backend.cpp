@@ -21,6 +21,7 @@
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/runtime/host_copy.h"
 #include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
 #include "trismooth/smoothing/backend.h"
@@ -80,8 +81,12 @@ class RingSmoother final : public PreparedSmoother {
         is_guarded_(options.guard) {
     const Stopwatch watch;
     smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
+    if (mesh.slidable.any()) {
+      smoother_->slide_on(mesh.slidable, mesh.slidable.flags_of_triangles(mesh.reversed));
+    }
+    is_to_slide_ = mesh.slidable.is_wanted();
     if (options.untangles()) {
-      untangling_.emplace(mesh.fixed, triangles, options);
+      untangling_.emplace(mesh.fixed, triangles, options, mesh.slidable);
       reversed_ = mesh.reversed;
     }
     if (options.measures_shape() || options.untangles()) {
@@ -109,6 +114,9 @@ class RingSmoother final : public PreparedSmoother {
       result.untangling =
           fixed_quotient > 0 && is_guarded_ ? UntanglingResult{} : untangling_->not_tangled(reversed_, points, frame);
     }
+    if (is_to_slide_ && !result.sliding) {
+      result.sliding.emplace();
+    }
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }
@@ -131,6 +139,7 @@ class RingSmoother final : public PreparedSmoother {
   std::optional<HostUntangling> untangling_;  ///< where the mesh may have to be untangled
   std::vector<std::uint8_t> reversed_;        ///< likewise; as MeshRings::reversed
   bool is_guarded_;
+  bool is_to_slide_ = false;  ///< vertices along lines, if there are any
   std::unique_ptr<DeviceSmoother> smoother_;
   double prepare_ms_ = 0;  ///< until a call has reported it
 };
@@ -194,7 +203,10 @@ class CudaBackend final : public Backend {
                                                  const SmoothingOptions& options) const override {
     options.validate();
     require_device();
-    if (mesh.slidable.any()) {
+    if (mesh.slidable.is_wanted()) {
+      require_sliding(options);
+    }
+    if (mesh.slidable.any() && (!can_slide(options) || mesh.rings.neighbours.empty())) {
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
     return std::make_unique<RingSmoother>(mesh, triangles, local, options);
@@ -211,6 +223,9 @@ class CudaBackend final : public Backend {
                                                  const SmoothingOptions& options) const override {
     options.validate();
     require_device();
+    if (constraints.slide.along != Slide::off && !can_slide(options)) {
+      return nullptr;
+    }
     return std::make_unique<TriangleSmoother>(vertex_count, triangles, constraints, options);
   }
 };

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "trismooth/smoothing/sliding.h"
+
 namespace trismooth::cuda {
 
 /// What the caller holds fixed, in device memory of the caller's; null where there is nothing. See
@@ -12,6 +14,7 @@ struct DeviceConstraints {
   const std::int32_t* fixed_ids = nullptr;    ///< vertex numbers
   std::int32_t fixed_id_count = 0;
   const std::int32_t* regions = nullptr;  ///< one number a triangle
+  Sliding slide{};                        ///< which vertices slide; lines and links, which name vertices, must be none
 };
 
 }  // namespace trismooth::cuda

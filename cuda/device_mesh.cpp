@@ -20,6 +20,8 @@
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
+#include "trismooth/cuda/slide/held_points.h"
+#include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/device_topology.h"
 
 namespace trismooth::cuda {
@@ -58,6 +60,7 @@ class Plan::Implementation {
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
                   neighbour_search(options.execution)),
+        slidable_(topology_.find_slidable(mesh.constraints.regions, mesh.constraints.slide)),
         extent_(context_) {}
 
   SmoothingResult smooth(double* xy, Storage storage) {
@@ -91,9 +94,17 @@ class Plan::Implementation {
     }
     const double preparing_ms = watch.milliseconds();
     const bool is_tangled = options_.untangles() && smoother_->is_tangled(stored, extent_.frame());
-    SmoothingResult result =
-        is_tangled ? untangle(stored, storage) : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
-    if (options_.untangles() && !is_tangled) {
+    const bool slides_alone = slidable_.any() && !smoother_->has_free_vertices();
+    const bool goes_to_host = is_tangled || slides_alone;
+    SmoothingResult result = goes_to_host ? smooth_on_host(stored, storage)
+                                          : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
+    if (goes_to_host && !is_tangled) {
+      result.backend_note = "all vertices are held to lines, on which the CPU moves them";
+    }
+    if (slidable_.is_wanted() && !result.sliding) {
+      result.sliding.emplace();
+    }
+    if (options_.untangles() && !goes_to_host) {
       result.untangling = fixed_quotient > 0 && options_.guard ? UntanglingResult{} : not_tangled(stored);
     }
     result.timings.prepare = preparing_ms;
@@ -106,7 +117,7 @@ class Plan::Implementation {
     static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
     const std::vector<Triangle> triangles =
         download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
-    return {fixed(), triangles, options_};
+    return {fixed(), triangles, options_, slidable_};
   }
 
   /// Counts what is inverted all the same: triangles without a free vertex, or those that no guard has watched.
@@ -117,7 +128,7 @@ class Plan::Implementation {
   }
 
   /// Takes the mesh to the host and back.
-  SmoothingResult untangle(Point2<double>* stored, Storage storage) {
+  SmoothingResult smooth_on_host(Point2<double>* stored, Storage storage) {
     const auto vertices = static_cast<std::size_t>(vertex_count_);
     std::vector<Point2<double>> points = download(context_, static_cast<const Point2<double>*>(stored), vertices);
     SmoothingResult result = host_untangling().smooth(points, storage, download(context_, extent_.frame()));
@@ -144,8 +155,16 @@ class Plan::Implementation {
     }
     if (smoother_ == nullptr) {
       smoother_ = make_device_smoother(context_, topology_.rings(), std::move(local), options_);
+      if (slidable_.any() && smoother_->has_free_vertices()) {
+        smoother_->slide_on(slidable_, reversed_of_slidable());
+      }
       context_.synchronize();
     }
+  }
+
+  std::vector<std::uint8_t> reversed_of_slidable() {
+    const DeviceBuffer<std::int32_t> numbers(context_, slidable_.triangle_numbers);
+    return gather_bytes(context_, topology_.reversed(), numbers);
   }
 
   std::int32_t vertex_count_;
@@ -154,6 +173,7 @@ class Plan::Implementation {
   SmoothingOptions options_;
   Context context_;
   DeviceTopology topology_;
+  Slidable slidable_;
   ExtentFinder extent_;
   std::unique_ptr<DeviceSmoother> smoother_;
 };
@@ -161,6 +181,17 @@ class Plan::Implementation {
 Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream) {
   options.validate();
   check_mesh_size(mesh.vertex_count, mesh.triangle_count);
+  const Sliding& slide = mesh.constraints.slide;
+  slide.validate();
+  if (slide.names_vertices()) {
+    throw std::invalid_argument("DeviceConstraints::slide has lines or links, which are for meshes of the host");
+  }
+  if (slide.along != Slide::off) {
+    require_sliding(options);
+    if (!can_slide(options)) {
+      throw std::invalid_argument("target_quality and record_min_shape are not to be had on a device with slide");
+    }
+  }
   if (mesh.constraints.fixed_id_count < 0) {
     throw std::invalid_argument("DeviceConstraints::fixed_id_count is negative");
   }

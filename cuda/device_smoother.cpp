@@ -17,6 +17,8 @@
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/packing/packed_rings.h"
 #include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/slide/device_slide.h"
+#include "trismooth/cuda/slide/slide_pass.h"
 #include "trismooth/cuda/sweep_engine.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
@@ -83,10 +85,16 @@ class SweepDriver final : public DeviceSmoother {
     if (order_.free_count() > 0) {
       engine_.emplace(make_sweep_engine<T>(context, order_, std::move(mesh.rings), options));
       if (options.guard) {
-        guard_buffers_ = GuardBuffers(context, order_.free_count());
+        guard_buffers_ = GuardBuffers(context, order_.free_count(), order_.vertex_count());
       }
     }
   }
+
+  void slide_on(Slidable slidable, std::vector<std::uint8_t> reversed) override {
+    slide_.emplace(context_, order_, std::move(slidable), std::move(reversed));
+  }
+
+  bool has_free_vertices() const override { return engine_.has_value(); }
 
   bool is_tangled(const Point2<double>* stored, const LocalFrame* frame) override {
     if (!engine_) {
@@ -129,6 +137,7 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
+    slides_ = slide_ && slide_->begin(stored, frame, storage);
     Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
                   stored};
     enter(ending, result);
@@ -188,6 +197,9 @@ class SweepDriver final : public DeviceSmoother {
       const auto [first, second] = engine.input();
       enter_frame_packed(context_, ending.stored, order_, ending.input.frame, before_.data(), first, second);
       engine.begin();
+      if (slides_ && options_.method == Method::mean_ratio) {
+        slide_->aim(engine.targets(), first);
+      }
     });
     ++result.kernel_launches;
   }
@@ -209,7 +221,7 @@ class SweepDriver final : public DeviceSmoother {
       return;
     }
     const bool may_follow =
-        !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
+        !options_.progress && !slides_ && with_engine([](const auto& engine) { return engine.may_be_followed; });
     const bool watched = static_cast<bool>(options_.progress);
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
     DeviceStages stages(options_, order_.free_count());
@@ -218,7 +230,7 @@ class SweepDriver final : public DeviceSmoother {
       const auto launched = Clock::now();
       // What comes behind the last sweep is not queued behind a stage that is not the last.
       const bool follows = may_follow && stages.is_last();
-      loop.sweeps = stages.at_most(batches.size());
+      loop.sweeps = up_to_slide(stages.at_most(batches.size()));
       if (options_.max_sweeps > 0) {
         loop.remaining = options_.max_sweeps - result.sweeps;
         loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
@@ -229,6 +241,7 @@ class SweepDriver final : public DeviceSmoother {
         queue_ending(ending, result);
       }
       read_record(result);
+      slide_behind(stages, result.sweeps, result);
       bool stopped = read_sweeps(loop, result);
       const bool is_repeating = state.stop == LoopState::repeating;
       if (is_repeating && !stopped) {
@@ -268,6 +281,9 @@ class SweepDriver final : public DeviceSmoother {
   /// The run once more up to the sweep at which the caller said stop: it gives the same bits again (but for
   /// Order::unordered), and costs less than to keep the positions of every sweep.
   void sweep_again(LoopRules loop, const Ending& ending, SmoothingResult& result) {
+    if (slides_) {
+      slide_->restart();
+    }
     enter(ending, result);
     host_record_.state = LoopState{};
     loop.remaining = 0;
@@ -275,9 +291,10 @@ class SweepDriver final : public DeviceSmoother {
     begin_stage();
     for (std::int64_t done = 0; done < result.sweeps;) {
       const auto left = std::min<std::int64_t>(result.sweeps - done, RunRecord::most_sweeps);
-      loop.sweeps = stages.at_most(static_cast<std::int32_t>(left));
+      loop.sweeps = up_to_slide(stages.at_most(static_cast<std::int32_t>(left)));
       launch(stages, loop, result);
       read_record(result);
+      slide_behind(stages, done, result);
       done += host_record_.state.sweeps;
       const bool settled = host_record_.state.stop != LoopState::running;
       if (stages.is_over(host_record_.state.sweeps, settled)) {
@@ -291,7 +308,55 @@ class SweepDriver final : public DeviceSmoother {
   void begin_stage() {
     host_record_.state.evaluates_all = 1;
     host_record_.state.marks = 0;
+    sweeps_of_stage_ = 0;
     with_engine([](auto& engine) { engine.begin_stage(); });
+  }
+
+  /// As many of the sweeps as there are up to the next one that vertices slide behind.
+  std::int32_t up_to_slide(std::int32_t sweeps) const {
+    if (!slides_) {
+      return sweeps;
+    }
+    std::int32_t count = 1;
+    while (count < sweeps && !slides_behind(sweeps_of_stage_ + count, false, false)) {
+      ++count;
+    }
+    return count;
+  }
+
+  /// Slides behind the sweeps of a launch, where it is due, and has the record of the last one say so. `done`: sweeps
+  /// of the run before the launch.
+  void slide_behind(const DeviceStages& stages, std::int64_t done, SmoothingResult& result) {
+    LoopState& state = host_record_.state;
+    sweeps_of_stage_ += state.sweeps;
+    const bool settled = state.stop != LoopState::running;
+    const bool is_limit = done + state.sweeps == options_.max_sweeps;
+    if (!slides_ || state.sweeps == 0 || !slides_behind(sweeps_of_stage_, settled, is_limit)) {
+      return;
+    }
+    SweepSums* const sums = record_.data()->sums.data() + (state.sweeps - 1);
+    with_engine([&](auto& engine) {
+      const auto [first, second] = engine.output(state.current);
+      SlideWork<T> work = slide_->template work<T>();
+      work.points = state.current == 0 ? first : second;
+      work.other_points = state.current == 0 ? second : first;
+      work.marks = engine.marks(state.current);
+      work.tolerance = static_cast<T>(options_.tolerance);
+      result.kernel_launches +=
+          launch_slide_pass(MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work,
+                            slide_->batches(), sums, context_.stream());
+    });
+    const std::uint64_t moved_before = host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)].moved;
+    const LoopState before = state;
+    record_.download({&host_record_, 1});
+    state = before;
+    const SweepSums& joined = host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)];
+    if (joined.moved > moved_before) {
+      with_engine([&](auto& engine) { engine.note_slides(state); });
+    }
+    LoopRules rules{};
+    rules.few_moves = stages.few_moves();
+    state.stop = stop_after(joined, rules);
   }
 
   /// Why the smoothing ends with the last sweep of a launch, as far as its kernels know.
@@ -312,6 +377,7 @@ class SweepDriver final : public DeviceSmoother {
   /// Queues more sweeps from where host_record_ says.
   void launch(const DeviceStages& stages, LoopRules loop, SmoothingResult& result) {
     loop.few_moves = stages.few_moves();
+    loop.begins_with_all = host_record_.state.evaluates_all != 0;
     LoopState next = host_record_.state;
     next.sweeps = 0;
     next.stop = LoopState::running;
@@ -350,12 +416,68 @@ class SweepDriver final : public DeviceSmoother {
   /// The ending where the host knows that the run is over.
   void end_now(Ending& ending, SmoothingResult& result) {
     ending.input.is_over = true;
+    if (slides_) {
+      end_slides(ending, result);
+      return;
+    }
     queue_ending(ending, result);
     record_.download({&host_record_, 1});
   }
 
+  /// The ending where vertices slide. Lines, by the host, and elements, by the device, have their say in turn: who goes
+  /// back for one may spoil the other. When nobody has anything to say, all is written.
+  void end_slides(Ending& ending, SmoothingResult& result) {
+    timeline_.rewind(1);
+    timeline_.mark();
+    const auto list = [&](std::int32_t vertex, Point2<double> position) {
+      result.reverted.push_back({vertex, position});
+    };
+    with_engine([&](auto& engine) {
+      const auto [first, second] = engine.output(host_record_.state.current);
+      ending.input.first = first;
+      ending.input.second = second;
+      GuardState* const state = &record_.data()->guard;
+      bool again = true;
+      while (again) {
+        result.guard_rounds += slide_->settle(options_.guard, before_.data(), list);
+        ending.input.held = slide_->held();
+        again = false;
+        if (options_.guard) {
+          host_record_.guard = GuardState{};
+          record_.upload({&host_record_, 1});
+          result.kernel_launches += launch_guard(engine.rings(), ending.input, guard_buffers_,
+                                                 static_cast<Point2<double>*>(nullptr), state, context_.stream());
+          record_.download({&host_record_, 1});
+          const DeviceGuardOutcome outcome =
+              finish_guard(context_, engine.rings(), ending.input, guard_buffers_,
+                           static_cast<Point2<double>*>(nullptr), state, host_record_.guard, result.kernel_launches);
+          result.guard_rounds += outcome.rounds;
+          result.reverted.insert(result.reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
+          slide_->note_reverted(outcome.held, list);
+          again = !outcome.held.empty();
+        }
+      }
+      host_record_.guard = GuardState{};
+      record_.upload({&host_record_, 1});
+      launch_writing(engine.rings(), ending.input, ending.stored, state, context_.stream());
+    });
+    ++result.kernel_launches;
+    record_.download({&host_record_, 1});
+    result.moved_vertices = host_record_.guard.moved;
+    slide_->finish(ending.stored, result);
+    timeline_.mark();
+    std::ranges::stable_sort(result.reverted, {}, &RevertedVertex::vertex);
+    const auto twice = std::ranges::unique(result.reverted, {}, &RevertedVertex::vertex);
+    result.reverted.erase(twice.begin(), twice.end());
+    result.reverted_vertices = std::ssize(result.reverted);
+  }
+
   /// What is left of the ending when its record has been read.
   void finish(const Ending& ending, SmoothingResult& result) {
+    if (slides_) {
+      context_.synchronize();
+      return;
+    }
     const std::int64_t queued = result.kernel_launches;
     DeviceGuardOutcome outcome = with_engine([&](const auto& engine) {
       return finish_guard(context_, engine.rings(), ending.input, guard_buffers_, ending.stored, &record_.data()->guard,
@@ -427,7 +549,10 @@ class SweepDriver final : public DeviceSmoother {
   GuardBuffers guard_buffers_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
-  std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began
+  std::optional<DeviceSlide> slide_;  ///< what may slide
+  bool slides_ = false;               ///< something does, in this run
+  std::int64_t sweeps_of_stage_ = 0;  ///< done
+  std::int64_t sweeps_before_ = 0;    ///< of the run, when the last launch began
   Timeline timeline_;
   std::optional<SweepEngine<T>> engine_;  ///< none where there is no free vertex
 };

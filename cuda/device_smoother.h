@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
@@ -10,6 +11,7 @@
 #include "trismooth/cuda/topology/rings.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth::cuda {
 
@@ -28,6 +30,12 @@ class DeviceSmoother {
   /// Reads the sizes that the options ask for, if they do: before every smooth(), and where they fit. Throws
   /// std::invalid_argument as said at MeanRatioOptions::target_lengths. `fixed`: as MeshRings::fixed.
   virtual void read_sizes(std::span<const std::uint8_t> fixed) = 0;
+
+  /// Has vertices slide from now on; see MeshRings::slidable. `reversed`: as MeshRings::reversed, of its triangles.
+  /// Waits for the device.
+  virtual void slide_on(Slidable slidable, std::vector<std::uint8_t> reversed) = 0;
+  /// Whether there is a vertex with a ring. Where there is none nothing slides, either: the host has to do that.
+  virtual bool has_free_vertices() const = 0;
 
   /// Smooths coordinates in device memory (aligned to 16 bytes), in the caller's numbering, in place: sweeps, guard.
   /// They are finite, and nothing is untangled. `frame`: their local frame, on the device. `fixed_quotient`: see

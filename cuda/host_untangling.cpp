@@ -24,8 +24,11 @@ SmoothingOptions on_host(SmoothingOptions options) {
 }  // namespace
 
 HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles,
-                               const SmoothingOptions& options)
-    : fixed_(std::move(fixed)), triangles_(triangles.begin(), triangles.end()), options_(on_host(options)) {}
+                               const SmoothingOptions& options, Slidable slidable)
+    : fixed_(std::move(fixed)),
+      triangles_(triangles.begin(), triangles.end()),
+      options_(on_host(options)),
+      slidable_(std::move(slidable)) {}
 
 SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame) {
   if (smoother_ == nullptr) {
@@ -35,6 +38,7 @@ SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage
     constraints.fixed = fixed_;
     MeshRings mesh = find_mesh_rings(local.points, triangles_, constraints, workers);
     mesh.fixed = fixed_;  // with the reasons
+    mesh.slidable = slidable_;
     smoother_ = cpu_backend().prepare(mesh, triangles_, local.points, options_);
   }
   SmoothingResult result = smoother_->smooth(points, storage, frame);

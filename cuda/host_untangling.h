@@ -12,6 +12,7 @@
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth::cuda {
 
@@ -19,8 +20,9 @@ namespace trismooth::cuda {
 /// device would. Meshes are hardly ever tangled, and what is worth a device is then over on the host soon.
 class HostUntangling {
  public:
-  /// `fixed`: as MeshRings::fixed. Copies what it needs; all else waits for smooth().
-  HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options);
+  /// `fixed`, `slidable`: as in MeshRings. Copies what it needs; all else waits for smooth().
+  HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options,
+                 Slidable slidable = {});
 
   /// As PreparedSmoother::smooth(). The first points orient the mesh.
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame);
@@ -34,6 +36,7 @@ class HostUntangling {
   std::vector<std::uint8_t> fixed_;
   std::vector<Triangle> triangles_;
   SmoothingOptions options_;
+  Slidable slidable_;
   std::unique_ptr<PreparedSmoother> smoother_;
 };
 

@@ -74,8 +74,9 @@ class Backend {
   }
 
   /// Finds the rings of a mesh with the backend's own means: what find_mesh_rings() finds, in every number, with the
-  /// same errors. Nothing where the backend leaves that to the host. For Topology::device. With
-  /// Execution::single_block the CUDA backend finds the neighbours by one thread, as the paper does.
+  /// same errors, but for MeshRings::slidable. The constraints name no vertices of lines. Nothing where the backend
+  /// leaves that to the host. For Topology::device. With Execution::single_block the CUDA backend finds the neighbours
+  /// by one thread, as the paper does.
   virtual std::optional<MeshRings> find_rings(std::span<const Point2<double>> /*local*/,
                                               std::span<const Triangle> /*triangles*/,
                                               const Constraints& /*constraints*/,
@@ -85,7 +86,7 @@ class Backend {
 
   /// Makes a mesh ready whose rings are not known: the backend analyses it with its own means, and keeps what was found
   /// where the sweeps run. Null where the backend leaves that to the host. For Topology::device. Arguments and errors
-  /// as those of SmoothingPlan's constructor.
+  /// as those of SmoothingPlan's constructor, but the constraints name no vertices of lines.
   virtual std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t /*vertex_count*/,
                                                          std::span<const Triangle> /*triangles*/,
                                                          const Constraints& /*constraints*/,

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
 
@@ -16,10 +17,12 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
                     std::span<const Triangle> triangles, const Constraints& constraints,
                     const std::function<MeshRings()>& on_host) {
   std::string note;
-  // A device does not know of chains.
-  if (options.prefers_topology_of_device() && !constraints.slide.any()) {
+  // A device does not know of named lines.
+  if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
     try {
       if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
+        Workers workers(options.threads);
+        found->slidable = find_slidable(triangles, found->fixed, constraints, workers);
         return *std::move(found);
       }
     } catch (const DeviceError& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -43,8 +44,10 @@ class CpuSmoother final : public PreparedSmoother {
       // Those of vertices that may slide are in the chains.
       fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_);
     }
-    if (mesh.slidable.any()) {
-      slidable_ = PackedSlidable(std::move(mesh.slidable), mesh.reversed, rings_.input_index);
+    if (mesh.slidable.is_wanted()) {
+      std::vector<std::int32_t> numbers = packed_numbers(mesh.slidable, rings_.input_index);
+      std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
+      slidable_ = PackedSlidable(std::move(mesh.slidable), std::move(reversed), std::move(numbers));
     }
     if (options.untangles()) {
       triangles_.assign(triangles.begin(), triangles.end());
@@ -75,148 +78,228 @@ class CpuSmoother final : public PreparedSmoother {
   std::vector<std::uint8_t> fixed() const override { return fixed_; }
 
  private:
-  template <class T>
-  void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, SmoothingResult& result) {
-    Stopwatch watch;
-    BulkVector<Point2<double>> before(points.size());
-    BulkVector<Point2<T>> working(points.size());
-    const std::int32_t last = rings_.vertex_count() - 1;
-    for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
-      // The caller's numbers may be at random.
-      prefetch(&points[rings_.input_index[v + std::min(vertices_ahead, last - v)]]);
-      before[v] = frame.enter(points[rings_.input_index[v]]);
-      working[v] = narrow<T>(before[v]);
-    });
-    std::optional<Turned> turned;
-    BulkVector<Point2<T>> start;  // of the sweeps, where that is not the input
-    if (options_.untangles()) {
-      result.timings.smooth = watch.lap();
-      turned = untangle_into(working, before, result);
-      if (result.untangling->inverted_before > 0) {
-        start = working;
-      }
-      result.timings.untangle = watch.lap();
-    }
-    const PackedRings& rings = turned ? turned->rings : rings_;
-    const FixedTriangles& fixed_triangles = turned ? turned->fixed_triangles : fixed_triangles_;
-    const auto input = [&](std::int32_t v) { return frame.enter(points[v]); };
-    // (Where components are turned over their chains are, too, and what is on which side of them.)
-    const SlideChains chains =
-        slidable_.any() && !turned ? slidable_.chains(points, before, storage, frame) : SlideChains{};
-    std::optional<SlidePass<T>> slide;
-    HeldNeighbours held;
-    if (chains.any()) {
-      slide.emplace(chains, workers_);
-      held = chains.neighbours(rings_.free_count(), rings_.vertex_count());
-    }
-    double fixed_quotient = fixed_triangles.smallest_quotient(input);
-    if (!slide) {
-      fixed_quotient = std::min(fixed_quotient, chains.smallest_quotient(std::span<const Point2<double>>(before)));
-    }
-    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, slide ? &*slide : nullptr)
-        .run(working, fixed_quotient, result);
-    result.timings.smooth += watch.lap();
-
-    // Where each vertex would be stored, and what that is in the local frame.
-    const auto stored_from = [&](const BulkVector<Point2<T>>& places, std::int32_t v) -> Point2<double> {
-      const Point2<T> place = places[v];
-      if (place == narrow<T>(before[v])) {
-        return points[rings_.input_index[v]];
-      }
-      return rounded_to(
-          storage, frame.leave({static_cast<double>(place.x), static_cast<double>(place.y)}, largest_stored(storage)));
-    };
-    // (What would be stored where it was is not fetched for that.)
-    const auto entered_from = [&](const BulkVector<Point2<T>>& places, std::int32_t v) {
-      return places[v] == narrow<T>(before[v]) ? before[v] : frame.enter(stored_from(places, v));
-    };
-    const auto stored = [&](std::int32_t v) { return stored_from(working, v); };
-    BulkVector<Point2<double>> after(before.size());
-    for_vertices(rings_.vertex_count(),
-                 [&](std::int32_t v) { after[v] = v < rings_.free_count() ? entered_from(working, v) : before[v]; });
-    const std::vector<SlidVertex> slid =
-        slide ? slid_vertices(chains, slide->places(), frame, storage) : std::vector<SlidVertex>{};
-    for (const SlidVertex& vertex : slid) {
-      after[vertex.vertex] = frame.enter(vertex.stored);
-    }
-    const auto list = [&](std::span<const std::int32_t> reverted) {
-      for (const std::int32_t v : reverted) {
-        const auto slider = std::ranges::lower_bound(slid, v, {}, &SlidVertex::vertex);
-        const bool slides = slider != slid.end() && slider->vertex == v;
-        result.reverted.push_back({rings_.input_index[v], slides ? slider->stored : stored(v)});
-      }
-    };
-    const auto guarded = [&](const GuardOutcome& outcome) {
-      result.guard_rounds += outcome.rounds;
-      list(outcome.reverted);
-      return !outcome.reverted.empty() && outcome.reverted.back() >= rings_.free_count();
-    };
-    if (options_.guard && !start.empty()) {
-      // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
-      // far takes others along.
-      BulkVector<Point2<double>> untangled = before;
-      for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(start, v); });
-      const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, after, workers_, held);
-      guarded(outcome);
-      for (const std::int32_t v : outcome.reverted) {
-        if (v < rings_.free_count()) {
-          working[v] = start[v];
-        }
-      }
-    }
-    if (slide) {
-      // Lines and elements have their say in turn: who goes back for one may spoil the other.
-      SlideGuard lines(chains, slide->places(), before, after, options_.guard);
-      bool again = true;
-      while (again) {
-        std::vector<std::int32_t> reverted;
-        result.guard_rounds += lines.settle(reverted);
-        list(reverted);
-        again = options_.guard && guarded(keep_never_worse(rings.view(), before, after, workers_, held));
-      }
-      const LineDeviation deviation = lines.deviation();
-      result.sliding = {.chains = std::ssize(chains.chains),
-                        .vertices = chains.vertex_count(),
-                        .slid = lines.slid_vertices(),
-                        .largest_deviation = deviation.distance * frame.length_scale(),
-                        .relative_deviation = deviation.relative};
-    } else if (options_.guard && turned) {
-      guarded(keep_never_worse(rings.view(), triangles_, reversed_, turned->components, before, after, workers_));
-    } else if (options_.guard) {
-      guarded(keep_never_worse(rings.view(), before, after, workers_));
-    }
-    std::atomic<std::int64_t> moved{0};
-    workers_.for_blocks(rings_.free_count(), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
-      std::int64_t moved_here = 0;
-      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        if (!(after[v] == before[v])) {
-          points[rings_.input_index[v]] = stored(v);
-          ++moved_here;
-        }
-      }
-      moved.fetch_add(moved_here, std::memory_order_relaxed);
-    });
-    for (const SlidVertex& vertex : slid) {
-      if (!(after[vertex.vertex] == before[vertex.vertex])) {
-        points[rings_.input_index[vertex.vertex]] = vertex.stored;
-        ++moved;
-      }
-    }
-    result.moved_vertices = moved;
-    name_reverted(result, points);
-    if (result.untangling) {
-      count_inverted(turned ? turned->components : TurnedComponents{}, after, input, *result.untangling);
-      result.untangling->inverted_fixed += chains.inverted(after);
-    }
-    result.timings.commit = watch.lap();
-  }
-
   /// The mesh with components turned over.
   struct Turned {
     TurnedComponents components;
     PackedRings rings;
     FixedTriangles fixed_triangles;
   };
+
+  /// One call: the caller's points, and what becomes of them, packed and in the local frame.
+  template <class T>
+  struct Run {
+    std::span<Point2<double>> points;
+    Storage storage;
+    const LocalFrame& frame;
+    SmoothingResult& result;
+    BulkVector<Point2<double>> before;
+    BulkVector<Point2<T>> working;
+    BulkVector<Point2<T>> start;   ///< of the sweeps, where that is not the input
+    std::optional<Turned> turned;  ///< the mesh to go on with, where it is another one
+    SlideChains chains;
+    std::optional<SlidePass<T>> slide;  ///< where a vertex slides on them
+    BulkVector<Point2<double>> after;   ///< as it would be stored
+    std::vector<SlidVertex> slid;
+  };
+
+  template <class T>
+  void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, SmoothingResult& result) {
+    Stopwatch watch;
+    Run<T> run{points, storage, frame, result, {}, {}, {}, {}, {}, {}, {}, {}};
+    enter(run);
+    if (options_.untangles()) {
+      result.timings.smooth = watch.lap();
+      run.turned = untangle_into(run.working, run.before, result);
+      if (result.untangling->inverted_before > 0) {
+        run.start = run.working;
+      }
+      result.timings.untangle = watch.lap();
+    }
+    sweep(run);
+    result.timings.smooth += watch.lap();
+    lay_out(run);
+    guard(run);
+    store(run);
+    result.timings.commit = watch.lap();
+  }
+
+  template <class T>
+  void enter(Run<T>& run) {
+    run.before.resize(run.points.size());
+    run.working.resize(run.points.size());
+    const std::int32_t last = rings_.vertex_count() - 1;
+    for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
+      // The caller's numbers may be at random.
+      prefetch(&run.points[rings_.input_index[v + std::min(vertices_ahead, last - v)]]);
+      run.before[v] = run.frame.enter(run.points[rings_.input_index[v]]);
+      run.working[v] = narrow<T>(run.before[v]);
+    });
+  }
+
+  template <class T>
+  void sweep(Run<T>& run) {
+    const PackedRings& rings = run.turned ? run.turned->rings : rings_;
+    const FixedTriangles& fixed_triangles = run.turned ? run.turned->fixed_triangles : fixed_triangles_;
+    if (slidable_.slidable().is_wanted()) {
+      run.result.sliding.emplace();
+    }
+    if (slidable_.any() && !run.turned) {
+      // (Where components are turned over, so is what is on which side of their lines.)
+      run.chains = chains_at(run.points, run.storage, run.frame);
+    }
+    if (run.chains.any()) {
+      run.slide.emplace(run.chains, workers_);
+    }
+    double fixed_quotient =
+        fixed_triangles.smallest_quotient([&](std::int32_t v) { return run.frame.enter(run.points[v]); });
+    if (!run.slide) {
+      fixed_quotient =
+          std::min(fixed_quotient, run.chains.smallest_quotient(std::span<const Point2<double>>(run.before)));
+    }
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr)
+        .run(run.working, fixed_quotient, run.result);
+  }
+
+  /// Where a vertex would be stored if it were at its one of `places`.
+  template <class T>
+  Point2<double> stored_from(const Run<T>& run, const BulkVector<Point2<T>>& places, std::int32_t v) const {
+    const Point2<T> place = places[v];
+    if (place == narrow<T>(run.before[v])) {
+      return run.points[rings_.input_index[v]];
+    }
+    return rounded_to(run.storage, run.frame.leave({static_cast<double>(place.x), static_cast<double>(place.y)},
+                                                   largest_stored(run.storage)));
+  }
+  /// What that is in the local frame. (What would be stored where it was is not fetched for that.)
+  template <class T>
+  Point2<double> entered_from(const Run<T>& run, const BulkVector<Point2<T>>& places, std::int32_t v) const {
+    return places[v] == narrow<T>(run.before[v]) ? run.before[v] : run.frame.enter(stored_from(run, places, v));
+  }
+
+  /// Finds where all vertices would be stored.
+  template <class T>
+  void lay_out(Run<T>& run) {
+    run.after.resize(run.before.size());
+    for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
+      run.after[v] = v < rings_.free_count() ? entered_from(run, run.working, v) : run.before[v];
+    });
+    if (run.slide) {
+      run.slid = slid_vertices(run.chains, run.slide->places(), run.frame, run.storage);
+    }
+    for (const SlidVertex& slid : run.slid) {
+      run.after[slid.vertex] = run.frame.enter(slid.stored);
+    }
+  }
+
+  /// Lists vertices that went back, with where they would have been stored.
+  template <class T>
+  void list(Run<T>& run, std::span<const std::int32_t> reverted) {
+    for (const std::int32_t v : reverted) {
+      const auto slider = std::ranges::lower_bound(run.slid, v, {}, &SlidVertex::vertex);
+      const bool slides = slider != run.slid.end() && slider->vertex == v;
+      run.result.reverted.push_back(
+          {rings_.input_index[v], slides ? slider->stored : stored_from(run, run.working, v)});
+    }
+  }
+
+  /// The same of the guard; whether some were vertices that slide.
+  template <class T>
+  bool list(Run<T>& run, const GuardOutcome& outcome) {
+    run.result.guard_rounds += outcome.rounds;
+    list(run, std::span<const std::int32_t>(outcome.reverted));
+    return !outcome.reverted.empty() && outcome.reverted.back() >= rings_.free_count();
+  }
+
+  template <class T>
+  void guard(Run<T>& run) {
+    const NumberLists held =
+        run.slide ? run.chains.neighbours(rings_.free_count(), rings_.vertex_count()) : NumberLists();
+    if (options_.guard && !run.start.empty()) {
+      // What the sweeps made worse goes back to where they began: the input is far from there, and who goes back that
+      // far takes others along.
+      BulkVector<Point2<double>> untangled = run.before;
+      for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(run, run.start, v); });
+      const GuardOutcome outcome = keep_never_worse(rings_.view(), untangled, run.after, workers_, held);
+      list(run, outcome);
+      for (const std::int32_t v : outcome.reverted) {
+        if (v < rings_.free_count()) {
+          run.working[v] = run.start[v];
+        }
+      }
+    }
+    if (run.slide) {
+      guard_with_lines(run, held);
+    } else if (options_.guard && run.turned) {
+      list(run, keep_never_worse(rings_.view(), triangles_, reversed_, run.turned->components, run.before, run.after,
+                                 workers_));
+    } else if (options_.guard) {
+      list(run, keep_never_worse(rings_.view(), run.before, run.after, workers_));
+    }
+  }
+
+  /// Lines and elements have their say in turn: who goes back for one may spoil the other.
+  template <class T>
+  void guard_with_lines(Run<T>& run, const NumberLists& held) {
+    SlideGuard lines(run.chains, run.slide->places(), run.before, run.after, options_.guard);
+    bool again = true;
+    while (again) {
+      std::vector<std::int32_t> reverted;
+      run.result.guard_rounds += lines.settle(reverted);
+      list(run, std::span<const std::int32_t>(reverted));
+      again = options_.guard && list(run, keep_never_worse(rings_.view(), run.before, run.after, workers_, held));
+    }
+    const LineDeviation deviation = lines.deviation();
+    run.result.sliding = {.chains = std::ssize(run.chains.chains),
+                          .vertices = run.chains.vertex_count(),
+                          .slid = lines.slid_vertices(),
+                          .largest_deviation = std::ldexp(deviation.distance, run.frame.exponent),
+                          .relative_deviation = deviation.relative};
+  }
+
+  /// Writes what is elsewhere to the caller's points.
+  template <class T>
+  void store(Run<T>& run) {
+    std::atomic<std::int64_t> moved{0};
+    workers_.for_blocks(rings_.free_count(), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
+      std::int64_t moved_here = 0;
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        if (!(run.after[v] == run.before[v])) {
+          run.points[rings_.input_index[v]] = stored_from(run, run.working, v);
+          ++moved_here;
+        }
+      }
+      moved.fetch_add(moved_here, std::memory_order_relaxed);
+    });
+    // The input, by the caller's numbers, is needed until here.
+    const auto input = [&](std::int32_t v) { return run.frame.enter(run.points[v]); };
+    if (run.result.untangling) {
+      count_inverted(run.turned ? run.turned->components : TurnedComponents{}, run.after, input,
+                     *run.result.untangling);
+      run.result.untangling->inverted_fixed += run.chains.inverted(run.after);
+    }
+    for (const SlidVertex& slid : run.slid) {
+      if (!(run.after[slid.vertex] == run.before[slid.vertex])) {
+        run.points[rings_.input_index[slid.vertex]] = slid.stored;
+        ++moved;
+      }
+    }
+    run.result.moved_vertices = moved;
+    name_reverted(run.result, run.points);
+  }
+
+  /// What slides, in packed numbers.
+  SlideChains chains_at(std::span<const Point2<double>> points, Storage storage, const LocalFrame& frame) const {
+    if (!slidable_.any()) {
+      return {};
+    }
+    std::vector<Point2<double>> stored;
+    for (const std::int32_t v : slidable_.slidable().vertices) {
+      stored.push_back(points[v]);
+    }
+    SlideChains chains = slidable_.chains(stored, storage, frame);
+    chains.renumber(slidable_.numbers());
+    return chains;
+  }
 
   FixedTriangles fixed_triangles(const TurnedComponents& turned) {
     return {triangles_, turned_over(reversed_, turned), fixed_, workers_};

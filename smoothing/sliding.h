@@ -62,8 +62,8 @@ struct Sliding {
 
   /// Throws std::invalid_argument for an angle or a deviation that is none.
   void validate() const;
-  /// Whether there is anything in it that holds or moves a vertex.
-  [[nodiscard]] bool any() const { return along != Slide::off || !lines.empty() || !links.empty(); }
+  /// Whether vertices are named in it.
+  [[nodiscard]] bool names_vertices() const { return !lines.empty() || !links.empty(); }
 };
 
 }  // namespace trismooth

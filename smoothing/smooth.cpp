@@ -27,8 +27,8 @@ class SmoothingPlan::Implementation {
     check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()));
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
     const std::span<const Triangle> listed = indices.triangles(vertex_count, triangles_);
-    // A device does not know of chains.
-    if (options.prefers_topology_of_device() && !constraints.slide.any()) {
+    // A device does not know of named lines.
+    if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
       try {
         smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
       } catch (const DeviceError& error) {

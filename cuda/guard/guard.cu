@@ -244,14 +244,26 @@ class Rounds {
       work_.list[i] = {v, view_.input_index[v], positions_.stored(v)};
       positions_.take_back(v);
       work_.marks[v / 32] = 0;  // all marks are of vertices that go back
-      work_.keys[v / block_size].before = GuardKeys::outdated;
-      const std::int32_t size = view_.rings.ring_size(v);
-      const auto ring = view_.rings.ring(v);
-      for (std::int32_t k = 0; k < size; ++k) {
-        if (ring[k] < view_.rings.size) {
-          work_.keys[ring[k] / block_size].before = GuardKeys::outdated;
+      judge_again(v);
+      if (v < view_.rings.size) {
+        const std::int32_t size = view_.rings.ring_size(v);
+        const auto ring = view_.rings.ring(v);
+        for (std::int32_t k = 0; k < size; ++k) {
+          judge_again(ring[k]);
+        }
+      } else {
+        const std::int32_t fan = view_.held.fan_of[v - view_.rings.size];
+        for (std::int32_t k = view_.held.fans[fan]; k < view_.held.fans[fan + 1]; ++k) {
+          judge_again(view_.held.sides[k].from);
+          judge_again(view_.held.sides[k].to);
         }
       }
+    }
+  }
+
+  __device__ void judge_again(std::int32_t v) const {
+    if (v < view_.rings.size) {
+      work_.keys[v / block_size].before = GuardKeys::outdated;
     }
   }
 
@@ -309,6 +321,9 @@ std::int64_t launch_rounds(const View& view, GuardBuffers& buffers, Point2<doubl
     TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(&make_rounds<View>), dim3(blocks),
                                                      dim3(round_threads), arguments, 0, stream));
   }
+  if (stored == nullptr) {
+    return 1;
+  }
   write_moved<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.guards(),
                                                                       reinterpret_cast<double2*>(stored), state);
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
@@ -316,19 +331,24 @@ std::int64_t launch_rounds(const View& view, GuardBuffers& buffers, Point2<doubl
 }
 
 /// Adds the first `count` of the list.
-void collect(const DeviceBuffer<Offender>& list, std::uint32_t count, std::vector<RevertedVertex>& reverted) {
+void collect(const DeviceBuffer<Offender>& list, std::uint32_t count, std::int32_t free_count,
+             DeviceGuardOutcome& outcome) {
   std::vector<Offender> offenders(count);
   list.download(offenders);
   for (const Offender& offender : offenders) {
-    reverted.push_back({offender.input, offender.position});
+    if (offender.vertex < free_count) {
+      outcome.reverted.push_back({offender.input, offender.position});
+    } else {
+      outcome.held.push_back(offender.vertex);
+    }
   }
 }
 
 }  // namespace
 
-GuardBuffers::GuardBuffers(Context& context, std::int32_t free_count)
+GuardBuffers::GuardBuffers(Context& context, std::int32_t free_count, std::int32_t movable)
     : keys(context, blocks_for(free_count)),
-      marks(context, (static_cast<std::size_t>(free_count) + 31) / 32),
+      marks(context, (static_cast<std::size_t>(movable) + 31) / 32),
       list(context, static_cast<std::size_t>(list_size(free_count))) {
   marks.fill_bytes(0);
 }
@@ -347,17 +367,26 @@ std::int64_t launch_guard(const Rings& rings, const GuardInput<T>& input, GuardB
 }
 
 template <class T, class Rings>
+void launch_writing(const Rings& rings, const GuardInput<T>& input, Point2<double>* stored, GuardState* state,
+                    cudaStream_t stream) {
+  constexpr bool guarded = false;
+  write_moved<<<blocks_for(rings.size), block_size, 0, stream>>>(GuardView<T, Rings>{input, rings}, guarded,
+                                                                 reinterpret_cast<double2*>(stored), state);
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+}
+
+template <class T, class Rings>
 DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const GuardInput<T>& input, GuardBuffers& buffers,
                                 Point2<double>* stored, GuardState* state, GuardState found, std::int64_t& launches) {
   DeviceGuardOutcome outcome;
-  collect(buffers.list, found.taken_back, outcome.reverted);
+  collect(buffers.list, found.taken_back, rings.size, outcome);
   while (!found.may_write()) {
     // The round that did not fit is found once more, among all elements: those of vertices that went back have changed
     // since they were judged.
     buffers.marks.fill_bytes(0);
     buffers.keys.fill_bytes(0xFF);  // outdated
     if (const std::size_t round_size = found.listed - found.taken_back; round_size > buffers.list.size()) {
-      buffers.list = DeviceBuffer<Offender>(context, std::min(2 * round_size, static_cast<std::size_t>(rings.size)));
+      buffers.list = DeviceBuffer<Offender>(context, std::min(2 * round_size, 32 * buffers.marks.size()));
     }
     found.listed = 0;
     std::ranges::fill(found.barriers, 0ULL);
@@ -365,7 +394,7 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
     TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(state, &found, sizeof(found), cudaMemcpyHostToDevice, context.stream()));
     launches += launch_rounds(GuardView<T, Rings>{input, rings}, buffers, stored, state, context.stream());
     found = download(context, state);
-    collect(buffers.list, found.taken_back, outcome.reverted);
+    collect(buffers.list, found.taken_back, rings.size, outcome);
   }
   std::ranges::sort(outcome.reverted, {}, &RevertedVertex::vertex);
   outcome.rounds = found.rounds;
@@ -376,6 +405,7 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
 #define INSTANTIATE(T, Rings)                                                                                         \
   template std::int64_t launch_guard(const Rings&, const GuardInput<T>&, GuardBuffers&, Point2<double>*, GuardState*, \
                                      cudaStream_t);                                                                   \
+  template void launch_writing(const Rings&, const GuardInput<T>&, Point2<double>*, GuardState*, cudaStream_t);       \
   template DeviceGuardOutcome finish_guard(Context&, const Rings&, const GuardInput<T>&, GuardBuffers&,               \
                                            Point2<double>*, GuardState*, GuardState, std::int64_t&)
 INSTANTIATE(float, RingsView);

@@ -7,6 +7,7 @@
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
+#include "trismooth/cuda/guard/held_view.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
@@ -28,6 +29,7 @@ struct GuardInput {
   bool is_over;                     ///< or if this is set
   const LocalFrame* frame;
   Storage storage;
+  HeldView held{};  ///< vertices without a ring that may be elsewhere
 };
 
 /// What the guard knows of the elements of a set of vertices, as keys of which the largest counts: falling_key() of the
@@ -68,12 +70,13 @@ struct Offender {
 /// What the guard needs beside its input, made once for a mesh: about a byte for each free vertex.
 struct GuardBuffers {
   DeviceBuffer<GuardKeys> keys;       ///< of the elements of each block of free vertices
-  DeviceBuffer<std::uint32_t> marks;  ///< a bit for each free vertex; all zeros between runs
+  DeviceBuffer<std::uint32_t> marks;  ///< a bit for each vertex that may move; all zeros between runs
   DeviceBuffer<Offender> list;
 
   /// For runs without the guard.
   GuardBuffers() = default;
-  GuardBuffers(Context& context, std::int32_t free_count);
+  /// `movable`: packed vertices below it may move, free or held to lines.
+  GuardBuffers(Context& context, std::int32_t free_count, std::int32_t movable);
 
   /// Offenders that the list has room for at first. More are rare and cost a round trip to the host. A round that has
   /// more by itself makes the list longer for good.
@@ -87,6 +90,7 @@ struct GuardBuffers {
 /// What the guard took back, and what was written.
 struct DeviceGuardOutcome {
   std::int64_t rounds = 0;               ///< that took something back
+  std::vector<std::int32_t> held;        ///< packed numbers of those of HeldView that went back
   std::vector<RevertedVertex> reverted;  ///< ascending by vertex
   std::int64_t moved = 0;                ///< vertices that were written
 };
@@ -97,10 +101,17 @@ struct DeviceGuardOutcome {
 /// vertices that are elsewhere are written to `stored` (input numbering, aligned to 16 bytes), and the others keep
 /// their bits. Only where there are more offenders than the list holds, nothing is written, and finish_guard() does the
 /// rest. Returns the number of launches. `rings`: those of the free vertices, of which there is one at least; a
-/// RingsView or SlottedRingsView.
+/// RingsView or SlottedRingsView. `stored` may be null: nothing is written, see launch_writing(). Vertices of
+/// GuardInput::held are judged as corners of the elements of free ones and go back with these; they are in no figure
+/// and are not written.
 template <class T, class Rings>
 std::int64_t launch_guard(const Rings& rings, const GuardInput<T>& input, GuardBuffers& buffers, Point2<double>* stored,
                           GuardState* state, cudaStream_t stream);
+
+/// Queues the writing of the free vertices that are elsewhere, whatever a guard has said. Adds to state->moved.
+template <class T, class Rings>
+void launch_writing(const Rings& rings, const GuardInput<T>& input, Point2<double>* stored, GuardState* state,
+                    cudaStream_t stream);
 
 /// Brings over what a guard did whose `state` has become `found`. Where the list was too short, does what is left: the
 /// host is asked each time that the list is full. Adds to `launches`.

@@ -40,7 +40,8 @@ class Positions {
         before_(reinterpret_cast<const double2*>(view.before)),
         working_(view.working()),
         frame_(*view.frame),
-        storage_(view.storage) {}
+        storage_(view.storage),
+        held_(view.held.after) {}
 
   __device__ Point2<double> before(std::int32_t v) const {
     const double2 point = before_[v];
@@ -58,7 +59,7 @@ class Positions {
   /// The same in the local frame: what the guard evaluates.
   __device__ Point2<double> after(std::int32_t v, Point2<double> before) const {
     if (v >= free_count_) {
-      return before;
+      return held_ == nullptr ? before : held_[v - free_count_];
     }
     const Point2<T> working = working_.load(v);
     return working == working_point<T>(before) ? before : frame_.enter(stored(working));
@@ -69,7 +70,13 @@ class Positions {
     const Point2<double> old = before(v);
     return {old, after(v, old), input, v};
   }
-  __device__ void take_back(std::int32_t v) const { working_.store(v, working_point<T>(before(v))); }
+  __device__ void take_back(std::int32_t v) const {
+    if (v >= free_count_) {
+      held_[v - free_count_] = before(v);
+    } else {
+      working_.store(v, working_point<T>(before(v)));
+    }
+  }
 
  private:
   std::int32_t free_count_;
@@ -78,6 +85,7 @@ class Positions {
   PointArray<T> working_;
   LocalFrame frame_;
   Storage storage_;
+  Point2<double>* held_;  ///< see HeldView::after
 };
 
 struct Quotients {

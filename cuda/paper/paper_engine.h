@@ -66,6 +66,10 @@ class PaperEngine {
     return 1;
   }
   void measure(SweepSums* sums) const { launch_smallest_quotient(rings(), points_, sums, context_->stream()); }
+  std::uint32_t* marks(std::int32_t /*current*/) { return nullptr; }
+  /// Never: what slides is not in the paper's structure.
+  void note_slides(LoopState& /*state*/) {}
+  const DeviceTargets<T>& targets() const { return targets_; }
   std::pair<Points, Points> output(std::int32_t current) {
     mesh_.read_positions(*context_, current, points_);
     return input();

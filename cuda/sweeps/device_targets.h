@@ -30,6 +30,12 @@ class DeviceTargets {
   template <class Rings>
   void find(const Rings& rings, const PointArray<T>& points);
 
+  /// What find() has found of the mesh as a whole; see MeanRatioMesh::of().
+  const MeanRatioSums* sums() const { return sums_.data(); }
+  double size_weight() const { return size_weight_; }
+  int power() const { return power_; }
+  bool has_sizes() const { return inverse_sizes_.size() > 0; }
+
   MeanRatioTargets<T> view() const {
     return {inverse_areas_.data(), largest_shares_.data(), scales_.data(), edges_.data()};
   }

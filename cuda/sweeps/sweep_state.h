@@ -25,6 +25,7 @@ struct SweepSums {
 struct LoopRules {
   bool swaps;                   ///< Form A, whose buffers swap; else Form B
   bool evaluates_all;           ///< every free vertex in every sweep
+  bool begins_with_all;         ///< LoopState::evaluates_all is set
   bool measures_shape;          ///< fill SweepSums::min_quotient
   double tolerance;             ///< of SmoothingOptions
   double target;                ///< quality target, or no_target

@@ -8,6 +8,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/topology/near_triangles.h"
 #include "trismooth/cuda/topology/ring_building.h"
 #include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
@@ -58,6 +59,13 @@ DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std:
     found();
   }
   components_ = number_components(context, std::move(forest_words));
+}
+
+Slidable DeviceTopology::find_slidable(const std::int32_t* regions, const Sliding& slide) const {
+  if (slide.along == Slide::off) {
+    return {};
+  }
+  return trismooth::find_slidable(near_triangles(*context_, triangles_, fixed_.data(), regions), slide);
 }
 
 bool DeviceTopology::orient(const Point2<double>* local_points) {

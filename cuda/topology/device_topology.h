@@ -13,6 +13,7 @@
 #include "trismooth/cuda/topology/orientation.h"
 #include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/topology/triangle_list.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth::cuda {
 
@@ -29,6 +30,10 @@ class DeviceTopology {
   /// check_constraints() do (lengths of arrays apart), and DeviceError.
   DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
                  const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way);
+
+  /// Which vertices may slide, as trismooth::find_slidable(). `regions`: those of the constraints, on the device.
+  /// Waits.
+  Slidable find_slidable(const std::int32_t* regions, const Sliding& slide) const;
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

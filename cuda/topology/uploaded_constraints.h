@@ -16,12 +16,14 @@ class UploadedConstraints {
       : fixed_(context, constraints.fixed),
         other_cells_(context, constraints.other_cells),
         fixed_ids_(context, constraints.fixed_ids),
-        regions_(context, constraints.regions) {}
+        regions_(context, constraints.regions),
+        slide_(constraints.slide) {}
 
   /// Valid for as long as this object. The lengths are not checked here: see check_constraints().
   DeviceConstraints view() const {
-    return {fixed_.data(), other_cells_.data(), fixed_ids_.data(), static_cast<std::int32_t>(fixed_ids_.size()),
-            regions_.data()};
+    return {fixed_.data(),     other_cells_.data(),
+            fixed_ids_.data(), static_cast<std::int32_t>(fixed_ids_.size()),
+            regions_.data(),   slide_};
   }
 
  private:
@@ -29,6 +31,7 @@ class UploadedConstraints {
   DeviceBuffer<std::uint8_t> other_cells_;
   DeviceBuffer<std::int32_t> fixed_ids_;
   DeviceBuffer<std::int32_t> regions_;
+  Sliding slide_;
 };
 
 }  // namespace trismooth::cuda

@@ -101,7 +101,7 @@ class ElementGatherer {
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
-        Workers& workers, const HeldNeighbours& held)
+        Workers& workers, const NumberLists& held)
       : rings_(rings),
         before_(before),
         after_(after),
@@ -258,7 +258,7 @@ class Guard {
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
   Workers& workers_;
-  const HeldNeighbours& held_;
+  const NumberLists& held_;
   bool has_gaps_;
   std::int64_t block_count_;
   GuardTree tree_;
@@ -270,7 +270,7 @@ class Guard {
 }  // namespace
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, const HeldNeighbours& held) {
+                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held) {
   return Guard(rings, before, after, workers, held).run();
 }
 

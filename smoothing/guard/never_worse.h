@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/number_lists.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/result.h"
-#include "trismooth/smoothing/rings/held_neighbours.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
@@ -33,7 +33,7 @@ struct GuardOutcome {
 /// `held`: of vertices that may have moved without having a ring. They are judged as corners of the elements of others,
 /// and go back as these do.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, const HeldNeighbours& held = {});
+                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {});
 
 /// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
 /// the first found it; who is there again, at `points`, is not.

@@ -3,25 +3,17 @@
 #include <algorithm>
 #include <compare>
 #include <cstddef>
-#include <iterator>
-#include <limits>
-#include <tuple>
 #include <utility>
 
 #include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/hold.h"
+#include "trismooth/base/number_lists.h"
+#include "trismooth/base/number_places.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
 
 namespace {
-
-/// Whether nothing but a chain holds it.
-bool is_held_by_chains(std::uint8_t reasons) {
-  constexpr std::uint8_t of_chains = hold::boundary | hold::interface | hold::line;
-  return reasons != 0 && (reasons & ~of_chains) == 0;
-}
 
 /// What an edge is a part of: chains end where this changes.
 struct ChainKind {
@@ -34,15 +26,9 @@ struct ChainKind {
   bool operator==(const ChainKind&) const = default;
 };
 
-/// A vertex and another one on an edge of a chain.
-struct ChainEnd {
-  std::int32_t vertex;
-  std::int32_t other;
-  ChainKind kind;
-};
-
+/// A side of a triangle between two vertices that are held. Vertices are numbered from 0 as NumberPlaces says.
 struct EdgeSide {
-  std::int32_t low, high, triangle;
+  std::int32_t low, high, region;
   auto operator<=>(const EdgeSide&) const = default;
 };
 
@@ -51,40 +37,123 @@ struct Line {
   auto operator<=>(const Line&) const = default;
 };
 
-std::vector<Line> sorted_lines(const Sliding& slide) {
-  std::vector<Line> lines;
-  for (std::size_t i = 0; i < slide.lines.size() / 2; ++i) {
-    const auto [low, high] = std::minmax(slide.lines[2 * i], slide.lines[2 * i + 1]);
-    lines.push_back({low, high, slide.line_tags.empty() ? 0 : slide.line_tags[i]});
+/// Triangles at lines, their vertices numbered from 0 in their order.
+class NearMesh {
+ public:
+  explicit NearMesh(std::span<const NearTriangle> near) : near_(near), places_(corners_of(near)) {
+    reasons_.resize(places_.sorted().size());
+    for (const NearTriangle& triangle : near) {
+      Triangle corners{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = places_.of(triangle.corners[i]);
+        reasons_[static_cast<std::size_t>(corners[i])] = triangle.reasons[i];
+      }
+      triangles_.push_back(corners);
+    }
   }
-  std::ranges::sort(lines);
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  return lines;
-}
+
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(reasons_.size()); }
+  std::size_t size() const { return triangles_.size(); }
+  const Triangle& corners(std::size_t t) const { return triangles_[t]; }
+  std::int32_t region(std::size_t t) const { return near_[t].region; }
+  std::int32_t number(std::size_t t) const { return near_[t].number; }
+  bool is_free(std::int32_t v) const { return reasons_[static_cast<std::size_t>(v)] == 0; }
+  bool is_candidate(std::int32_t v) const { return is_held_by_lines(reasons_[static_cast<std::size_t>(v)]); }
+  /// The number here of a vertex of the mesh; NumberPlaces::none where it is at none of these triangles.
+  std::int32_t vertex(std::int32_t number_in_mesh) const { return places_.of(number_in_mesh); }
+  std::int32_t number_in_mesh(std::int32_t v) const { return places_.sorted()[static_cast<std::size_t>(v)]; }
+
+ private:
+  static std::vector<std::int32_t> corners_of(std::span<const NearTriangle> near) {
+    std::vector<std::int32_t> corners;
+    corners.reserve(3 * near.size());
+    for (const NearTriangle& triangle : near) {
+      corners.insert(corners.end(), triangle.corners.begin(), triangle.corners.end());
+    }
+    return corners;
+  }
+
+  std::span<const NearTriangle> near_;
+  NumberPlaces places_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint8_t> reasons_;
+};
 
 /// Finds the chains' edges at the vertices that nothing else holds.
 class ChainSearch {
  public:
-  ChainSearch(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed, const Constraints& constraints)
-      : triangles_(triangles), fixed_(fixed), regions_(constraints.regions), lines_(sorted_lines(constraints.slide)) {}
+  ChainSearch(const NearMesh& mesh, const Sliding& slide) : mesh_(mesh), blocked_(vertices()) {
+    list_lines(slide);
+    find_edges();
+  }
 
-  /// `near`: the triangles with such a vertex. Returns pairs (vertex, neighbours) of those that may slide, ascending.
-  std::vector<std::pair<std::int32_t, std::array<std::int32_t, 2>>> run(std::span<const std::int32_t> near) {
-    find_edges(near);
-    return find_vertices();
+  /// The two neighbours of each vertex on its chain, the smaller one first; none where it cannot slide.
+  std::vector<std::array<std::int32_t, 2>> neighbours() const {
+    std::vector<std::array<std::int32_t, 2>> found(vertices(), {Slidable::none, Slidable::none});
+    std::vector<std::pair<std::int32_t, std::int32_t>> ends;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      ends.emplace_back(edges_[e].low, static_cast<std::int32_t>(e));
+      ends.emplace_back(edges_[e].high, static_cast<std::int32_t>(e));
+    }
+    const NumberLists edges_at(0, mesh_.vertex_count(), ends);
+    for (std::int32_t v = 0; v < mesh_.vertex_count(); ++v) {
+      const std::span<const std::int32_t> here = edges_at[v];
+      if (here.size() != 2 || !mesh_.is_candidate(v) || blocked_[static_cast<std::size_t>(v)] != 0) {
+        continue;
+      }
+      const ChainEdge& first = edges_[static_cast<std::size_t>(here[0])];
+      const ChainEdge& second = edges_[static_cast<std::size_t>(here[1])];
+      if (first.kind == second.kind) {
+        const auto [low, high] = std::minmax({first.other(v), second.other(v)});
+        found[static_cast<std::size_t>(v)] = {low, high};
+      }
+    }
+    return found;
   }
 
  private:
-  bool is_candidate(std::int32_t v) const { return is_held_by_chains(fixed_[static_cast<std::size_t>(v)]); }
+  struct ChainEdge {
+    std::int32_t low, high;
+    ChainKind kind;
 
-  void find_edges(std::span<const std::int32_t> near) {
+    std::int32_t other(std::int32_t v) const { return v == low ? high : low; }
+  };
+
+  std::size_t vertices() const { return static_cast<std::size_t>(mesh_.vertex_count()); }
+
+  /// Lines with a vertex here; one that has no other here is no edge of these triangles.
+  void list_lines(const Sliding& slide) {
+    for (std::size_t i = 0; i < slide.lines.size() / 2; ++i) {
+      const std::int32_t a = mesh_.vertex(slide.lines[2 * i]);
+      const std::int32_t b = mesh_.vertex(slide.lines[2 * i + 1]);
+      if (a == NumberPlaces::none || b == NumberPlaces::none) {
+        block(a);
+        block(b);
+      } else {
+        lines_.push_back({std::min(a, b), std::max(a, b), slide.line_tags.empty() ? 0 : slide.line_tags[i]});
+      }
+    }
+    std::ranges::sort(lines_);
+    lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
+  }
+
+  void block(std::int32_t v) {
+    if (v != NumberPlaces::none) {
+      blocked_[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+  void block(const Line& line) {
+    block(line.low);
+    block(line.high);
+  }
+
+  void find_edges() {
     std::vector<EdgeSide> sides;
-    for (const std::int32_t t : near) {
-      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
+    for (std::size_t t = 0; t < mesh_.size(); ++t) {
+      const auto& [a, b, c] = mesh_.corners(t);
       for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-        const bool is_held = fixed_[static_cast<std::size_t>(from)] != 0 && fixed_[static_cast<std::size_t>(to)] != 0;
-        if (is_held && (is_candidate(from) || is_candidate(to))) {
-          sides.push_back({std::min(from, to), std::max(from, to), t});
+        if (!mesh_.is_free(from) && !mesh_.is_free(to) && (mesh_.is_candidate(from) || mesh_.is_candidate(to))) {
+          sides.push_back({std::min(from, to), std::max(from, to), mesh_.region(t)});
         }
       }
     }
@@ -112,59 +181,23 @@ class ChainSearch {
     std::for_each(line, lines_.end(), [this](const Line& beside) { block(beside); });
   }
 
-  void block(const Line& line) {
-    blocked_.push_back(line.low);
-    blocked_.push_back(line.high);
-  }
-
   /// `sides`: all of one edge.
   void add_edge(std::span<const EdgeSide> sides, const Line* line) {
-    const auto region = [this](const EdgeSide& side) {
-      return regions_.empty() ? 0 : regions_[static_cast<std::size_t>(side.triangle)];
-    };
-    const auto [low, high] = std::minmax({region(sides.front()), region(sides.back())});
+    const EdgeSide& edge = sides.front();
+    const std::int32_t low = edge.region;  // (they are sorted)
+    const std::int32_t high = sides.back().region;
     const bool is_boundary = sides.size() == 1;
     if (sides.size() > 2 || (!is_boundary && low == high && line == nullptr)) {
       return;
     }
-    const ChainKind kind{low, high, is_boundary, line != nullptr, line != nullptr ? line->tag : 0};
-    const auto& [a, b, triangle] = sides.front();
-    ends_.push_back({a, b, kind});
-    ends_.push_back({b, a, kind});
+    edges_.push_back({edge.low, edge.high, {low, high, is_boundary, line != nullptr, line != nullptr ? line->tag : 0}});
   }
 
-  std::vector<std::pair<std::int32_t, std::array<std::int32_t, 2>>> find_vertices() {
-    std::ranges::sort(ends_, {}, [](const ChainEnd& end) { return std::pair(end.vertex, end.other); });
-    std::ranges::sort(blocked_);
-    std::vector<std::pair<std::int32_t, std::array<std::int32_t, 2>>> found;
-    for (std::size_t begin = 0, end = 0; begin < ends_.size(); begin = end) {
-      const std::int32_t v = ends_[begin].vertex;
-      while (end < ends_.size() && ends_[end].vertex == v) {
-        ++end;
-      }
-      if (end - begin == 2 && is_candidate(v) && ends_[begin].kind == ends_[begin + 1].kind &&
-          !std::ranges::binary_search(blocked_, v)) {
-        found.push_back({v, {ends_[begin].other, ends_[begin + 1].other}});
-      }
-    }
-    return found;
-  }
-
-  std::span<const Triangle> triangles_;
-  std::span<const std::uint8_t> fixed_;
-  std::span<const std::int32_t> regions_;
+  const NearMesh& mesh_;
+  std::vector<std::uint8_t> blocked_;  ///< vertices at which lines are not as they have to be
   std::vector<Line> lines_;
-  std::vector<ChainEnd> ends_;
-  std::vector<std::int32_t> blocked_;  ///< vertices at which lines are not as they have to be
+  std::vector<ChainEdge> edges_;
 };
-
-std::int32_t place_of(std::span<const std::int32_t> sorted, std::int32_t number) {
-  return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
-}
-
-bool holds(std::span<const std::int32_t> sorted, std::int32_t number) {
-  return std::ranges::binary_search(sorted, number);
-}
 
 }  // namespace
 
@@ -178,61 +211,86 @@ std::vector<std::uint8_t> Slidable::truly_fixed(std::span<const std::uint8_t> fi
   return others;
 }
 
+std::vector<std::uint8_t> Slidable::flags_of_triangles(std::span<const std::uint8_t> flags) const {
+  std::vector<std::uint8_t> found;
+  for (const std::int32_t t : triangle_numbers) {
+    found.push_back(flags[static_cast<std::size_t>(t)]);
+  }
+  return found;
+}
+
 Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
                        const Constraints& constraints, Workers& workers) {
-  Slidable slidable;
-  const Sliding& slide = constraints.slide;
-  if (slide.along == Slide::off) {
-    return slidable;
+  if (constraints.slide.along == Slide::off) {
+    return {};
   }
-  const auto has_vertex = [&](std::int64_t t, const auto& is_one) {
-    return std::ranges::any_of(triangles[static_cast<std::size_t>(t)], is_one);
-  };
-  const BulkVector<std::int32_t> near = numbers_of(
+  const auto reasons = [&](std::int32_t v) { return fixed[static_cast<std::size_t>(v)]; };
+  const BulkVector<std::int32_t> numbers = numbers_of(
       std::ssize(triangles),
       [&](std::int64_t t) {
-        return has_vertex(t, [&](std::int32_t v) { return is_held_by_chains(fixed[static_cast<std::size_t>(v)]); });
+        const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+        return is_held_by_lines(reasons(a)) || is_held_by_lines(reasons(b)) || is_held_by_lines(reasons(c));
       },
       workers);
-  const auto sliding = ChainSearch(triangles, fixed, constraints).run(near);
-  std::vector<std::int32_t> movable;
-  std::ranges::transform(sliding, std::back_inserter(movable), [](const auto& found) { return found.first; });
-  for (const std::int32_t t : near) {
-    if (has_vertex(t, [&](std::int32_t v) { return holds(movable, v); })) {
-      slidable.triangle_numbers.push_back(t);
-      std::ranges::copy(triangles[static_cast<std::size_t>(t)], std::back_inserter(slidable.vertices));
-    }
+  std::vector<NearTriangle> near;
+  near.reserve(numbers.size());
+  for (const std::int32_t t : numbers) {
+    const auto i = static_cast<std::size_t>(t);
+    const auto& [a, b, c] = triangles[i];
+    near.push_back({t,
+                    triangles[i],
+                    {reasons(a), reasons(b), reasons(c)},
+                    constraints.regions.empty() ? 0 : constraints.regions[i]});
   }
-  std::ranges::sort(slidable.vertices);
-  slidable.vertices.erase(std::unique(slidable.vertices.begin(), slidable.vertices.end()), slidable.vertices.end());
-  const std::span<const std::int32_t> vertices = slidable.vertices;
-  slidable.neighbours.assign(vertices.size(), {Slidable::none, Slidable::none});
-  for (const auto& [v, others] : sliding) {
-    slidable.neighbours[static_cast<std::size_t>(place_of(vertices, v))] = {place_of(vertices, others[0]),
-                                                                            place_of(vertices, others[1])};
-  }
-  for (const std::int32_t v : vertices) {
-    slidable.is_free.push_back(fixed[static_cast<std::size_t>(v)] == 0 ? 1 : 0);
-  }
-  for (const std::int32_t t : slidable.triangle_numbers) {
-    const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
-    slidable.triangles.push_back({place_of(vertices, a), place_of(vertices, b), place_of(vertices, c)});
-  }
-  for (std::size_t i = 0; i < slide.links.size() / 2; ++i) {
-    // (One that is at none of these triangles is no vertex that may slide: its partner then is not either.)
-    const std::int32_t a = slide.links[2 * i];
-    const std::int32_t b = slide.links[2 * i + 1];
-    const std::int32_t first = holds(vertices, a) ? place_of(vertices, a) : Slidable::none;
-    const std::int32_t second = holds(vertices, b) ? place_of(vertices, b) : Slidable::none;
-    if (a != b && (first != Slidable::none || second != Slidable::none)) {
-      slidable.links.push_back({first, second});
-    }
-  }
+  return find_slidable(near, constraints.slide);
+}
+
+Slidable find_slidable(std::span<const NearTriangle> near, const Sliding& slide) {
+  Slidable slidable;
   slidable.along = slide.deviation == 0 ? Slide::straight : slide.along;
   slidable.corner_angle = slide.corner_angle;
   slidable.deviation = slide.deviation;
   slidable.curve = slidable.along == Slide::curves ? slide.curve : SlideCurve::polyline;
   slidable.coincident = slide.coincident;
+  const NearMesh mesh(near);
+  const std::vector<std::array<std::int32_t, 2>> neighbours = ChainSearch(mesh, slide).neighbours();
+  const auto slides = [&](std::int32_t v) { return neighbours[static_cast<std::size_t>(v)][0] != Slidable::none; };
+  // The triangles around those that slide, and their vertices.
+  std::vector<std::uint8_t> is_involved(neighbours.size(), 0);
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
+    if (std::ranges::any_of(mesh.corners(t), slides)) {
+      slidable.triangle_numbers.push_back(mesh.number(t));
+      slidable.triangles.push_back(mesh.corners(t));
+      for (const std::int32_t v : mesh.corners(t)) {
+        is_involved[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+  }
+  std::vector<std::int32_t> places(neighbours.size(), Slidable::none);
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (is_involved[static_cast<std::size_t>(v)] != 0) {
+      places[static_cast<std::size_t>(v)] = slidable.vertex_count();
+      slidable.vertices.push_back(mesh.number_in_mesh(v));
+      slidable.is_free.push_back(mesh.is_free(v) ? 1 : 0);
+    }
+  }
+  const auto place_of = [&](std::int32_t v) { return v < 0 ? Slidable::none : places[static_cast<std::size_t>(v)]; };
+  for (std::size_t v = 0; v < neighbours.size(); ++v) {
+    if (is_involved[v] != 0) {
+      slidable.neighbours.push_back({place_of(neighbours[v][0]), place_of(neighbours[v][1])});
+    }
+  }
+  for (Triangle& triangle : slidable.triangles) {
+    std::ranges::transform(triangle, triangle.begin(), place_of);
+  }
+  for (std::size_t i = 0; i < slide.links.size() / 2; ++i) {
+    // (One that is at none of these triangles is no vertex that may slide: its partner then is not either.)
+    const std::int32_t first = place_of(mesh.vertex(slide.links[2 * i]));
+    const std::int32_t second = place_of(mesh.vertex(slide.links[2 * i + 1]));
+    if (first != second) {
+      slidable.links.push_back({first, second});
+    }
+  }
   return slidable;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 
@@ -32,12 +33,30 @@ struct Slidable {
   bool coincident = false;
 
   bool may_slide(std::int32_t vertex) const { return neighbours[static_cast<std::size_t>(vertex)][0] != none; }
+  /// Whether sliding was asked for.
+  bool is_wanted() const { return along != Slide::off; }
   /// Whether any vertex may slide.
   bool any() const { return !triangles.empty(); }
   /// Takes the vertices that may slide out of the fixed ones. `fixed`: as MeshRings::fixed.
   std::vector<std::uint8_t> truly_fixed(std::span<const std::uint8_t> fixed) const;
+  /// The flags of `triangles` out of those of all triangles of the mesh.
+  std::vector<std::uint8_t> flags_of_triangles(std::span<const std::uint8_t> flags) const;
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(vertices.size()); }
 };
+
+/// A triangle that may be at a vertex that slides.
+struct NearTriangle {
+  std::int32_t number;
+  Triangle corners;
+  std::array<std::uint8_t, 3> reasons;  ///< why its corners are fixed, as MeshRings::fixed
+  std::int32_t region;                  ///< 0 where there are no regions
+};
+
+/// Whether nothing but lines holds a vertex: a boundary, an interface, or one that the caller names.
+constexpr TRISMOOTH_HOST_DEVICE bool is_held_by_lines(std::uint8_t reasons) {
+  constexpr unsigned of_lines = hold::boundary | hold::interface | hold::line;
+  return reasons != 0 && (reasons & ~of_lines) == 0;
+}
 
 /// Finds which vertices may slide as far as connectivity says it: those that nothing but a boundary, an interface or a
 /// line holds, and where exactly two edges of such meet that have the same regions on their sides and the same tag.
@@ -45,5 +64,8 @@ struct Slidable {
 /// linear, and n log n in the triangles of held vertices.
 Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
                        const Constraints& constraints, Workers& workers);
+
+/// The same from the triangles with a vertex that is_held_by_lines(), ascending by their numbers.
+Slidable find_slidable(std::span<const NearTriangle> near, const Sliding& slide);
 
 }  // namespace trismooth

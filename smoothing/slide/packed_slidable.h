@@ -18,26 +18,30 @@ class PackedSlidable {
   /// Nothing.
   PackedSlidable() = default;
 
-  /// `input_index`: the number in the mesh of each packed vertex; `reversed`: as MeshRings::reversed. Complexity:
-  /// linear.
-  PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed, std::span<const std::int32_t> input_index);
+  /// `reversed`: as MeshRings::reversed, of the Slidable's triangles; `numbers`: packed, of its vertices.
+  PackedSlidable(Slidable slidable, std::vector<std::uint8_t> reversed, std::vector<std::int32_t> numbers);
 
   bool any() const { return slidable_.any(); }
+  const Slidable& slidable() const { return slidable_; }
+  std::span<const std::int32_t> numbers() const { return numbers_; }
 
-  /// The chains in packed numbers. `stored`: the vertices by their numbers in the mesh, in the caller's coordinates;
-  /// `local`: the same packed, in the local frame. See find_slide_chains().
-  SlideChains chains(std::span<const Point2<double>> stored, std::span<const Point2<double>> local, Storage storage,
-                     const LocalFrame& frame) const;
+  /// The chains, with the vertices' numbers in the Slidable: see find_slide_chains(). `stored`: these vertices, in the
+  /// caller's coordinates.
+  SlideChains chains(std::span<const Point2<double>> stored, Storage storage, const LocalFrame& frame) const;
 
  private:
   Slidable slidable_;
   std::vector<std::uint8_t> reversed_;  ///< of the triangles of slidable_
-  std::vector<std::int32_t> numbers_;   ///< packed, of the vertices of slidable_
+  std::vector<std::int32_t> numbers_;
 };
+
+/// The packed numbers of a Slidable's vertices. `input_index`: the number in the mesh of each packed vertex.
+/// Complexity: linear in these.
+std::vector<std::int32_t> packed_numbers(const Slidable& slidable, std::span<const std::int32_t> input_index);
 
 /// A vertex that has slid, and where it is to be stored, in the caller's coordinates.
 struct SlidVertex {
-  std::int32_t vertex;  ///< packed
+  std::int32_t vertex;  ///< as the chains number it
   Point2<double> stored;
 };
 

@@ -6,16 +6,18 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/number_lists.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/smoothing/rings/held_neighbours.h"
 #include "trismooth/smoothing/rings/slidable.h"
+#include "trismooth/smoothing/slide/chain_runs.h"
 #include "trismooth/smoothing/slide/slide_update.h"
 #include "trismooth/smoothing/slide/slide_view.h"
 
 namespace trismooth {
 
-/// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views.
+/// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views. Vertices have the
+/// numbers of the Slidable, or after renumber() others.
 struct SlideChains {
   std::vector<SlideChain> chains;
   std::vector<Point2<double>> knots;
@@ -52,26 +54,19 @@ struct SlideChains {
       return !(shape_quotient(points[corners[0]], points[corners[1]], points[corners[2]]) > 0);
     });
   }
+  /// Gives vertex v the number numbers[v], wherever it is named.
+  void renumber(std::span<const std::int32_t> numbers);
   /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
-  HeldNeighbours neighbours(std::int32_t first, std::int32_t end) const;
+  NumberLists neighbours(std::int32_t first, std::int32_t end) const;
   SlideView view() const {
     return {chains.data(),  knots.data(), vertices.data(), arcs.data(), limits.data(),
             sliders.data(), fans.data(),  sides.data(),    curve};
   }
 };
 
-/// Where the vertices of a Slidable are, and how they are to be numbered.
-struct SlideMesh {
-  std::span<const Point2<double>> points;  ///< of its vertices, in the local frame
-  std::span<const std::int32_t> numbers;   ///< of its vertices in the result; the triangles' canonical order is by
-                                           ///< Slidable::vertices still
-  std::span<const std::uint8_t> reversed;  ///< one flag a triangle of the Slidable, as MeshRings::reversed
-  std::span<const double> roundings;  ///< how far rounding may have brought each point from where it was meant to be
-};
-
 /// Finds the chains: which vertices turn too much to slide on them, which lie in the same place as others, which are
-/// linked; in what order they are visited (greedy colouring, as colour_free_vertices() does it). Complexity: n log n in
-/// the vertices that may slide.
+/// linked; in what order they are visited (greedy colouring, as colour_free_vertices() does it). Vertices have the
+/// numbers of `slidable`. Complexity: n log n in the vertices that may slide.
 SlideChains find_slide_chains(const Slidable& slidable, const SlideMesh& mesh);
 
 }  // namespace trismooth

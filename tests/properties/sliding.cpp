@@ -24,7 +24,6 @@ using namespace properties;
 using trismooth::Evaluation;
 using trismooth::Slide;
 using trismooth::SlideCurve;
-using trismooth::Sliding;
 using trismooth::Triangle;
 
 namespace {
@@ -179,15 +178,6 @@ std::string breach_of_lines(const RandomMesh& mesh, const Lines& lines, const Ru
     return fmt::format("it says that lines are {} of an edge apart", told.relative_deviation);
   }
   return {};
-}
-
-Sliding any_sliding(test_meshes::Random& random) {
-  Sliding slide;
-  slide.along = random.below(3) == 0 ? Slide::straight : Slide::curves;
-  slide.corner_angle = std::array{30.0, 30.0, 100.0, 180.0, 5.0}[random.below(5)];
-  slide.deviation = std::array{1e-3, 1e-2, 0.1, 0.0}[random.below(4)];
-  slide.curve = random.below(3) == 0 ? SlideCurve::spline : SlideCurve::polyline;
-  return slide;
 }
 
 /// Calls check(mesh, options, random) for some ways to slide.

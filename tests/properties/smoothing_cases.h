@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -63,6 +64,18 @@ inline trismooth::MeanRatioOptions any_mean_ratio(test_meshes::Random& random) {
   }
   return {random.below(3) * random.between(0, 2), random.below(9),
           static_cast<trismooth::TargetShape>(random.below(2))};
+}
+
+/// How vertices slide: in any way.
+inline trismooth::Sliding any_sliding(test_meshes::Random& random) {
+  using trismooth::Slide;
+  using trismooth::SlideCurve;
+  trismooth::Sliding slide;
+  slide.along = random.below(3) == 0 ? Slide::straight : Slide::curves;
+  slide.corner_angle = std::array{30.0, 30.0, 100.0, 180.0, 5.0}[random.below(5)];
+  slide.deviation = std::array{1e-3, 1e-2, 0.1, 0.0}[random.below(4)];
+  slide.curve = random.below(3) == 0 ? SlideCurve::spline : SlideCurve::polyline;
+  return slide;
 }
 
 /// Calls `check(options, random)` with `count` of the combinations, in turn from one seed to the next, with sweep

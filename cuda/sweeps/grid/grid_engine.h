@@ -73,7 +73,9 @@ class GridEngine {
     rules.evaluates_all = rules.evaluates_all || (is_mean_ratio && !step.is_last && !rules.measures_shape);
     // The smallest shape is measured by the other kernel alone, and batches that do not fill the GPU are not worth a
     // launch each, unless an update takes long.
-    if (!rules.measures_shape && (rules.evaluates_all || is_mean_ratio || largest_batch_ >= smallest_launch)) {
+    const bool sweeps_all = rules.evaluates_all || rules.begins_with_all;
+    if (sweeps_all && !rules.measures_shape &&
+        (rules.evaluates_all || is_mean_ratio || largest_batch_ >= smallest_launch)) {
       const std::int32_t usual =
           is_mean_ratio ? sweeps_of_last_stage : (form == Form::swap ? sweeps_of_all_a : sweeps_of_all_b);
       const std::int32_t sweeps = rules.evaluates_all ? rules.sweeps : std::min(rules.sweeps, usual);
@@ -94,6 +96,12 @@ class GridEngine {
   void measure(SweepSums* sums) const {
     launch_smallest_quotient(mesh_.rings, mesh_.first.points, sums, context_->stream());
   }
+  /// Marks of the vertices that the next sweep evaluates, `current` being what LoopState says.
+  std::uint32_t* marks(std::int32_t current) { return current == 0 ? mesh_.first.marks : mesh_.second.marks; }
+  /// Vertices without rings are elsewhere, in both buffers, and their neighbours are marked where there are marks. May
+  /// have the next sweep evaluate all vertices.
+  void note_slides(LoopState& /*state*/) {}
+  const DeviceTargets<T>& targets() const { return targets_; }
   /// Where a run leaves the positions if LoopState::current is 0, and if it is 1. `current` says which it is where the
   /// host knows.
   std::pair<Points, Points> output(std::int32_t /*current*/) const { return input(); }

@@ -62,6 +62,13 @@ class PatchEngine {
   void measure(SweepSums* sums) const {
     launch_smallest_quotient(rings(), mesh_.first.points, sums, context_->stream());
   }
+  std::uint32_t* marks(std::int32_t /*current*/) { return nullptr; }
+  void note_slides(LoopState& state) {
+    begin_stage();
+    state.evaluates_all = 1;
+    state.marks = 0;
+  }
+  const DeviceTargets<T>& targets() const { return targets_; }
   std::pair<Points, Points> output(std::int32_t /*current*/) const { return input(); }
 
  private:

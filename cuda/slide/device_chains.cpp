@@ -1,0 +1,67 @@
+#include "trismooth/cuda/slide/device_chains.h"
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "trismooth/cuda/runtime/check.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Arrays one behind the other, each aligned for any type.
+class Pieces {
+ public:
+  /// Where the array begins.
+  template <class T>
+  std::size_t add(const std::vector<T>& values) {
+    constexpr std::size_t alignment = 16;
+    const std::size_t begin = (bytes_.size() + alignment - 1) / alignment * alignment;
+    bytes_.resize(begin + values.size() * sizeof(T));
+    if (!values.empty()) {
+      std::memcpy(bytes_.data() + begin, values.data(), values.size() * sizeof(T));
+    }
+    return begin;
+  }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace
+
+DeviceChains::DeviceChains(Context& context, const SlideChains& chains) : context_(&context) {
+  Pieces pieces;
+  const std::size_t at_chains = pieces.add(chains.chains);
+  const std::size_t at_knots = pieces.add(chains.knots);
+  const std::size_t at_vertices = pieces.add(chains.vertices);
+  const std::size_t at_arcs = pieces.add(chains.arcs);
+  const std::size_t at_limits = pieces.add(chains.limits);
+  const std::size_t at_sliders = pieces.add(chains.sliders);
+  const std::size_t at_fans = pieces.add(chains.fans);
+  const std::size_t at_sides = pieces.add(chains.sides);
+  const std::size_t at_places = pieces.add(chains.places);
+  memory_ = DeviceBuffer<std::byte>(context, pieces.bytes());
+  const auto at = [&]<class T>(std::size_t begin, const std::vector<T>& /*values*/) {
+    return reinterpret_cast<T*>(memory_.data() + begin);
+  };
+  view_ = {at(at_chains, chains.chains), at(at_knots, chains.knots),   at(at_vertices, chains.vertices),
+           at(at_arcs, chains.arcs),     at(at_limits, chains.limits), at(at_sliders, chains.sliders),
+           at(at_fans, chains.fans),     at(at_sides, chains.sides),   chains.curve};
+  places_ = {at(at_places, chains.places)};
+}
+
+void DeviceChains::download_places(std::span<SlidePlace> places) const {
+  TRISMOOTH_CUDA_CHECK(
+      cudaMemcpyAsync(places.data(), places_.places, places.size_bytes(), cudaMemcpyDeviceToHost, context_->stream()));
+  context_->synchronize();
+}
+
+void DeviceChains::begin(const SlideChains& chains) {
+  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(places_.places, chains.places.data(), chains.places.size() * sizeof(SlidePlace),
+                                       cudaMemcpyHostToDevice, context_->stream()));
+}
+
+}  // namespace trismooth::cuda

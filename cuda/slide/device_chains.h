@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/smoothing/slide/slide_chains.h"
+#include "trismooth/smoothing/slide/slide_update.h"
+
+namespace trismooth::cuda {
+
+/// Chains in device memory, with what a run writes: the places of the knots. One copy brings all of it over.
+class DeviceChains {
+ public:
+  /// None.
+  DeviceChains() = default;
+  /// `chains`: in packed numbers.
+  DeviceChains(Context& context, const SlideChains& chains);
+
+  const SlideView& view() const { return view_; }
+  SlidePlaces places() const { return places_; }
+  /// Waits for the places.
+  void download_places(std::span<SlidePlace> places) const;
+  /// Puts all vertices at their own knots, as they were when the chains came.
+  void begin(const SlideChains& chains);
+
+ private:
+  Context* context_ = nullptr;
+  DeviceBuffer<std::byte> memory_;
+  SlideView view_{};
+  SlidePlaces places_{};
+};
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,114 @@
+#include "trismooth/cuda/slide/device_slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/slide/held_points.h"
+
+namespace trismooth::cuda {
+
+DeviceSlide::DeviceSlide(Context& context, const VertexOrder& order, Slidable slidable,
+                         std::vector<std::uint8_t> reversed)
+    : context_(&context),
+      order_(&order),
+      vertices_(context, slidable.vertices),
+      points_(context, slidable.vertices.size()),
+      held_after_(context, static_cast<std::size_t>(order.vertex_count() - order.free_count())),
+      fan_of_(context, held_after_.size()) {
+  std::vector<std::int32_t> numbers = find_packed_numbers(context, order, slidable.vertices);
+  numbers_ = DeviceBuffer<std::int32_t>(context, numbers);
+  by_packed_.resize(numbers.size());
+  std::iota(by_packed_.begin(), by_packed_.end(), 0);
+  std::ranges::sort(by_packed_, {}, [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; });
+  slidable_ = PackedSlidable(std::move(slidable), std::move(reversed), std::move(numbers));
+}
+
+bool DeviceSlide::begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
+  storage_ = storage;
+  guard_.reset();
+  has_targets_ = false;
+  gather_points(*context_, stored, vertices_, points_.data());
+  std::vector<Point2<double>> gathered(points_.size());
+  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&frame_, frame, sizeof(frame_), cudaMemcpyDeviceToHost, context_->stream()));
+  points_.download(gathered);
+  local_ = slidable_.chains(gathered, storage, frame_);
+  before_.clear();
+  for (const Point2<double> point : gathered) {
+    before_.push_back(frame_.enter(point));
+  }
+  SlideChains packed = local_;
+  packed.renumber(slidable_.numbers());
+  device_ = DeviceChains(*context_, packed);
+  fan_of_.fill_bytes(0xFF);
+  find_fans(*context_, device_.view(), static_cast<std::int32_t>(local_.sliders.size()), order_->free_count(),
+            fan_of_.data());
+  return local_.any();
+}
+
+template <class T>
+void DeviceSlide::aim(const DeviceTargets<T>& targets, const PointArray<T>& points) {
+  if (targets_.size() < local_.sliders.size()) {
+    targets_ = DeviceBuffer<FanTarget>(*context_, local_.sliders.size());
+  }
+  SlideWork<T> now = work<T>();
+  now.points = points;
+  const MeshAims aims{targets.sums(), targets.size_weight(), targets.power(), targets.has_sizes()};
+  launch_fan_targets(*context_, now, static_cast<std::int32_t>(local_.sliders.size()), aims,
+                     targets.view().inverse_areas, targets_.data());
+  has_targets_ = true;
+}
+template void DeviceSlide::aim(const DeviceTargets<float>&, const PointArray<float>&);
+template void DeviceSlide::aim(const DeviceTargets<double>&, const PointArray<double>&);
+
+void DeviceSlide::take_over(bool guards) {
+  places_.resize(local_.places.size());
+  device_.download_places(places_);
+  slid_ = slid_vertices(local_, places_, frame_, storage_);
+  after_ = before_;
+  for (const SlidVertex& slid : slid_) {
+    after_[static_cast<std::size_t>(slid.vertex)] = frame_.enter(slid.stored);
+  }
+  guard_.emplace(local_, places_, before_, after_, guards);
+}
+
+void DeviceSlide::place_for_guard(const Point2<double>* before) {
+  points_.upload(after_);
+  place_held(*context_, before, order_->free_count(), static_cast<std::int32_t>(held_after_.size()), points_, numbers_,
+             held_after_.data());
+}
+
+std::int32_t DeviceSlide::put_back(std::int32_t packed) {
+  const std::span<const std::int32_t> numbers = slidable_.numbers();
+  const auto found = std::ranges::lower_bound(by_packed_, packed, {},
+                                              [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; });
+  after_[static_cast<std::size_t>(*found)] = before_[static_cast<std::size_t>(*found)];
+  return *found;
+}
+
+void DeviceSlide::finish(Point2<double>* stored, SmoothingResult& result) {
+  std::vector<Point2<double>> points;
+  std::vector<std::int32_t> vertices;
+  for (const SlidVertex& slid : slid_) {
+    const auto v = static_cast<std::size_t>(slid.vertex);
+    if (!(after_[v] == before_[v])) {
+      points.push_back(slid.stored);
+      vertices.push_back(slidable_.slidable().vertices[v]);
+    }
+  }
+  points_.upload(points);
+  const DeviceBuffer<std::int32_t> written(*context_, vertices);
+  scatter_points(*context_, points_, written, points.size(), stored);
+  result.moved_vertices += std::ssize(points);
+  const LineDeviation deviation = guard_->deviation();
+  result.sliding = {.chains = std::ssize(local_.chains),
+                    .vertices = local_.vertex_count(),
+                    .slid = guard_->slid_vertices(),
+                    .largest_deviation = std::ldexp(deviation.distance, frame_.exponent),
+                    .relative_deviation = deviation.relative};
+}
+
+}  // namespace trismooth::cuda

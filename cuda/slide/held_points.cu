@@ -1,0 +1,132 @@
+#include <vector>
+
+#include "trismooth/cuda/runtime/for_each.cuh"
+#include "trismooth/cuda/slide/held_points.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+constexpr std::int32_t not_one = -1;
+
+struct NotePlaces {
+  const std::int32_t* vertices;
+  std::int32_t* places;
+
+  __device__ void operator()(std::uint32_t i) const { places[vertices[i]] = static_cast<std::int32_t>(i); }
+};
+
+struct NoteNumbers {
+  const std::int32_t* input_index;
+  const std::int32_t* places;
+  std::int32_t* numbers;
+
+  __device__ void operator()(std::uint32_t v) const {
+    if (const std::int32_t place = places[input_index[v]]; place != not_one) {
+      numbers[place] = static_cast<std::int32_t>(v);
+    }
+  }
+};
+
+struct Gather {
+  const Point2<double>* stored;
+  const std::int32_t* vertices;
+  Point2<double>* gathered;
+
+  __device__ void operator()(std::uint32_t i) const { gathered[i] = stored[vertices[i]]; }
+};
+
+struct GatherBytes {
+  const std::uint8_t* values;
+  const std::int32_t* numbers;
+  std::uint8_t* gathered;
+
+  __device__ void operator()(std::uint32_t i) const { gathered[i] = values[numbers[i]]; }
+};
+
+struct Scatter {
+  const Point2<double>* values;
+  const std::int32_t* vertices;
+  Point2<double>* stored;
+
+  __device__ void operator()(std::uint32_t i) const { stored[vertices[i]] = values[i]; }
+};
+
+struct NoteFans {
+  SlideView view;
+  std::int32_t free_count;
+  std::int32_t* fan_of;
+
+  __device__ void operator()(std::uint32_t s) const {
+    const Slider slider = view.sliders[s];
+    const SlideChain chain = view.chains[slider.chain];
+    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
+      fan_of[view.vertices[slider.knot + copy * chain.count] - free_count] = slider.fan + copy;
+    }
+  }
+};
+
+struct PlaceSlid {
+  const Point2<double>* slid;
+  const std::int32_t* numbers;
+  std::int32_t free_count;
+  Point2<double>* after;
+
+  __device__ void operator()(std::uint32_t i) const {
+    if (numbers[i] >= free_count) {
+      after[numbers[i] - free_count] = slid[i];
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<std::int32_t> find_packed_numbers(Context& context, const VertexOrder& order,
+                                              std::span<const std::int32_t> vertices) {
+  const DeviceBuffer<std::int32_t> wanted(context, vertices);
+  DeviceBuffer<std::int32_t> places(context, static_cast<std::size_t>(order.vertex_count()));
+  DeviceBuffer<std::int32_t> numbers(context, vertices.size());
+  places.fill_bytes(0xFF);
+  for_each(context, static_cast<std::uint32_t>(vertices.size()), NotePlaces{wanted.data(), places.data()});
+  for_each(context, static_cast<std::uint32_t>(order.vertex_count()),
+           NoteNumbers{order.input_index.data(), places.data(), numbers.data()});
+  std::vector<std::int32_t> found(vertices.size());
+  numbers.download(found);
+  return found;
+}
+
+void gather_points(const Context& context, const Point2<double>* stored, const DeviceBuffer<std::int32_t>& vertices,
+                   Point2<double>* gathered) {
+  for_each(context, static_cast<std::uint32_t>(vertices.size()), Gather{stored, vertices.data(), gathered});
+}
+
+std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* values,
+                                       const DeviceBuffer<std::int32_t>& numbers) {
+  DeviceBuffer<std::uint8_t> gathered(context, numbers.size());
+  for_each(context, static_cast<std::uint32_t>(numbers.size()), GatherBytes{values, numbers.data(), gathered.data()});
+  std::vector<std::uint8_t> found(numbers.size());
+  gathered.download(found);
+  return found;
+}
+
+void scatter_points(const Context& context, const DeviceBuffer<Point2<double>>& values,
+                    const DeviceBuffer<std::int32_t>& vertices, std::size_t count, Point2<double>* stored) {
+  for_each(context, static_cast<std::uint32_t>(count), Scatter{values.data(), vertices.data(), stored});
+}
+
+void find_fans(const Context& context, const SlideView& view, std::int32_t slider_count, std::int32_t free_count,
+               std::int32_t* fan_of) {
+  for_each(context, static_cast<std::uint32_t>(slider_count), NoteFans{view, free_count, fan_of});
+}
+
+void place_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
+                const DeviceBuffer<Point2<double>>& slid, const DeviceBuffer<std::int32_t>& numbers,
+                Point2<double>* after) {
+  TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(after, before + free_count,
+                                       static_cast<std::size_t>(held_count) * sizeof(Point2<double>),
+                                       cudaMemcpyDeviceToDevice, context.stream()));
+  for_each(context, static_cast<std::uint32_t>(numbers.size()),
+           PlaceSlid{slid.data(), numbers.data(), free_count, after});
+}
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,174 @@
+// Vertices that slide along boundaries and interfaces, on the device: the CPU's bits, counts and deviations.
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/cuda/backend.h"
+
+#include "catch.h"
+#include "properties/for_random_meshes.h"
+#include "properties/smoothing_cases.h"
+#include "support/distorted_meshes.h"
+
+using namespace properties;
+using test_meshes::Random;
+using trismooth::Evaluation;
+using trismooth::Execution;
+using trismooth::Progress;
+using trismooth::Slide;
+using trismooth::SlideCurve;
+using trismooth::SlidingResult;
+using trismooth::SweepRecord;
+
+namespace cuda = trismooth::cuda;
+
+namespace {
+
+std::string difference_of_sliding(const Run& found, const Run& expected) {
+  if (const std::string wrong = difference(found, expected); !wrong.empty()) {
+    return wrong;
+  }
+  if (found.result.sliding.has_value() != expected.result.sliding.has_value()) {
+    return "one slides, the other does not";
+  }
+  if (!found.result.sliding) {
+    return {};
+  }
+  const SlidingResult& here = *found.result.sliding;
+  const SlidingResult& there = *expected.result.sliding;
+  const bool same = here.chains == there.chains && here.vertices == there.vertices && here.slid == there.slid &&
+                    here.largest_deviation == there.largest_deviation &&
+                    here.relative_deviation == there.relative_deviation;
+  return same ? std::string()
+              : fmt::format("{} of {} slid by {} ({}), not {} of {} by {} ({})", here.slid, here.vertices,
+                            here.largest_deviation, here.relative_deviation, there.slid, there.vertices,
+                            there.largest_deviation, there.relative_deviation);
+}
+
+/// Rings of vertices between two circles, uneven on each, with an interface between two of them.
+RandomMesh annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) {
+  Random random(seed);
+  RandomMesh mesh;
+  for (std::int32_t r = 0; r < rings; ++r) {
+    for (std::int32_t i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + random.between(-0.35, 0.35)) / around;
+      const double radius = 0.3 + 0.7 * r / (rings - 1);
+      mesh.mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  }
+  for (std::int32_t r = 0; r + 1 < rings; ++r) {
+    for (std::int32_t i = 0; i < around; ++i) {
+      const std::int32_t a = r * around + i;
+      const std::int32_t b = r * around + (i + 1) % around;
+      mesh.mesh.triangles.insert(mesh.mesh.triangles.end(), {{a, a + around, b}, {b, a + around, b + around}});
+      mesh.regions.insert(mesh.regions.end(), {r < rings / 2 ? 1 : 2, r < rings / 2 ? 1 : 2});
+    }
+  }
+  return mesh;
+}
+
+RandomMesh uneven_square(std::int32_t side, std::uint64_t seed) {
+  Random random(seed);
+  RandomMesh mesh;
+  mesh.mesh = distorted_meshes::grid(side, [&](test_meshes::Point p) {
+    const double most = 0.25 / (side - 1);
+    const test_meshes::Point by{random.between(-most, most), random.between(-most, most)};
+    return test_meshes::Point{p.x > 0 && p.x < 1 ? p.x + by.x : p.x, p.y > 0 && p.y < 1 ? p.y + by.y : p.y};
+  });
+  return mesh;
+}
+
+void require_cpu_bits(const RandomMesh& mesh, SmoothingOptions options) {
+  const Run expected = run(mesh, options);
+  options.backend = &cuda::backend();
+  const Run found = run(mesh, options);
+  CAPTURE(text_of(options), to_string(mesh.slide.along), to_string(mesh.slide.curve));
+  REQUIRE(found.result.backend == "cuda");
+  REQUIRE(found.result.sliding->slid > 0);
+  REQUIRE(difference_of_sliding(found, expected).empty());
+}
+
+}  // namespace
+
+TEST_CASE("random meshes slide to the same bits, in every combination, watched, evaluating all, and in plans") {
+  std::int64_t slid = 0;
+  for_random_meshes(1200, [&](const RandomMesh& mesh) {
+    return for_some_options(mesh, 2, [&](SmoothingOptions options, Random& random) -> std::string {
+      RandomMesh sliding = mesh;
+      sliding.slide = any_sliding(random);
+      options.guard = random.below(5) != 0;
+      options.evaluation = random.below(4) == 0 ? Evaluation::all : Evaluation::changed;
+      if (random.below(8) == 0) {
+        const std::int64_t last = 1 + random.below(12);
+        options.progress = [last](const SweepRecord& record) {
+          return record.sweep == last ? Progress::stop : Progress::proceed;
+        };
+      }
+      const Run expected = run(sliding, options);
+      options.backend = &cuda::backend();
+      auto plan = trismooth::plan(sliding.mesh.vertex_count(), sliding.mesh.indices(), sliding.constraints(), options);
+      for (int times = 0; times < 2; ++times) {
+        Run found{sliding.mesh.xy(), {}};
+        found.result = plan.smooth(found.xy);
+        slid += found.result.backend == "cuda" && found.result.sliding ? found.result.sliding->slid : 0;
+        if (const std::string wrong = difference_of_sliding(found, expected); !wrong.empty()) {
+          return fmt::format("{} (slides {}, corner angle {}, deviation {}, {})", wrong, to_string(sliding.slide.along),
+                             sliding.slide.corner_angle, sliding.slide.deviation, to_string(sliding.slide.curve));
+        }
+      }
+      return {};
+    });
+  });
+  CHECK(slid > meshes_of(1200));
+}
+
+TEST_CASE("meshes for the patches and for the whole grid slide to the same bits, by every method, form and precision") {
+  for (std::uint64_t index = 0; index < combinations; ++index) {
+    SmoothingOptions options = combination(index);
+    options.threads = 0;
+    options.max_sweeps = 60;
+    for (const std::int32_t side : {40, 300}) {
+      RandomMesh square = uneven_square(side, index);
+      square.slide.along = Slide::straight;
+      require_cpu_bits(square, options);
+    }
+    RandomMesh round = annulus(500, 60, index);
+    round.slide.along = Slide::curves;
+    round.slide.deviation = 1e-2;
+    round.slide.curve = index % 3 == 0 ? SlideCurve::spline : SlideCurve::polyline;
+    require_cpu_bits(round, options);
+  }
+}
+
+TEST_CASE("linked sides stay equal to the bit on the device") {
+  constexpr std::int32_t side = 60;
+  RandomMesh mesh = uneven_square(side, 5);
+  std::vector<std::int32_t> links;
+  for (std::int32_t i = 0; i < side; ++i) {
+    mesh.mesh.points[i * side + side - 1].y = mesh.mesh.points[i * side].y;
+    links.insert(links.end(), {i * side, i * side + side - 1});
+  }
+  mesh.slide.along = Slide::straight;
+  mesh.slide.links = links;
+  SmoothingOptions options;
+  options.method = Method::mean_ratio;
+  require_cpu_bits(mesh, options);
+  options.backend = &cuda::backend();
+  const Run found = run(mesh, options);
+  for (std::int32_t i = 0; i < side; ++i) {
+    CHECK(same_bits(found.xy[2 * (i * side) + 1], found.xy[2 * (i * side + side - 1) + 1]));
+  }
+}
+
+TEST_CASE("the paper's executions refuse what slides") {
+  RandomMesh mesh = uneven_square(20, 6);
+  mesh.slide.along = Slide::straight;
+  SmoothingOptions options;
+  options.backend = &cuda::backend();
+  options.execution = Execution::single_block;
+  CHECK_THROWS_AS(run(mesh, options), std::invalid_argument);
+}
