@@ -240,8 +240,9 @@ class SweepDriver final : public DeviceSmoother {
       if (follows) {
         queue_ending(ending, result);
       }
+      queue_slides(stages, loop, result.sweeps, result);
       read_record(result);
-      slide_behind(stages, result.sweeps, result);
+      note_slides(stages, loop, result.sweeps);
       bool stopped = read_sweeps(loop, result);
       const bool is_repeating = state.stop == LoopState::repeating;
       if (is_repeating && !stopped) {
@@ -293,8 +294,9 @@ class SweepDriver final : public DeviceSmoother {
       const auto left = std::min<std::int64_t>(result.sweeps - done, RunRecord::most_sweeps);
       loop.sweeps = up_to_slide(stages.at_most(static_cast<std::int32_t>(left)));
       launch(stages, loop, result);
+      queue_slides(stages, loop, done, result);
       read_record(result);
-      slide_behind(stages, done, result);
+      note_slides(stages, loop, done);
       done += host_record_.state.sweeps;
       const bool settled = host_record_.state.stop != LoopState::running;
       if (stages.is_over(host_record_.state.sweeps, settled)) {
@@ -324,9 +326,29 @@ class SweepDriver final : public DeviceSmoother {
     return count;
   }
 
-  /// Slides behind the sweeps of a launch, where it is due, and has the record of the last one say so. `done`: sweeps
-  /// of the run before the launch.
-  void slide_behind(const DeviceStages& stages, std::int64_t done, SmoothingResult& result) {
+  /// Queues the slides behind sweeps that have been queued. `done`: sweeps of the run before them.
+  void queue_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done, SmoothingResult& result) {
+    if (!slides_) {
+      return;
+    }
+    const bool is_limit = done + loop.sweeps == options_.max_sweeps;
+    const bool due_at_end = slides_behind(sweeps_of_stage_ + loop.sweeps, false, is_limit);
+    with_engine([&](auto& engine) {
+      const auto [first, second] = engine.output(0);
+      SlideWork<T> work = slide_->template work<T>();
+      work.first = first;
+      work.second = second;
+      work.first_marks = engine.marks(0);
+      work.second_marks = engine.marks(1);
+      work.tolerance = static_cast<T>(options_.tolerance);
+      result.kernel_launches += launch_slide_pass(
+          MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work, slide_->batches(),
+          due_at_end ? loop.sweeps : 0, &record_.data()->state, record_.data()->sums.data(), context_.stream());
+    });
+  }
+
+  /// Has the state say whether the run has settled where vertices slid behind its last sweep.
+  void note_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done) {
     LoopState& state = host_record_.state;
     sweeps_of_stage_ += state.sweeps;
     const bool settled = state.stop != LoopState::running;
@@ -334,29 +356,10 @@ class SweepDriver final : public DeviceSmoother {
     if (!slides_ || state.sweeps == 0 || !slides_behind(sweeps_of_stage_, settled, is_limit)) {
       return;
     }
-    SweepSums* const sums = record_.data()->sums.data() + (state.sweeps - 1);
-    with_engine([&](auto& engine) {
-      const auto [first, second] = engine.output(state.current);
-      SlideWork<T> work = slide_->template work<T>();
-      work.points = state.current == 0 ? first : second;
-      work.other_points = state.current == 0 ? second : first;
-      work.marks = engine.marks(state.current);
-      work.tolerance = static_cast<T>(options_.tolerance);
-      result.kernel_launches +=
-          launch_slide_pass(MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work,
-                            slide_->batches(), sums, context_.stream());
-    });
-    const std::uint64_t moved_before = host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)].moved;
-    const LoopState before = state;
-    record_.download({&host_record_, 1});
-    state = before;
-    const SweepSums& joined = host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)];
-    if (joined.moved > moved_before) {
-      with_engine([&](auto& engine) { engine.note_slides(state); });
-    }
-    LoopRules rules{};
+    with_engine([&](auto& engine) { engine.note_slides(state); });
+    LoopRules rules = loop;
     rules.few_moves = stages.few_moves();
-    state.stop = stop_after(joined, rules);
+    state.stop = stop_after(host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)], rules);
   }
 
   /// Why the smoothing ends with the last sweep of a launch, as far as its kernels know.

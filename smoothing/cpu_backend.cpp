@@ -212,6 +212,7 @@ class CpuSmoother final : public PreparedSmoother {
 
   template <class T>
   void guard(Run<T>& run) {
+    const PackedRings& rings = run.turned ? run.turned->rings : rings_;
     const NumberLists held =
         run.slide ? run.chains.neighbours(rings_.free_count(), rings_.vertex_count()) : NumberLists();
     if (options_.guard && !run.start.empty()) {
@@ -219,7 +220,7 @@ class CpuSmoother final : public PreparedSmoother {
       // far takes others along.
       BulkVector<Point2<double>> untangled = run.before;
       for_vertices(rings_.free_count(), [&](std::int32_t v) { untangled[v] = entered_from(run, run.start, v); });
-      const GuardOutcome outcome = keep_never_worse(rings_.view(), untangled, run.after, workers_, held);
+      const GuardOutcome outcome = keep_never_worse(rings.view(), untangled, run.after, workers_, held);
       list(run, outcome);
       for (const std::int32_t v : outcome.reverted) {
         if (v < rings_.free_count()) {
@@ -230,10 +231,10 @@ class CpuSmoother final : public PreparedSmoother {
     if (run.slide) {
       guard_with_lines(run, held);
     } else if (options_.guard && run.turned) {
-      list(run, keep_never_worse(rings_.view(), triangles_, reversed_, run.turned->components, run.before, run.after,
+      list(run, keep_never_worse(rings.view(), triangles_, reversed_, run.turned->components, run.before, run.after,
                                  workers_));
     } else if (options_.guard) {
-      list(run, keep_never_worse(rings_.view(), run.before, run.after, workers_));
+      list(run, keep_never_worse(rings.view(), run.before, run.after, workers_));
     }
   }
 

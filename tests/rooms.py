@@ -27,12 +27,12 @@ MAY_USE = {
     "smoothing": SMOOTHING,
     "mesh_io": ["base"],
     "mesh_io/halfedge": SMOOTHING,
-    "cuda faces": [],
+    "cuda faces": ["base", "smoothing faces"],
 }
 # From the lowest to the highest: each may use those before it.
 below = [*SMOOTHING, "cuda faces"]
 for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", "sweeps/grid", "sweeps/patches", "paper",
-            "guard"):
+            "guard", "slide"):
     MAY_USE[f"cuda/{own}"] = list(below)
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below

@@ -38,6 +38,7 @@ DeviceChains::DeviceChains(Context& context, const SlideChains& chains) : contex
   const std::size_t at_knots = pieces.add(chains.knots);
   const std::size_t at_vertices = pieces.add(chains.vertices);
   const std::size_t at_arcs = pieces.add(chains.arcs);
+  const std::size_t at_bends = pieces.add(chains.bends);
   const std::size_t at_limits = pieces.add(chains.limits);
   const std::size_t at_sliders = pieces.add(chains.sliders);
   const std::size_t at_fans = pieces.add(chains.fans);
@@ -47,9 +48,11 @@ DeviceChains::DeviceChains(Context& context, const SlideChains& chains) : contex
   const auto at = [&]<class T>(std::size_t begin, const std::vector<T>& /*values*/) {
     return reinterpret_cast<T*>(memory_.data() + begin);
   };
-  view_ = {at(at_chains, chains.chains), at(at_knots, chains.knots),   at(at_vertices, chains.vertices),
-           at(at_arcs, chains.arcs),     at(at_limits, chains.limits), at(at_sliders, chains.sliders),
-           at(at_fans, chains.fans),     at(at_sides, chains.sides),   chains.curve};
+  view_ = {at(at_chains, chains.chains),     at(at_knots, chains.knots),
+           at(at_vertices, chains.vertices), at(at_arcs, chains.arcs),
+           at(at_bends, chains.bends),       at(at_limits, chains.limits),
+           at(at_sliders, chains.sliders),   at(at_fans, chains.fans),
+           at(at_sides, chains.sides),       chains.curve};
   places_ = {at(at_places, chains.places)};
 }
 

@@ -55,7 +55,7 @@ void DeviceSlide::aim(const DeviceTargets<T>& targets, const PointArray<T>& poin
     targets_ = DeviceBuffer<FanTarget>(*context_, local_.sliders.size());
   }
   SlideWork<T> now = work<T>();
-  now.points = points;
+  now.first = points;
   const MeshAims aims{targets.sums(), targets.size_weight(), targets.power(), targets.has_sizes()};
   launch_fan_targets(*context_, now, static_cast<std::int32_t>(local_.sliders.size()), aims,
                      targets.view().inverse_areas, targets_.data());

@@ -1,5 +1,5 @@
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
-#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/dependent_launch.cuh"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
@@ -26,18 +26,20 @@ struct WidePoints {
 };
 
 template <class T>
-__device__ void settle(const SlideWork<T>& work, const Slider& slider, const ChainCurve& curve, const SlideMove& move) {
+__device__ void settle(const SlideWork<T>& work, bool is_first, const Slider& slider, const ChainCurve& curve,
+                       const SlideMove& move) {
   const SlideChain& chain = curve.chain();
+  std::uint32_t* const marks = is_first ? work.first_marks : work.second_marks;
   const auto mark_free = [&](std::int32_t v) {
-    if (work.marks != nullptr && v < work.free_count) {
-      mark(work.marks, v);
+    if (marks != nullptr && v < work.free_count) {
+      mark(marks, v);
     }
   };
   for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
     const std::int32_t v = work.view.vertices[slider.knot + copy * chain.count];
     const Point2<T> place = working_point<T>(curve.position(move.place, copy));
-    work.points.store(v, place);
-    work.other_points.store(v, place);
+    work.first.store(v, place);
+    work.second.store(v, place);
     const std::int32_t fan = slider.fan + copy;
     for (std::int32_t i = work.view.fans[fan]; i < work.view.fans[fan + 1]; ++i) {
       mark_free(work.view.sides[i].from);
@@ -49,24 +51,31 @@ __device__ void settle(const SlideWork<T>& work, const Slider& slider, const Cha
 
 template <class Update, class T>
 __global__ void __launch_bounds__(slide_threads)
-    slide_batch(Update method, SlideWork<T> work, std::int32_t begin, std::int32_t end, SweepSums* sums) {
+    slide_batch(Update method, SlideWork<T> work, std::int32_t begin, std::int32_t end, std::int32_t due_after,
+                const LoopState* state, SweepSums* sums) {
+  wait_for_launch_before();
+  const std::int32_t sweeps = state->sweeps;
+  if (sweeps == 0 || (state->stop == LoopState::running && sweeps != due_after)) {
+    return;
+  }
   __shared__ SweepSums shared;
   SweepTally<T> tally;
   const std::int64_t s = begin + thread_index();
   if (s < end) {
     ++tally.evaluated;
+    const bool is_first = state->current == 0;
     const Slider slider = work.view.sliders[s];
-    const WidePoints<T> points{work.points};
+    const WidePoints<T> points{is_first ? work.first : work.second};
     const SlidingVertex vertex(work.view, work.places, slider, points);
     const SlideMove move = slide(method, vertex, work.targets == nullptr ? FanTarget{} : work.targets[s]);
     if (move.moved) {
       const Point2<double> way = vertex.curve().position(move.place, 0) - vertex.curve().position(vertex.own(), 0);
       const MoveLength<T> length{static_cast<T>(squared_length(way) * move.neighbours), static_cast<T>(move.squares)};
       add_move(tally, length, work.tolerance);
-      settle(work, slider, vertex.curve(), move);
+      settle(work, is_first, slider, vertex.curve(), move);
     }
   }
-  add_to_sums(tally, shared, sums);
+  add_to_sums(tally, shared, sums + (sweeps - 1));
 }
 
 template <class T>
@@ -78,7 +87,7 @@ struct FindFanTargets {
 
   __device__ void operator()(std::uint32_t s) const {
     const Slider slider = work.view.sliders[s];
-    const WidePoints<T> points{work.points};
+    const WidePoints<T> points{work.first};
     const MeanRatioMesh mesh = MeanRatioMesh::of(*aims.sums, aims.size_weight, aims.power, aims.has_sizes);
     const double asked = aims.has_sizes ? static_cast<double>(inverse_areas[work.view.vertices[slider.knot]]) : 0.0;
     targets[s] = fan_target(SlidingVertex(work.view, work.places, slider, points), mesh, asked);
@@ -89,14 +98,14 @@ struct FindFanTargets {
 
 template <class T>
 std::int64_t launch_slide_pass(const MethodInUse<T>& method, const SlideWork<T>& work,
-                               std::span<const std::int32_t> batches, SweepSums* sums, cudaStream_t stream) {
+                               std::span<const std::int32_t> batches, std::int32_t due_after, const LoopState* state,
+                               SweepSums* sums, cudaStream_t stream) {
   std::int64_t launches = 0;
   visit_method(method, [&]<class Update>(const Update& update) {
+    DependentLaunch kernel(&slide_batch<Update, T>, stream);
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-      const unsigned blocks = blocks_for(batches[batch + 1] - batches[batch], slide_threads);
-      slide_batch<Update, T>
-          <<<blocks, slide_threads, 0, stream>>>(update, work, batches[batch], batches[batch + 1], sums);
-      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+      kernel(blocks_for(batches[batch + 1] - batches[batch], slide_threads), slide_threads, update, work,
+             batches[batch], batches[batch + 1], due_after, state, sums);
       ++launches;
     }
   });
@@ -111,7 +120,7 @@ void launch_fan_targets(const Context& context, const SlideWork<T>& work, std::i
 
 #define INSTANTIATE(T)                                                                                               \
   template std::int64_t launch_slide_pass(const MethodInUse<T>&, const SlideWork<T>&, std::span<const std::int32_t>, \
-                                          SweepSums*, cudaStream_t);                                                 \
+                                          std::int32_t, const LoopState*, SweepSums*, cudaStream_t);                 \
   template void launch_fan_targets(const Context&, const SlideWork<T>&, std::int32_t, const MeshAims&, const T*,     \
                                    FanTarget*)
 INSTANTIATE(float);

@@ -17,19 +17,22 @@ template <class T>
 struct SlideWork {
   SlideView view;
   SlidePlaces places;
-  PointArray<T> points;        ///< all packed vertices, as the last sweep left them
-  PointArray<T> other_points;  ///< the other buffer, which is to know where they slide too; may be the same
-  const FanTarget* targets;    ///< of the mean-ratio method, else null
-  std::uint32_t* marks;        ///< of the free vertices that the next sweep is to evaluate; null: there are none
+  PointArray<T> first;          ///< all packed vertices as the sweeps left them, if LoopState::current is 0...
+  PointArray<T> second;         ///< ...and if it is 1. Both are to know where vertices slide; may be the same
+  const FanTarget* targets;     ///< of the mean-ratio method, else null
+  std::uint32_t* first_marks;   ///< of the free vertices that the next sweep evaluates, likewise; null: there are none
+  std::uint32_t* second_marks;  ///< likewise
   std::int32_t free_count;
   T tolerance;
 };
 
-/// Queues a pass: what SlidePass does on the host, but that all sliders are evaluated. `batches`: their colours. Adds
-/// to the sums of the sweep that it follows. Returns the number of launches.
+/// Queues a pass behind sweeps: what SlidePass does on the host, but that all sliders are evaluated. `batches`: their
+/// colours. It is made where the sweeps have settled, or if they are as many as `due_after`; nobody has to have waited
+/// for them. Adds to the sums of the last of them. Returns the number of launches.
 template <class T>
 std::int64_t launch_slide_pass(const MethodInUse<T>& method, const SlideWork<T>& work,
-                               std::span<const std::int32_t> batches, SweepSums* sums, cudaStream_t stream);
+                               std::span<const std::int32_t> batches, std::int32_t due_after, const LoopState* state,
+                               SweepSums* sums, cudaStream_t stream);
 
 /// What DeviceTargets knows of the mesh as a whole.
 struct MeshAims {

@@ -37,9 +37,7 @@ std::vector<std::array<std::int32_t, 2>> read_msh_periodic(MshInput& input, cons
     for (std::int64_t pairs = size("the number of linked nodes"); pairs > 0; --pairs) {
       const std::int64_t first = nodes.find(size("the tag of a node"));
       const std::int64_t second = nodes.find(size("the tag of a node"));
-      if (first >= 0 && second >= 0) {
-        found.push_back({static_cast<std::int32_t>(first), static_cast<std::int32_t>(second)});
-      }
+      found.push_back({static_cast<std::int32_t>(first), static_cast<std::int32_t>(second)});
     }
   }
   return found;

@@ -9,8 +9,8 @@
 
 namespace trismooth {
 
-/// Reads the section $Periodic behind its first line: the pairs of nodes that it links. Those with a tag that no node
-/// has are passed over: Gmsh writes 0 for nodes that it leaves out. `nodes` are finished. Throws ReadError for what is
+/// Reads the section $Periodic behind its first line: the pairs of nodes that it links. A tag that no node has is there
+/// as a negative number: Gmsh writes 0 for nodes that it leaves out. `nodes` are finished. Throws ReadError for what is
 /// no such section. Complexity: linear in the links, but for finding nodes by their tags.
 std::vector<std::array<std::int32_t, 2>> read_msh_periodic(MshInput& input, const MshTags& nodes);
 

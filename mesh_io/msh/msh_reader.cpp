@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -208,7 +209,12 @@ class MshReader {
   void read_periodic() {
     const std::size_t begin = input_.offset();
     try {
-      document_.periodic_pairs = read_msh_periodic(input_, nodes_.tags);
+      for (const auto& pair : read_msh_periodic(input_, nodes_.tags)) {
+        std::ranges::copy_if(pair, std::back_inserter(periodic_), [](std::int32_t node) { return node >= 0; });
+        if (std::ranges::min(pair) >= 0) {
+          document_.periodic_pairs.push_back(pair);
+        }
+      }
     } catch (const ReadError&) {
       document_.notes.emplace_back("The section $Periodic is not understood, so it holds no nodes.");
     }
@@ -294,13 +300,9 @@ class MshReader {
       add("gmsh:points", nodes_.on_points);
       add("gmsh:curves", nodes_.on_curves);
     }
-    std::vector<std::int32_t> periodic;
-    for (const auto& [first, second] : document_.periodic_pairs) {
-      periodic.insert(periodic.end(), {first, second});
-    }
-    std::ranges::sort(periodic);
-    periodic.erase(std::unique(periodic.begin(), periodic.end()), periodic.end());
-    add("gmsh:periodic", periodic);
+    std::ranges::sort(periodic_);
+    periodic_.erase(std::unique(periodic_.begin(), periodic_.end()), periodic_.end());
+    add("gmsh:periodic", periodic_);
   }
 
   void add_notes() {
@@ -328,6 +330,7 @@ class MshReader {
   MshElements elements_;
   std::vector<std::int32_t> all_physical_;
   std::vector<ValueName> value_names_;
+  std::vector<std::int32_t> periodic_;  ///< nodes
   std::vector<MshDataSection> data_;
   std::vector<std::string> kept_sections_;
   FreeNames point_names_;

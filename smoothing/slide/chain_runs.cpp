@@ -98,9 +98,7 @@ class RunFinder {
     if (slidable_.along == Slide::curves) {
       return false;
     }
-    const Point2<double> chord = point(b) - point(a);
-    const double off = std::abs(cross(in, chord)) / std::sqrt(squared_length(chord));
-    return !(forward > 0 && off <= std::max({rounding(a), rounding(v), rounding(b)}));
+    return !is_straight(point(a), point(v), point(b), std::max({rounding(a), rounding(v), rounding(b)}));
   }
 
   /// Joins what slides as one, and holds what may not slide for what it is joined with.
@@ -304,6 +302,13 @@ class RunFinder {
 };
 
 }  // namespace
+
+bool is_straight(Point2<double> before, Point2<double> vertex, Point2<double> after, double rounding) {
+  const Point2<double> in = vertex - before;
+  const Point2<double> out = after - vertex;
+  const Point2<double> chord = after - before;
+  return in.x * out.x + in.y * out.y > 0 && std::abs(cross(in, chord)) <= rounding * std::sqrt(squared_length(chord));
+}
 
 ChainRuns find_chain_runs(const Slidable& slidable, const SlideMesh& mesh) {
   return RunFinder(slidable, mesh).run();

@@ -18,6 +18,10 @@ struct SlideMesh {
   std::span<const double> roundings;  ///< how far rounding may have brought each point from where it was meant to be
 };
 
+/// Whether a line is straight at `vertex` between its neighbours, to rounding. All points that are straight to it may
+/// be `rounding` off.
+bool is_straight(Point2<double> before, Point2<double> vertex, Point2<double> after, double rounding);
+
 /// A run of vertices along a line, the ends of an open one included. Numbers are those of the Slidable.
 struct ChainRun {
   std::vector<std::int32_t> vertices;

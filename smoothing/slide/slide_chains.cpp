@@ -60,6 +60,7 @@ class ChainWriter {
       const double allowed = slidable_.along == Slide::curves ? slidable_.deviation * nearby : 0;
       const double rounded = rounding_around(run, copies, static_cast<std::size_t>(i));
       chains_.lengths.push_back(nearby);
+      chains_.bends.push_back(bends(run, copies, static_cast<std::size_t>(i), rounded) ? 1 : 0);
       chains_.limits.push_back(std::max(allowed - rounded, 2 * rounded));
       chains_.allowed.push_back(std::max(allowed, 3 * rounded));
       chains_.places.push_back({chain.length, run.is_closed || i < segments ? i : i - 1});
@@ -70,10 +71,22 @@ class ChainWriter {
     }
     chains_.arcs.resize(chains_.knots.size());
     chains_.lengths.resize(chains_.knots.size());
+    chains_.bends.resize(chains_.knots.size());
     chains_.limits.resize(chains_.knots.size());
     chains_.allowed.resize(chains_.knots.size());
     chains_.places.resize(chains_.knots.size());
     chains_.chains.push_back(chain);
+  }
+
+  /// Whether a run or one of its copies bends at that vertex; not at an end.
+  bool bends(const ChainRun& run, std::span<const ChainRun> copies, std::size_t i, double rounded) const {
+    const auto bends_at = [&](const ChainRun& of) {
+      const std::size_t count = of.vertices.size();
+      const auto at = [&](std::size_t place) { return point(of.vertices[place % count]); };
+      return !is_straight(at(i + count - 1), at(i), at(i + 1), rounded);
+    };
+    const bool is_end = !run.is_closed && (i == 0 || i + 1 == run.vertices.size());
+    return !is_end && (bends_at(run) || std::ranges::any_of(copies, bends_at));
   }
 
   /// How far rounding may have brought a vertex of a run, those next to it, and those of the copies.

@@ -23,6 +23,7 @@ struct SlideChains {
   std::vector<Point2<double>> knots;
   std::vector<std::int32_t> vertices;
   std::vector<double> arcs;              ///< one a knot of all copies; those of the first copy count
+  std::vector<std::uint8_t> bends;       ///< likewise: 0 where the polyline is straight to rounding
   std::vector<double> lengths;           ///< likewise: of the shorter one of both segments
   std::vector<double> limits;            ///< likewise: how far the new line may be from the knot before it is stored...
   std::vector<double> allowed;           ///< ...and how far it may be then: rounding, of what is stored, is between
@@ -59,8 +60,8 @@ struct SlideChains {
   /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
   NumberLists neighbours(std::int32_t first, std::int32_t end) const;
   SlideView view() const {
-    return {chains.data(),  knots.data(), vertices.data(), arcs.data(), limits.data(),
-            sliders.data(), fans.data(),  sides.data(),    curve};
+    return {chains.data(), knots.data(),   vertices.data(), arcs.data(),  bends.data(),
+            limits.data(), sliders.data(), fans.data(),     sides.data(), curve};
   }
 };
 

@@ -48,6 +48,14 @@ class ChainCurve {
   TRISMOOTH_HOST_DEVICE Point2<double> knot(std::int32_t i, std::int32_t copy) const {
     return view_.knots[chain_.first + copy * chain_.count + wrap(i)];
   }
+  /// Whether the polyline bends at a knot between two places.
+  TRISMOOTH_HOST_DEVICE bool bends_between(const SlidePlace& first, const SlidePlace& last) const {
+    bool found = false;
+    for (std::int32_t i = first.segment + 1; i <= last.segment; ++i) {
+      found = found || view_.bends[chain_.first + wrap(i)] != 0;
+    }
+    return found;
+  }
   TRISMOOTH_HOST_DEVICE double limit(std::int32_t i) const { return view_.limits[chain_.first + wrap(i)]; }
 
   /// Where a place is on a copy. On the polyline a coordinate that is the same at both ends of the segment keeps its

@@ -68,6 +68,9 @@ class SlidingVertex {
     if (!(place.arc > before_.arc && place.arc < after_.arc)) {
       return false;
     }
+    if (view_.curve == SlideCurve::polyline && !curve_.bends_between(before_, after_)) {
+      return true;
+    }
     for (std::int32_t copy = 0; copy < copies(); ++copy) {
       const Point2<double> here = curve_.position(place, copy);
       const EdgeDeviation first = deviation_of(curve_, copy, before_, curve_.position(before_, copy), place, here);
@@ -80,17 +83,21 @@ class SlidingVertex {
   }
 
   /// The place at `arc`, or if it may not be there the one half as far away, and so on; its own where that becomes
-  /// next to nothing.
+  /// next to nothing. A step that is short to begin with is not worth it, or lines would creep for hundreds of sweeps
+  /// (found by experiment: docs/sliding.md).
   TRISMOOTH_HOST_DEVICE SlidePlace as_far_as_it_may(double arc) const {
-    const double least = 0x1p-10 * (after_.arc - before_.arc);
+    const double gap = after_.arc - before_.arc;
     double step = arc - own_.arc;
+    if (!(std::abs(step) > 0x1p-6 * gap)) {
+      return own_;
+    }
     for (int tries = 0; tries < most_halvings; ++tries) {
       const SlidePlace place = curve_.at(own_.arc + step, own_.segment);
       if (may_be_at(place)) {
         return place;
       }
       step = 0.5 * step;
-      if (!(std::abs(step) > least)) {
+      if (!(std::abs(step) > 0x1p-10 * gap)) {
         break;
       }
     }

@@ -44,7 +44,8 @@ struct SlideView {
   const std::int32_t* vertices = nullptr;  ///< packed numbers
   // By knot of the first copy:
   const double* arcs = nullptr;
-  const double* limits = nullptr;  ///< how far the new line may be from it before it is stored, which rounds
+  const std::uint8_t* bends = nullptr;  ///< 0 where the polyline is straight to rounding
+  const double* limits = nullptr;       ///< how far the new line may be from it before it is stored, which rounds
   // By slider:
   const Slider* sliders = nullptr;
   const std::int32_t* fans = nullptr;  ///< sides[fans[f]] .. sides[fans[f + 1]] are those of fan f

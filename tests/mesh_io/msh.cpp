@@ -237,12 +237,16 @@ TEST_CASE("nodes of points and curves, and linked ones, are implied sets in ever
   const trismooth::NamedSet linked{"gmsh:periodic", {0, 1, 4}};
   CHECK(read_msh_text(text + "$Periodic\n1\n1 2 1\n3 1 0.5 -1\n2\n1 2\n5 2\n$EndPeriodic\n").implied_sets.back() ==
         linked);
+  using Pairs = std::vector<std::array<std::int32_t, 2>>;
+  CHECK(read_msh_text(text + "$Periodic\n1\n1 2 1\n3 1 0.5 -1\n2\n1 2\n5 2\n$EndPeriodic\n").periodic_pairs ==
+        Pairs{{0, 1}, {4, 1}});
   for (const char* const map : {"", "Affine 1 0 0 2 0 1 0\n"}) {
     // Gmsh writes 0 for nodes that it leaves out.
     const std::string section =
         "$Periodic\n2\n1 2 1\n" + std::string(map) + "2\n1 2\n0 2\n1 2 1\n1\n5 1\n$EndPeriodic\n";
     CHECK(read_msh_text(accepted_files::msh::file({.version = 40}) + section).implied_sets.back() == linked);
     CHECK(read_msh_text(accepted_files::msh::file({.version = 22}) + section).implied_sets.back() == linked);
+    CHECK(read_msh_text(accepted_files::msh::file({.version = 22}) + section).periodic_pairs == Pairs{{0, 1}, {4, 0}});
     CHECK(read_msh_text(accepted_files::msh::file({.version = 22, .binary = true}) + section).implied_sets.back() ==
           linked);
   }

@@ -1,0 +1,138 @@
+// Sliding from file to file.
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/pipeline.h"
+
+#include "catch.h"
+#include "support/scratch_folder.h"
+
+using trismooth::MeshDocument;
+using trismooth::PipelineOptions;
+using trismooth::PipelineResult;
+using trismooth::Slide;
+
+namespace sliding_test {
+
+constexpr int side = 8;
+
+/// A square of side x side nodes off their places, with line elements on its sides (a group each, the left one linked
+/// to the right one) and on row 3 inside, and a point element at node (5, 0).
+std::string msh() {
+  std::ostringstream text;
+  text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << side * side << "\n";
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const double off_x = i > 0 && i + 1 < side ? 0.2 * ((7 * i + 3 * j) % 5 - 2) / 2 : 0;
+      const double off_y = j > 0 && j + 1 < side && j != 3 ? 0.2 * ((5 * (i % (side - 1)) + 4 * j) % 7 - 3) / 3 : 0;
+      text << j * side + i + 1 << " " << (i + off_x) / (side - 1) << " " << (j + off_y) / (side - 1) << " 0\n";
+    }
+  }
+  std::ostringstream elements;
+  int count = 0;
+  const auto line = [&](int group, int a, int b) {
+    elements << ++count << " 1 2 " << group << " " << group << " " << a + 1 << " " << b + 1 << "\n";
+  };
+  for (int i = 0; i + 1 < side; ++i) {
+    line(1, i, i + 1);
+    line(2, i * side + side - 1, (i + 1) * side + side - 1);
+    line(3, (side - 1) * side + i, (side - 1) * side + i + 1);
+    line(4, i * side, (i + 1) * side);
+    line(5, 3 * side + i, 3 * side + i + 1);
+  }
+  elements << ++count << " 15 2 9 9 6\n";
+  for (int j = 0; j + 1 < side; ++j) {
+    for (int i = 0; i + 1 < side; ++i) {
+      const int a = j * side + i + 1;
+      elements << ++count << " 2 2 10 10 " << a << " " << a + 1 << " " << a + side + 1 << "\n";
+      elements << ++count << " 2 2 10 10 " << a << " " << a + side + 1 << " " << a + side << "\n";
+    }
+  }
+  text << "$EndNodes\n$Elements\n"
+       << count << "\n"
+       << elements.str() << "$EndElements\n$Periodic\n1\n1 2 4\n"
+       << side << "\n";
+  for (int j = 0; j < side; ++j) {
+    text << j * side + side << " " << j * side + 1 << "\n";
+  }
+  text << "$EndPeriodic\n";
+  return text.str();
+}
+
+struct Smoothed {
+  PipelineResult result;
+  MeshDocument before, after;
+
+  bool moved(int v) const {
+    return !std::equal(before.points.begin() + 3 * v, before.points.begin() + 3 * v + 3, after.points.begin() + 3 * v);
+  }
+};
+
+Smoothed smoothed(const ScratchFolder& folder, const PipelineOptions& wanted) {
+  PipelineOptions options = wanted;
+  options.input = folder / "square.msh";
+  options.output = folder / "smoothed.msh";
+  std::ofstream(options.input) << msh();
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  Smoothed found;
+  found.result = trismooth::run_pipeline(options);
+  found.before = trismooth::read_mesh(options.input);
+  found.after = trismooth::read_mesh(*options.output);
+  return found;
+}
+
+}  // namespace sliding_test
+
+TEST_CASE("lines of a file are slid on, its groups end them, points stay, and periodic nodes go together") {
+  using namespace sliding_test;
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.slide.along = Slide::straight;
+  const Smoothed found = smoothed(folder, options);
+  REQUIRE(found.result.smoothing->sliding);
+  CHECK(found.result.smoothing->sliding->slid > side);
+  int slid_inside = 0;
+  for (int i = 0; i < side; ++i) {
+    const auto y = [](const MeshDocument& document, int v) {
+      return document.points[static_cast<std::size_t>(3 * v + 1)];
+    };
+    CHECK(y(found.after, i) == 0);
+    CHECK(y(found.after, 3 * side + i) == y(found.before, 3 * side + i));
+    CHECK(y(found.after, i * side) == y(found.after, i * side + side - 1));
+    slid_inside += found.moved(3 * side + i) ? 1 : 0;
+  }
+  CHECK(slid_inside > 2);
+  CHECK(found.moved(2));
+  CHECK_FALSE(found.moved(5));  // a point element
+  REQUIRE(found.result.areas.size() == 1);
+  CHECK(found.result.areas[0].before == Approx(1));
+  CHECK(std::abs(found.result.areas[0].relative_change()) < 1e-15);
+}
+
+TEST_CASE("without --slide lines of a file hold their vertices") {
+  using namespace sliding_test;
+  const ScratchFolder folder;
+  const Smoothed found = smoothed(folder, {});
+  CHECK_FALSE(found.result.smoothing->sliding);
+  CHECK(found.result.areas.empty());
+  for (int i = 0; i < side; ++i) {
+    CHECK_FALSE(found.moved(i));
+    CHECK_FALSE(found.moved(3 * side + i));
+  }
+}
+
+TEST_CASE("sliding on a map of the sphere is wrong usage") {
+  using namespace sliding_test;
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.slide.along = Slide::straight;
+  options.geographic = true;
+  CHECK_THROWS_AS(smoothed(folder, options), std::invalid_argument);
+}
