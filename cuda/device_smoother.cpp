@@ -470,8 +470,8 @@ class SweepDriver final : public DeviceSmoother {
     slide_->finish(ending.stored, result);
     timeline_.mark();
     std::ranges::stable_sort(result.reverted, {}, &RevertedVertex::vertex);
-    const auto twice = std::ranges::unique(result.reverted, {}, &RevertedVertex::vertex);
-    result.reverted.erase(twice.begin(), twice.end());
+    const auto is_same = [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; };
+    result.reverted.erase(std::unique(result.reverted.begin(), result.reverted.end(), is_same), result.reverted.end());
     result.reverted_vertices = std::ssize(result.reverted);
   }
 

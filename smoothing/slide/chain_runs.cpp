@@ -148,7 +148,7 @@ class RunFinder {
     run.vertices = walk(v, neighbours(v)[0]);
     run.is_closed = run.vertices.back() == v;
     if (run.is_closed) {
-      std::ranges::rotate(run.vertices, run.vertices.end() - 1);
+      std::rotate(run.vertices.begin(), run.vertices.end() - 1, run.vertices.end());
     } else {
       std::ranges::reverse(run.vertices);
       run.vertices.push_back(v);

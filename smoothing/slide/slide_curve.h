@@ -43,7 +43,8 @@ class ChainCurve {
       return view_.arcs[chain_.first + i];
     }
     const std::int32_t wrapped = wrap(i);
-    return view_.arcs[chain_.first + wrapped] + static_cast<double>((i - wrapped) / chain_.count) * chain_.length;
+    const std::int32_t rounds = (i - wrapped) / chain_.count;
+    return view_.arcs[chain_.first + wrapped] + static_cast<double>(rounds) * chain_.length;
   }
   TRISMOOTH_HOST_DEVICE Point2<double> knot(std::int32_t i, std::int32_t copy) const {
     return view_.knots[chain_.first + copy * chain_.count + wrap(i)];

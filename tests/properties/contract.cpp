@@ -18,8 +18,8 @@ using trismooth::Triangle;
 class Units {
  public:
   explicit Units(std::span<const double> xy) {
-    double low[2];
-    double high[2];
+    double low[2]{};
+    double high[2]{};
     for (std::size_t i = 0; i < xy.size(); ++i) {
       low[i % 2] = i < 2 ? xy[i] : std::min(low[i % 2], xy[i]);
       high[i % 2] = i < 2 ? xy[i] : std::max(high[i % 2], xy[i]);
