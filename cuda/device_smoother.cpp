@@ -469,9 +469,8 @@ class SweepDriver final : public DeviceSmoother {
     result.moved_vertices = host_record_.guard.moved;
     slide_->finish(ending.stored, result);
     timeline_.mark();
-    std::ranges::stable_sort(result.reverted, {}, &RevertedVertex::vertex);
-    const auto is_same = [](const RevertedVertex& a, const RevertedVertex& b) { return a.vertex == b.vertex; };
-    result.reverted.erase(std::unique(result.reverted.begin(), result.reverted.end(), is_same), result.reverted.end());
+    // (Nobody goes back twice.)
+    std::ranges::sort(result.reverted, {}, &RevertedVertex::vertex);
     result.reverted_vertices = std::ssize(result.reverted);
   }
 
