@@ -54,7 +54,7 @@ std::vector<SlidVertex> slid_vertices(const SlideChains& chains, std::span<const
     }
     const ChainCurve curve(view, slider.chain);
     for (std::int32_t copy = 0; copy < curve.chain().copies; ++copy) {
-      const std::int32_t v = chains.vertices[static_cast<std::size_t>(slider.knot + copy * curve.chain().count)];
+      const std::int32_t v = chains.vertices[slider.knot + copy * curve.chain().count];
       slid.push_back({v, rounded_to(storage, frame.leave(curve.position(place, copy), largest_stored(storage)))});
     }
   }

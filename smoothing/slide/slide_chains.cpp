@@ -47,7 +47,7 @@ class ChainWriter {
     for (const ChainRun& copy : copies) {
       add_knots(copy);
     }
-    const auto knot = [&](std::int32_t i) { return chains_.knots[static_cast<std::size_t>(chain.first + i % count)]; };
+    const auto knot = [&](std::int32_t i) { return chains_.knots[chain.first + i % count]; };
     const auto length = [&](std::int32_t i) { return std::sqrt(squared_length(knot(i + 1) - knot(i))); };
     const std::int32_t segments = run.is_closed ? count : count - 1;
     for (std::int32_t i = 0; i < count; ++i) {
@@ -237,7 +237,7 @@ class ChainWriter {
   void for_vertices_of(const Slider& slider, const Visit& visit) const {
     const SlideChain& chain = chains_.chains[static_cast<std::size_t>(slider.chain)];
     for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      visit(chains_.vertices[static_cast<std::size_t>(slider.knot + copy * chain.count)]);
+      visit(chains_.vertices[slider.knot + copy * chain.count]);
     }
   }
 
@@ -274,8 +274,8 @@ NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const 
   for (const Slider& slider : sliders) {
     const SlideChain& chain = chains[static_cast<std::size_t>(slider.chain)];
     for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      const std::int32_t v = vertices[static_cast<std::size_t>(slider.knot + copy * chain.count)];
-      const auto fan = static_cast<std::size_t>(slider.fan + copy);
+      const std::int32_t v = vertices[slider.knot + copy * chain.count];
+      const std::int32_t fan = slider.fan + copy;
       for (std::int32_t i = fans[fan]; i < fans[fan + 1]; ++i) {
         const FanSide& side = sides[static_cast<std::size_t>(i)];
         pairs.emplace_back(v, side.from);

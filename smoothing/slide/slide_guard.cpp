@@ -30,7 +30,7 @@ template <class Visit>
 void for_copies(const SlideChains& chains, const Slider& slider, const Visit& visit) {
   const SlideChain& chain = chains.chains[static_cast<std::size_t>(slider.chain)];
   for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-    visit(chains.vertices[static_cast<std::size_t>(slider.knot + copy * chain.count)]);
+    visit(chains.vertices[slider.knot + copy * chain.count]);
   }
 }
 
@@ -108,8 +108,7 @@ void SlideGuard::for_edges(const std::vector<double>& limits, const Visit& visit
       }
       for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
         const auto at = [&](std::int32_t knot) {
-          return after_[static_cast<std::size_t>(
-              chains_.vertices[static_cast<std::size_t>(knot + copy * chain.count)])];
+          return after_[static_cast<std::size_t>(chains_.vertices[knot + copy * chain.count])];
         };
         EdgeDeviation found;
         if (from.arc < to.arc) {

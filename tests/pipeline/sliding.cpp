@@ -101,7 +101,7 @@ TEST_CASE("lines of a file are slid on, its groups end them, points stay, and pe
   int slid_inside = 0;
   for (int i = 0; i < side; ++i) {
     const auto y = [](const MeshDocument& document, int v) {
-      return document.points[static_cast<std::size_t>(3 * v + 1)];
+      return document.points[3 * static_cast<std::size_t>(v) + 1];
     };
     CHECK(y(found.after, i) == 0);
     CHECK(y(found.after, 3 * side + i) == y(found.before, 3 * side + i));
