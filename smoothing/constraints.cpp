@@ -17,10 +17,11 @@ void require_length(std::string_view what, std::size_t length, std::int64_t expe
   }
 }
 
+/// `what`: how the message begins.
 void require_vertices(std::string_view what, std::span<const std::int32_t> vertices, std::int32_t vertex_count) {
   for (const std::int32_t v : vertices) {
     if (v < 0 || v >= vertex_count) {
-      throw std::invalid_argument(std::string(what) + ": vertex " + std::to_string(v) + " is not one of the " +
+      throw std::invalid_argument(std::string(what) + " " + std::to_string(v) + " is not one of the " +
                                   std::to_string(vertex_count) + " vertices");
     }
   }
@@ -32,7 +33,7 @@ void require_pairs(std::string_view what, std::span<const std::int32_t> vertices
     throw std::invalid_argument(std::string(what) + " has " + std::to_string(vertices.size()) +
                                 " entries, expected two vertices for each");
   }
-  require_vertices(what, vertices, vertex_count);
+  require_vertices(std::string(what) + ": vertex", vertices, vertex_count);
 }
 
 void check_sliding(const Sliding& slide, std::int32_t vertex_count) {
@@ -57,12 +58,7 @@ void check_constraints(const Constraints& constraints, std::int32_t vertex_count
   require_length("Constraints::fixed", constraints.fixed.size(), vertex_count);
   require_length("Constraints::other_cells", constraints.other_cells.size(), vertex_count);
   require_length("Constraints::regions", constraints.regions.size(), triangle_count);
-  for (const std::int32_t v : constraints.fixed_ids) {
-    if (v < 0 || v >= vertex_count) {
-      throw std::invalid_argument("fixed vertex " + std::to_string(v) + " is not one of the " +
-                                  std::to_string(vertex_count) + " vertices");
-    }
-  }
+  require_vertices("fixed vertex", constraints.fixed_ids, vertex_count);
   check_sliding(constraints.slide, vertex_count);
 }
 

@@ -53,10 +53,9 @@ std::vector<SlidVertex> slid_vertices(const SlideChains& chains, std::span<const
       continue;
     }
     const ChainCurve curve(view, slider.chain);
-    for (std::int32_t copy = 0; copy < curve.chain().copies; ++copy) {
-      const std::int32_t v = chains.vertices[slider.knot + copy * curve.chain().count];
+    chains.for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
       slid.push_back({v, rounded_to(storage, frame.leave(curve.position(place, copy), largest_stored(storage)))});
-    }
+    });
   }
   std::ranges::sort(slid, {}, &SlidVertex::vertex);
   return slid;

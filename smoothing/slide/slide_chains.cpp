@@ -127,7 +127,7 @@ class ChainWriter {
     std::int32_t fan = 0;
     for (Slider& slider : chains_.sliders) {
       slider.fan = fan;
-      for_vertices_of(slider, [&](std::int32_t v) {
+      chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
         const auto begin = std::ssize(chains_.sides);
         for (const std::int32_t t : triangles_at[v]) {
           chains_.sides.push_back(side_of(v, t, is_unknown));
@@ -180,8 +180,8 @@ class ChainWriter {
     // Which slider a vertex belongs to.
     std::vector<std::int32_t> slider_of(slidable_.vertices.size(), Slidable::none);
     for (std::int32_t s = 0; s < slider_count; ++s) {
-      for_vertices_of(chains_.sliders[static_cast<std::size_t>(s)],
-                      [&](std::int32_t v) { slider_of[static_cast<std::size_t>(v)] = s; });
+      chains_.for_copies(chains_.sliders[static_cast<std::size_t>(s)],
+                         [&](std::int32_t /*copy*/, std::int32_t v) { slider_of[static_cast<std::size_t>(v)] = s; });
     }
     std::vector<std::pair<std::int32_t, std::int32_t>> edges;
     for (const Triangle& triangle : slidable_.triangles) {
@@ -233,14 +233,6 @@ class ChainWriter {
     return slidable_.vertices[static_cast<std::size_t>(v)];
   }
 
-  template <class Visit>
-  void for_vertices_of(const Slider& slider, const Visit& visit) const {
-    const SlideChain& chain = chains_.chains[static_cast<std::size_t>(slider.chain)];
-    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      visit(chains_.vertices[slider.knot + copy * chain.count]);
-    }
-  }
-
   const Slidable& slidable_;
   const SlideMesh& mesh_;
   const ChainRuns& runs_;
@@ -272,16 +264,13 @@ void SlideChains::renumber(std::span<const std::int32_t> numbers) {
 NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (const Slider& slider : sliders) {
-    const SlideChain& chain = chains[static_cast<std::size_t>(slider.chain)];
-    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      const std::int32_t v = vertices[slider.knot + copy * chain.count];
+    for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
       const std::int32_t fan = slider.fan + copy;
       for (std::int32_t i = fans[fan]; i < fans[fan + 1]; ++i) {
-        const FanSide& side = sides[static_cast<std::size_t>(i)];
-        pairs.emplace_back(v, side.from);
-        pairs.emplace_back(v, side.to);
+        pairs.emplace_back(v, sides[i].from);
+        pairs.emplace_back(v, sides[i].to);
       }
-    }
+    });
   }
   return {first, end, pairs};
 }

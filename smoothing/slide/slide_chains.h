@@ -38,6 +38,14 @@ struct SlideChains {
   SlideCurve curve = SlideCurve::polyline;
 
   bool any() const { return !sliders.empty(); }
+  /// Calls visit(copy, vertex) for the vertices that slide with a slider, those of all copies.
+  template <class Visit>
+  void for_copies(const Slider& slider, const Visit& visit) const {
+    const SlideChain& chain = chains[slider.chain];
+    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
+      visit(copy, vertices[slider.knot + copy * chain.count]);
+    }
+  }
   /// How many vertices slide, those of all copies.
   std::int64_t vertex_count() const;
   /// The smallest shape quotient of held_triangles, and how many of them are inverted or degenerate. `points`: of all

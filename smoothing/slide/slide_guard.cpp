@@ -24,21 +24,9 @@ SlideGuard::SlideGuard(const SlideChains& chains, std::span<SlidePlace> places, 
   }
 }
 
-namespace {
-
-template <class Visit>
-void for_copies(const SlideChains& chains, const Slider& slider, const Visit& visit) {
-  const SlideChain& chain = chains.chains[static_cast<std::size_t>(slider.chain)];
-  for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-    visit(chains.vertices[slider.knot + copy * chain.count]);
-  }
-}
-
-}  // namespace
-
 bool SlideGuard::has_slid(const Slider& slider) const {
   bool found = false;
-  for_copies(chains_, slider, [&](std::int32_t v) {
+  chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
     found = found || !(after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)]);
   });
   return found;
@@ -47,7 +35,7 @@ bool SlideGuard::has_slid(const Slider& slider) const {
 bool SlideGuard::put_back(std::int32_t number, std::vector<std::int32_t>& reverted) {
   const Slider& slider = chains_.sliders[static_cast<std::size_t>(number)];
   const bool slid = has_slid(slider);
-  for_copies(chains_, slider, [&](std::int32_t v) {
+  chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
     const auto i = static_cast<std::size_t>(v);
     if (!(after_[i] == before_[i])) {
       after_[i] = before_[i];
@@ -77,7 +65,7 @@ bool SlideGuard::settle_links(std::vector<std::int32_t>& reverted) {
     const Slider& slider = chains_.sliders[s];
     const auto knot = static_cast<std::size_t>(slider.knot);
     bool is_back = false;
-    for_copies(chains_, slider, [&](std::int32_t v) {
+    chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
       is_back = is_back || after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)];
     });
     if (is_back && places_[knot].arc != chains_.places[knot].arc) {
@@ -168,8 +156,9 @@ bool SlideGuard::settle_triangles(std::vector<std::int32_t>& reverted) {
   bool found = false;
   for (std::size_t s = 0; s < chains_.sliders.size(); ++s) {
     bool is_one = false;
-    for_copies(chains_, chains_.sliders[s],
-               [&](std::int32_t v) { is_one = is_one || std::ranges::binary_search(offending, v); });
+    chains_.for_copies(chains_.sliders[s], [&](std::int32_t /*copy*/, std::int32_t v) {
+      is_one = is_one || std::ranges::binary_search(offending, v);
+    });
     if (is_one) {
       found = put_back(static_cast<std::int32_t>(s), reverted) || found;
     }
@@ -190,7 +179,7 @@ LineDeviation SlideGuard::deviation() const {
 std::int64_t SlideGuard::slid_vertices() const {
   std::int64_t count = 0;
   for (const Slider& slider : chains_.sliders) {
-    for_copies(chains_, slider, [&](std::int32_t v) {
+    chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
       count += after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)] ? 0 : 1;
     });
   }

@@ -80,17 +80,9 @@ class SlidePass {
     return {static_cast<double>(point.x), static_cast<double>(point.y)};
   }
 
-  template <class Visit>
-  void for_copies(const Slider& slider, const Visit& visit) const {
-    const SlideChain& chain = chains_.chains[slider.chain];
-    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      visit(copy, chains_.vertices[slider.knot + copy * chain.count]);
-    }
-  }
-
   bool take_mark(const Slider& slider, const Working& working) {
     bool is_marked = working.all;
-    for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
+    chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
       for (const std::span<std::uint8_t> marked : {working.marked, working.other_marked}) {
         if (!marked.empty()) {
           is_marked = is_marked || marked[v] != 0;
@@ -118,7 +110,7 @@ class SlidePass {
     const Point2<double> way = vertex.curve().position(move.place, 0) - vertex.curve().position(vertex.own(), 0);
     const MoveLength<T> length{static_cast<T>(squared_length(way) * move.neighbours), static_cast<T>(move.squares)};
     add_move(tally, length, working.tolerance);
-    for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
+    chains_.for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
       const Point2<double> place = vertex.curve().position(move.place, copy);
       working.points[v] = {static_cast<T>(place.x), static_cast<T>(place.y)};
       if (!working.other_points.empty()) {
