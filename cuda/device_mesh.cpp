@@ -1,6 +1,7 @@
 #include "trismooth/cuda/device_mesh.h"
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -60,7 +61,7 @@ class Plan::Implementation {
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
                   neighbour_search(options.execution)),
-        slidable_(topology_.find_slidable(mesh.constraints.regions, mesh.constraints.slide)),
+        slidable_(find_meanwhile(topology_, mesh.constraints)),
         extent_(context_) {}
 
   SmoothingResult smooth(double* xy, Storage storage) {
@@ -85,6 +86,18 @@ class Plan::Implementation {
   }
 
  private:
+  /// The device has other work while the host looks for what may slide.
+  static std::shared_future<Slidable> find_meanwhile(const DeviceTopology& topology,
+                                                     const DeviceConstraints& constraints) {
+    if (constraints.slide.along == Slide::off) {
+      return std::async(std::launch::deferred, [] { return Slidable{}; });
+    }
+    return std::async([near = topology.near_triangles(constraints.regions), slide = constraints.slide] {
+      return find_slidable(near, slide);
+    });
+  }
+  const Slidable& slidable() const { return slidable_.get(); }
+
   SmoothingResult smooth_stored(Point2<double>* stored, Storage storage) {
     const Stopwatch watch;
     double fixed_quotient = std::numeric_limits<double>::infinity();
@@ -94,14 +107,14 @@ class Plan::Implementation {
     }
     const double preparing_ms = watch.milliseconds();
     const bool is_tangled = options_.untangles() && smoother_->is_tangled(stored, extent_.frame());
-    const bool slides_alone = slidable_.any() && !smoother_->has_free_vertices();
+    const bool slides_alone = slidable().any() && !smoother_->has_free_vertices();
     const bool goes_to_host = is_tangled || slides_alone;
     SmoothingResult result = goes_to_host ? smooth_on_host(stored, storage)
                                           : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
     if (goes_to_host && !is_tangled) {
       result.backend_note = "all vertices are held to lines, on which the CPU moves them";
     }
-    if (slidable_.is_wanted() && !result.sliding) {
+    if (slidable().is_wanted() && !result.sliding) {
       result.sliding.emplace();
     }
     if (options_.untangles() && !goes_to_host) {
@@ -117,7 +130,7 @@ class Plan::Implementation {
     static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
     const std::vector<Triangle> triangles =
         download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
-    return {fixed(), triangles, options_, slidable_};
+    return {fixed(), triangles, options_, slidable()};
   }
 
   /// Counts what is inverted all the same: triangles without a free vertex, or those that no guard has watched.
@@ -155,15 +168,15 @@ class Plan::Implementation {
     }
     if (smoother_ == nullptr) {
       smoother_ = make_device_smoother(context_, topology_.rings(), std::move(local), options_);
-      if (slidable_.any() && smoother_->has_free_vertices()) {
-        smoother_->slide_on(slidable_, reversed_of_slidable());
+      if (slidable().any() && smoother_->has_free_vertices()) {
+        smoother_->slide_on(slidable(), reversed_of_slidable());
       }
       context_.synchronize();
     }
   }
 
   std::vector<std::uint8_t> reversed_of_slidable() {
-    const DeviceBuffer<std::int32_t> numbers(context_, slidable_.triangle_numbers);
+    const DeviceBuffer<std::int32_t> numbers(context_, slidable().triangle_numbers);
     return gather_bytes(context_, topology_.reversed(), numbers);
   }
 
@@ -173,7 +186,7 @@ class Plan::Implementation {
   SmoothingOptions options_;
   Context context_;
   DeviceTopology topology_;
-  Slidable slidable_;
+  std::shared_future<Slidable> slidable_;
   ExtentFinder extent_;
   std::unique_ptr<DeviceSmoother> smoother_;
 };

@@ -137,7 +137,10 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    slides_ = slide_ && slide_->begin(stored, frame, storage);
+    slides_ = slide_.has_value();
+    if (slides_) {
+      slide_->begin(stored, frame, storage);
+    }
     Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
                   stored};
     enter(ending, result);
@@ -197,9 +200,6 @@ class SweepDriver final : public DeviceSmoother {
       const auto [first, second] = engine.input();
       enter_frame_packed(context_, ending.stored, order_, ending.input.frame, before_.data(), first, second);
       engine.begin();
-      if (slides_ && options_.method == Method::mean_ratio) {
-        slide_->aim(engine.targets(), first);
-      }
     });
     ++result.kernel_launches;
   }
@@ -221,7 +221,7 @@ class SweepDriver final : public DeviceSmoother {
       return;
     }
     const bool may_follow =
-        !options_.progress && !slides_ && with_engine([](const auto& engine) { return engine.may_be_followed; });
+        !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
     const bool watched = static_cast<bool>(options_.progress);
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
     DeviceStages stages(options_, order_.free_count());
@@ -229,7 +229,7 @@ class SweepDriver final : public DeviceSmoother {
     for (;;) {
       const auto launched = Clock::now();
       // What comes behind the last sweep is not queued behind a stage that is not the last.
-      const bool follows = may_follow && stages.is_last();
+      const bool follows = may_follow && !slides_ && stages.is_last();
       loop.sweeps = up_to_slide(stages.at_most(batches.size()));
       if (options_.max_sweeps > 0) {
         loop.remaining = options_.max_sweeps - result.sweeps;
@@ -239,6 +239,9 @@ class SweepDriver final : public DeviceSmoother {
       launch(stages, loop, result);
       if (follows) {
         queue_ending(ending, result);
+      }
+      if (slides_ && !slide_->has_lines()) {
+        find_lines();
       }
       queue_slides(stages, loop, result.sweeps, result);
       read_record(result);
@@ -312,6 +315,14 @@ class SweepDriver final : public DeviceSmoother {
     host_record_.state.marks = 0;
     sweeps_of_stage_ = 0;
     with_engine([](auto& engine) { engine.begin_stage(); });
+  }
+
+  /// Finds what slides, while the first sweeps are made.
+  void find_lines() {
+    slides_ = slide_->find_lines();
+    if (slides_ && options_.method == Method::mean_ratio) {
+      with_engine([&](auto& engine) { slide_->aim(engine.targets(), before_.data()); });
+    }
   }
 
   /// As many of the sweeps as there are up to the next one that vertices slide behind.
@@ -552,7 +563,7 @@ class SweepDriver final : public DeviceSmoother {
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
   std::optional<DeviceSlide> slide_;  ///< what may slide
-  bool slides_ = false;               ///< something does, in this run
+  bool slides_ = false;               ///< something does in this run, or may as far as is known
   std::int64_t sweeps_of_stage_ = 0;  ///< done
   std::int64_t sweeps_before_ = 0;    ///< of the run, when the last launch began
   Timeline timeline_;

@@ -19,6 +19,7 @@
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/slide/packed_slidable.h"
+#include "trismooth/smoothing/slide/slid_vertices.h"
 #include "trismooth/smoothing/slide/slide_guard.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/slide_pass.h"
@@ -99,7 +100,7 @@ class CpuSmoother final : public PreparedSmoother {
     SlideChains chains;
     std::optional<SlidePass<T>> slide;  ///< where a vertex slides on them
     BulkVector<Point2<double>> after;   ///< as it would be stored
-    std::vector<SlidVertex> slid;
+    SlidVertices slid;
   };
 
   template <class T>
@@ -184,7 +185,7 @@ class CpuSmoother final : public PreparedSmoother {
       run.after[v] = v < rings_.free_count() ? entered_from(run, run.working, v) : run.before[v];
     });
     if (run.slide) {
-      run.slid = slid_vertices(run.chains, run.slide->places(), run.frame, run.storage);
+      run.slid = SlidVertices(run.chains, run.slide->places(), run.frame, run.storage);
     }
     for (const SlidVertex& slid : run.slid) {
       run.after[slid.vertex] = run.frame.enter(slid.stored);
@@ -195,10 +196,9 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   void list(Run<T>& run, std::span<const std::int32_t> reverted) {
     for (const std::int32_t v : reverted) {
-      const auto slider = std::ranges::lower_bound(run.slid, v, {}, &SlidVertex::vertex);
-      const bool slides = slider != run.slid.end() && slider->vertex == v;
+      const SlidVertex* const slid = run.slid.find(v);
       run.result.reverted.push_back(
-          {rings_.input_index[v], slides ? slider->stored : stored_from(run, run.working, v)});
+          {rings_.input_index[v], slid != nullptr ? slid->stored : stored_from(run, run.working, v)});
     }
   }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/cuda/runtime/check.h"
 
 namespace trismooth::cuda {
@@ -13,26 +14,41 @@ namespace {
 /// Arrays one behind the other, each aligned for any type.
 class Pieces {
  public:
-  /// Where the array begins.
+  /// Where the array will begin.
   template <class T>
   std::size_t add(const std::vector<T>& values) {
     constexpr std::size_t alignment = 16;
-    const std::size_t begin = (bytes_.size() + alignment - 1) / alignment * alignment;
-    bytes_.resize(begin + values.size() * sizeof(T));
+    const std::size_t begin = (size_ + alignment - 1) / alignment * alignment;
+    size_ = begin + values.size() * sizeof(T);
+    return begin;
+  }
+  /// Makes room for what has been added.
+  void lay_out() { bytes_.resize(size_); }
+  template <class T>
+  void write(std::size_t begin, const std::vector<T>& values) {
     if (!values.empty()) {
       std::memcpy(bytes_.data() + begin, values.data(), values.size() * sizeof(T));
     }
-    return begin;
   }
-  const std::vector<std::byte>& bytes() const { return bytes_; }
+  /// The same of what `changed` makes of each value.
+  template <class T, class Change>
+  void write(std::size_t begin, const std::vector<T>& values, const Change& changed) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const T value = changed(values[i]);
+      std::memcpy(bytes_.data() + begin + i * sizeof(T), &value, sizeof(T));
+    }
+  }
+  std::span<const std::byte> bytes() const { return bytes_; }
 
  private:
-  std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;
+  BulkVector<std::byte> bytes_;
 };
 
 }  // namespace
 
-DeviceChains::DeviceChains(Context& context, const SlideChains& chains) : context_(&context) {
+DeviceChains::DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers)
+    : context_(&context) {
   Pieces pieces;
   const std::size_t at_chains = pieces.add(chains.chains);
   const std::size_t at_knots = pieces.add(chains.knots);
@@ -44,6 +60,20 @@ DeviceChains::DeviceChains(Context& context, const SlideChains& chains) : contex
   const std::size_t at_fans = pieces.add(chains.fans);
   const std::size_t at_sides = pieces.add(chains.sides);
   const std::size_t at_places = pieces.add(chains.places);
+  pieces.lay_out();
+  const auto number = [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; };
+  pieces.write(at_chains, chains.chains);
+  pieces.write(at_knots, chains.knots);
+  pieces.write(at_vertices, chains.vertices, number);
+  pieces.write(at_arcs, chains.arcs);
+  pieces.write(at_bends, chains.bends);
+  pieces.write(at_limits, chains.limits);
+  pieces.write(at_sliders, chains.sliders);
+  pieces.write(at_fans, chains.fans);
+  pieces.write(at_sides, chains.sides, [&](const FanSide& side) {
+    return FanSide{number(side.from), number(side.to), side.from_is_unknown, side.to_is_unknown};
+  });
+  pieces.write(at_places, chains.places);
   memory_ = DeviceBuffer<std::byte>(context, pieces.bytes());
   const auto at = [&]<class T>(std::size_t begin, const std::vector<T>& /*values*/) {
     return reinterpret_cast<T*>(memory_.data() + begin);

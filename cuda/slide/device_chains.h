@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/smoothing/slide/slide_chains.h"
@@ -14,8 +15,8 @@ class DeviceChains {
  public:
   /// None.
   DeviceChains() = default;
-  /// `chains`: in packed numbers.
-  DeviceChains(Context& context, const SlideChains& chains);
+  /// `numbers`: packed, of the vertices that the chains name; as SlideChains::renumber().
+  DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers);
 
   const SlideView& view() const { return view_; }
   SlidePlaces places() const { return places_; }

@@ -21,53 +21,53 @@ DeviceSlide::DeviceSlide(Context& context, const VertexOrder& order, Slidable sl
       fan_of_(context, held_after_.size()) {
   std::vector<std::int32_t> numbers = find_packed_numbers(context, order, slidable.vertices);
   numbers_ = DeviceBuffer<std::int32_t>(context, numbers);
-  by_packed_.resize(numbers.size());
-  std::iota(by_packed_.begin(), by_packed_.end(), 0);
-  std::ranges::sort(by_packed_, {}, [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; });
   slidable_ = PackedSlidable(std::move(slidable), std::move(reversed), std::move(numbers));
 }
 
-bool DeviceSlide::begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
+void DeviceSlide::begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
   storage_ = storage;
   guard_.reset();
   has_targets_ = false;
+  has_lines_ = false;
   gather_points(*context_, stored, vertices_, points_.data());
-  std::vector<Point2<double>> gathered(points_.size());
+  stored_.resize(points_.size());
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&frame_, frame, sizeof(frame_), cudaMemcpyDeviceToHost, context_->stream()));
-  points_.download(gathered);
-  local_ = slidable_.chains(gathered, storage, frame_);
-  before_.clear();
-  for (const Point2<double> point : gathered) {
-    before_.push_back(frame_.enter(point));
+  points_.download(stored_);
+}
+
+bool DeviceSlide::find_lines() {
+  has_lines_ = true;
+  local_ = slidable_.chains(stored_, storage_, frame_);
+  if (!local_.any()) {
+    return false;
   }
-  SlideChains packed = local_;
-  packed.renumber(slidable_.numbers());
-  device_ = DeviceChains(*context_, packed);
+  before_.resize(stored_.size());
+  std::ranges::transform(stored_, before_.begin(), [this](Point2<double> point) { return frame_.enter(point); });
+  device_ = DeviceChains(*context_, local_, slidable_.numbers());
   fan_of_.fill_bytes(0xFF);
   find_fans(*context_, device_.view(), static_cast<std::int32_t>(local_.sliders.size()), order_->free_count(),
             fan_of_.data());
-  return local_.any();
+  return true;
 }
 
 template <class T>
-void DeviceSlide::aim(const DeviceTargets<T>& targets, const PointArray<T>& points) {
+void DeviceSlide::aim(const DeviceTargets<T>& targets, const Point2<double>* before) {
   if (targets_.size() < local_.sliders.size()) {
     targets_ = DeviceBuffer<FanTarget>(*context_, local_.sliders.size());
   }
-  SlideWork<T> now = work<T>();
-  now.first = points;
   const MeshAims aims{targets.sums(), targets.size_weight(), targets.power(), targets.has_sizes()};
-  launch_fan_targets(*context_, now, static_cast<std::int32_t>(local_.sliders.size()), aims,
-                     targets.view().inverse_areas, targets_.data());
+  launch_fan_targets(*context_, device_.view(), device_.places(), before,
+                     static_cast<std::int32_t>(local_.sliders.size()), aims, targets.view().inverse_areas,
+                     targets_.data());
   has_targets_ = true;
 }
-template void DeviceSlide::aim(const DeviceTargets<float>&, const PointArray<float>&);
-template void DeviceSlide::aim(const DeviceTargets<double>&, const PointArray<double>&);
+template void DeviceSlide::aim(const DeviceTargets<float>&, const Point2<double>*);
+template void DeviceSlide::aim(const DeviceTargets<double>&, const Point2<double>*);
 
 void DeviceSlide::take_over(bool guards) {
   places_.resize(local_.places.size());
   device_.download_places(places_);
-  slid_ = slid_vertices(local_, places_, frame_, storage_);
+  slid_ = SlidVertices(local_, places_, frame_, storage_);
   after_ = before_;
   for (const SlidVertex& slid : slid_) {
     after_[static_cast<std::size_t>(slid.vertex)] = frame_.enter(slid.stored);
@@ -83,6 +83,11 @@ void DeviceSlide::place_for_guard(const Point2<double>* before) {
 
 std::int32_t DeviceSlide::put_back(std::int32_t packed) {
   const std::span<const std::int32_t> numbers = slidable_.numbers();
+  if (by_packed_.empty()) {
+    by_packed_.resize(numbers.size());
+    std::iota(by_packed_.begin(), by_packed_.end(), 0);
+    std::ranges::sort(by_packed_, {}, [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; });
+  }
   const auto found = std::ranges::lower_bound(by_packed_, packed, {},
                                               [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; });
   after_[static_cast<std::size_t>(*found)] = before_[static_cast<std::size_t>(*found)];

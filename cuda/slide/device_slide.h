@@ -15,6 +15,7 @@
 #include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/slide/packed_slidable.h"
+#include "trismooth/smoothing/slide/slid_vertices.h"
 #include "trismooth/smoothing/slide/slide_guard.h"
 
 namespace trismooth::cuda {
@@ -23,13 +24,15 @@ namespace trismooth::cuda {
 /// that; vertices slide on the device, among the sweeps.
 class DeviceSlide {
  public:
-  /// `order` outlives it. Waits for the device.
-  /// `reversed`: as MeshRings::reversed, of the Slidable's triangles.
+  /// `order` outlives it. `reversed`: as MeshRings::reversed, of the Slidable's triangles. Waits for the device.
   DeviceSlide(Context& context, const VertexOrder& order, Slidable slidable, std::vector<std::uint8_t> reversed);
 
-  /// Finds the lines of a run from the vertices as they are stored. `stored`, `frame`: on the device. False: nothing
-  /// slides. Waits for the device.
-  bool begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage);
+  /// Brings the vertices over for a run, as they are stored. `stored`, `frame`: on the device. Waits for it.
+  void begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage);
+  bool has_lines() const { return has_lines_; }
+  /// Finds the lines of the run. False: nothing slides. What has been queued goes on meanwhile, and it takes as long as
+  /// a few sweeps: so it comes behind the queuing of those that no vertex slides before.
+  bool find_lines();
   /// Puts all vertices at their own knots: the run begins once more.
   void restart() { device_.begin(local_); }
 
@@ -45,9 +48,9 @@ class DeviceSlide {
   }
   std::span<const std::int32_t> batches() const { return local_.batches; }
 
-  /// Queues the finding of what the mean-ratio method aims at, from the input's positions.
+  /// Queues the finding of what the mean-ratio method aims at. `before`: as GuardInput.
   template <class T>
-  void aim(const DeviceTargets<T>& targets, const PointArray<T>& points);
+  void aim(const DeviceTargets<T>& targets, const Point2<double>* before);
 
   /// Puts back what the lines do not allow, and lays what is left out for the guard. Calls reverted(vertex, position)
   /// with the caller's number of each vertex that goes back, and where it would have been stored. `before`: as
@@ -83,10 +86,9 @@ class DeviceSlide {
   /// The number in the Slidable of the vertex with that packed number, which goes back.
   std::int32_t put_back(std::int32_t packed);
   template <class Reverted>
-  void tell(std::span<const std::int32_t> back, const Reverted& reverted) const {
+  void tell(std::span<const std::int32_t> back, const Reverted& reverted) {
     for (const std::int32_t v : back) {
-      const auto slid = std::ranges::lower_bound(slid_, v, {}, &SlidVertex::vertex);
-      reverted(slidable_.slidable().vertices[static_cast<std::size_t>(v)], slid->stored);
+      reverted(slidable_.slidable().vertices[static_cast<std::size_t>(v)], slid_.find(v)->stored);
     }
   }
 
@@ -95,7 +97,7 @@ class DeviceSlide {
   PackedSlidable slidable_;
   DeviceBuffer<std::int32_t> vertices_;      ///< of the Slidable: their numbers in the mesh
   DeviceBuffer<std::int32_t> numbers_;       ///< likewise: packed
-  std::vector<std::int32_t> by_packed_;      ///< their numbers in the Slidable, ascending by packed number
+  std::vector<std::int32_t> by_packed_;      ///< their numbers in it, ascending by packed number; found when needed
   DeviceBuffer<Point2<double>> points_;      ///< one for each of them
   DeviceBuffer<Point2<double>> held_after_;  ///< HeldView
   DeviceBuffer<std::int32_t> fan_of_;        ///< likewise
@@ -104,13 +106,15 @@ class DeviceSlide {
   // Of a run:
   LocalFrame frame_;
   Storage storage_ = Storage::float64;
+  std::vector<Point2<double>> stored_;
+  bool has_lines_ = false;
   SlideChains local_;  ///< with the numbers of the Slidable
   DeviceChains device_;
   bool has_targets_ = false;
   std::vector<SlidePlace> places_;
   std::vector<Point2<double>> before_;  ///< in the local frame
   std::vector<Point2<double>> after_;
-  std::vector<SlidVertex> slid_;
+  SlidVertices slid_;
   std::optional<SlideGuard> guard_;
 };
 

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
 #include "trismooth/cuda/runtime/dependent_launch.cuh"
 #include "trismooth/cuda/runtime/for_each.cuh"
@@ -11,6 +13,12 @@ namespace trismooth::cuda {
 
 namespace {
 
+/// Threads of a team, which look at the triangles of a slider, one each: what counts is how soon one slider is done.
+/// That is soonest where a warp has but one, and sliders do not wait for each other's branches; where sliders are many,
+/// others wait for the warp.
+constexpr int small_team = 8;
+constexpr int whole_warp = 32;
+constexpr std::int32_t many_sliders = 16384;
 /// Few in a block: a line has few vertices, and each takes long.
 constexpr unsigned slide_threads = 64;
 
@@ -25,9 +33,49 @@ struct WidePoints {
   }
 };
 
-template <class T>
-__device__ void settle(const SlideWork<T>& work, bool is_first, const Slider& slider, const ChainCurve& curve,
-                       const SlideMove& move) {
+/// What another thread of the team has. All threads of the team call it.
+template <int team_size, class Value>
+__device__ Value from_lane(unsigned team, const Value& own, int lane) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  constexpr std::size_t count = (sizeof(Value) + sizeof(unsigned) - 1) / sizeof(unsigned);
+  unsigned words[count] = {};
+  memcpy(words, &own, sizeof(Value));
+  for (unsigned& word : words) {
+    word = __shfl_sync(team, word, lane, team_size);
+  }
+  Value found;
+  memcpy(&found, words, sizeof(Value));
+  return found;
+}
+
+/// See SlideAlone.
+template <int team_size>
+struct SlideTeam {
+  unsigned threads;  ///< of the warp
+  int lane;          ///< of the thread in the team
+
+  static __device__ SlideTeam own() {
+    const unsigned first = threadIdx.x % 32 / team_size * team_size;
+    return {0xFFFFFFFFU >> (32 - team_size) << first, static_cast<int>(threadIdx.x % team_size)};
+  }
+  __device__ bool is_first() const { return lane == 0; }
+
+  template <class Find, class Take>
+  __device__ void for_each(std::int32_t begin, std::int32_t end, const Find& find, const Take& take) const {
+    for (std::int32_t first = begin; first < end; first += team_size) {
+      const int count = min(team_size, end - first);
+      const auto mine = find(first + min(lane, count - 1));
+      for (int k = 0; k < count; ++k) {
+        take(from_lane<team_size>(threads, mine, k));
+      }
+    }
+  }
+};
+
+/// Writes down where a slider is now, and marks who is to look at it.
+template <class T, int team_size>
+__device__ void settle(const SlideWork<T>& work, const SlideTeam<team_size>& team, bool is_first, const Slider& slider,
+                       const ChainCurve& curve, const SlidePlace& place) {
   const SlideChain& chain = curve.chain();
   std::uint32_t* const marks = is_first ? work.first_marks : work.second_marks;
   const auto mark_free = [&](std::int32_t v) {
@@ -36,20 +84,24 @@ __device__ void settle(const SlideWork<T>& work, bool is_first, const Slider& sl
     }
   };
   for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-    const std::int32_t v = work.view.vertices[slider.knot + copy * chain.count];
-    const Point2<T> place = working_point<T>(curve.position(move.place, copy));
-    work.first.store(v, place);
-    work.second.store(v, place);
+    if (team.is_first()) {
+      const std::int32_t v = work.view.vertices[slider.knot + copy * chain.count];
+      const Point2<T> point = working_point<T>(curve.position(place, copy));
+      work.first.store(v, point);
+      work.second.store(v, point);
+    }
     const std::int32_t fan = slider.fan + copy;
-    for (std::int32_t i = work.view.fans[fan]; i < work.view.fans[fan + 1]; ++i) {
+    for (std::int32_t i = work.view.fans[fan] + team.lane; i < work.view.fans[fan + 1]; i += team_size) {
       mark_free(work.view.sides[i].from);
       mark_free(work.view.sides[i].to);
     }
   }
-  work.places[slider.knot] = move.place;
+  if (team.is_first()) {
+    work.places[slider.knot] = place;
+  }
 }
 
-template <class Update, class T>
+template <int team_size, class Update, class T>
 __global__ void __launch_bounds__(slide_threads)
     slide_batch(Update method, SlideWork<T> work, std::int32_t begin, std::int32_t end, std::int32_t due_after,
                 const LoopState* state, SweepSums* sums) {
@@ -60,37 +112,55 @@ __global__ void __launch_bounds__(slide_threads)
   }
   __shared__ SweepSums shared;
   SweepTally<T> tally;
-  const std::int64_t s = begin + thread_index();
+  const auto team = SlideTeam<team_size>::own();
+  const std::int64_t s = begin + thread_index() / team_size;
   if (s < end) {
-    ++tally.evaluated;
     const bool is_first = state->current == 0;
     const Slider slider = work.view.sliders[s];
     const WidePoints<T> points{is_first ? work.first : work.second};
-    const SlidingVertex vertex(work.view, work.places, slider, points);
+    const SlidingVertex vertex(work.view, work.places, slider, points, team);
     const SlideMove move = slide(method, vertex, work.targets == nullptr ? FanTarget{} : work.targets[s]);
+    // (No thread of the team has anything left to read that others write.)
+    __syncwarp(team.threads);
     if (move.moved) {
-      const Point2<double> way = vertex.curve().position(move.place, 0) - vertex.curve().position(vertex.own(), 0);
-      const MoveLength<T> length{static_cast<T>(squared_length(way) * move.neighbours), static_cast<T>(move.squares)};
-      add_move(tally, length, work.tolerance);
-      settle(work, is_first, slider, vertex.curve(), move);
+      settle(work, team, is_first, slider, vertex.curve(), move.place);
+    }
+    if (team.is_first()) {
+      ++tally.evaluated;
+      if (move.moved) {
+        add_move(tally, MoveLength<T>{static_cast<T>(move.moved_squares), static_cast<T>(move.squares)},
+                 work.tolerance);
+      }
     }
   }
   add_to_sums(tally, shared, sums + (sweeps - 1));
 }
 
+/// Positions in the local frame as the sweeps begin with them.
+template <class T>
+struct EnteredPoints {
+  const Point2<double>* points;
+
+  __device__ Point2<double> operator()(std::int32_t v) const {
+    const Point2<T> point = working_point<T>(points[v]);
+    return {static_cast<double>(point.x), static_cast<double>(point.y)};
+  }
+};
+
 template <class T>
 struct FindFanTargets {
-  SlideWork<T> work;
+  SlideView view;
+  SlidePlaces places;
+  EnteredPoints<T> points;
   MeshAims aims;
   const T* inverse_areas;
   FanTarget* targets;
 
   __device__ void operator()(std::uint32_t s) const {
-    const Slider slider = work.view.sliders[s];
-    const WidePoints<T> points{work.first};
+    const Slider slider = view.sliders[s];
     const MeanRatioMesh mesh = MeanRatioMesh::of(*aims.sums, aims.size_weight, aims.power, aims.has_sizes);
-    const double asked = aims.has_sizes ? static_cast<double>(inverse_areas[work.view.vertices[slider.knot]]) : 0.0;
-    targets[s] = fan_target(SlidingVertex(work.view, work.places, slider, points), mesh, asked);
+    const double asked = aims.has_sizes ? static_cast<double>(inverse_areas[view.vertices[slider.knot]]) : 0.0;
+    targets[s] = fan_target(SlidingVertex(view, places, slider, points), mesh, asked);
   }
 };
 
@@ -100,29 +170,36 @@ template <class T>
 std::int64_t launch_slide_pass(const MethodInUse<T>& method, const SlideWork<T>& work,
                                std::span<const std::int32_t> batches, std::int32_t due_after, const LoopState* state,
                                SweepSums* sums, cudaStream_t stream) {
-  std::int64_t launches = 0;
-  visit_method(method, [&]<class Update>(const Update& update) {
-    DependentLaunch kernel(&slide_batch<Update, T>, stream);
+  const auto launch = [&]<int team_size, class Update>(const Update& update, std::integral_constant<int, team_size>) {
+    DependentLaunch kernel(&slide_batch<team_size, Update, T>, stream);
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-      kernel(blocks_for(batches[batch + 1] - batches[batch], slide_threads), slide_threads, update, work,
-             batches[batch], batches[batch + 1], due_after, state, sums);
-      ++launches;
+      const std::int64_t threads = std::int64_t{team_size} * (batches[batch + 1] - batches[batch]);
+      kernel(blocks_for(threads, slide_threads), slide_threads, update, work, batches[batch], batches[batch + 1],
+             due_after, state, sums);
+    }
+  };
+  visit_method(method, [&](const auto& update) {
+    if (batches.back() < many_sliders) {
+      launch(update, std::integral_constant<int, whole_warp>{});
+    } else {
+      launch(update, std::integral_constant<int, small_team>{});
     }
   });
-  return launches;
+  return std::ssize(batches) - 1;
 }
 
 template <class T>
-void launch_fan_targets(const Context& context, const SlideWork<T>& work, std::int32_t slider_count,
-                        const MeshAims& aims, const T* inverse_areas, FanTarget* targets) {
-  for_each(context, static_cast<std::uint32_t>(slider_count), FindFanTargets<T>{work, aims, inverse_areas, targets});
+void launch_fan_targets(const Context& context, const SlideView& view, SlidePlaces places, const Point2<double>* before,
+                        std::int32_t slider_count, const MeshAims& aims, const T* inverse_areas, FanTarget* targets) {
+  for_each(context, static_cast<std::uint32_t>(slider_count),
+           FindFanTargets<T>{view, places, {before}, aims, inverse_areas, targets});
 }
 
-#define INSTANTIATE(T)                                                                                               \
-  template std::int64_t launch_slide_pass(const MethodInUse<T>&, const SlideWork<T>&, std::span<const std::int32_t>, \
-                                          std::int32_t, const LoopState*, SweepSums*, cudaStream_t);                 \
-  template void launch_fan_targets(const Context&, const SlideWork<T>&, std::int32_t, const MeshAims&, const T*,     \
-                                   FanTarget*)
+#define INSTANTIATE(T)                                                                                                 \
+  template std::int64_t launch_slide_pass(const MethodInUse<T>&, const SlideWork<T>&, std::span<const std::int32_t>,   \
+                                          std::int32_t, const LoopState*, SweepSums*, cudaStream_t);                   \
+  template void launch_fan_targets(const Context&, const SlideView&, SlidePlaces, const Point2<double>*, std::int32_t, \
+                                   const MeshAims&, const T*, FanTarget*)
 INSTANTIATE(float);
 INSTANTIATE(double);
 

@@ -42,9 +42,10 @@ struct MeshAims {
   bool has_sizes;
 };
 
-/// Queues the finding of targets[s] for each of the sliders: see fan_target().
+/// Queues the finding of targets[s] for each of the sliders: see fan_target(). `places`: those of the input;
+/// `before`: all packed vertices as they are stored, in the local frame.
 template <class T>
-void launch_fan_targets(const Context& context, const SlideWork<T>& work, std::int32_t slider_count,
-                        const MeshAims& aims, const T* inverse_areas, FanTarget* targets);
+void launch_fan_targets(const Context& context, const SlideView& view, SlidePlaces places, const Point2<double>* before,
+                        std::int32_t slider_count, const MeshAims& aims, const T* inverse_areas, FanTarget* targets);
 
 }  // namespace trismooth::cuda

@@ -61,11 +61,8 @@ DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std:
   components_ = number_components(context, std::move(forest_words));
 }
 
-Slidable DeviceTopology::find_slidable(const std::int32_t* regions, const Sliding& slide) const {
-  if (slide.along == Slide::off) {
-    return {};
-  }
-  return trismooth::find_slidable(near_triangles(*context_, triangles_, fixed_.data(), regions), slide);
+std::vector<NearTriangle> DeviceTopology::near_triangles(const std::int32_t* regions) const {
+  return cuda::near_triangles(*context_, triangles_, fixed_.data(), regions);
 }
 
 bool DeviceTopology::orient(const Point2<double>* local_points) {

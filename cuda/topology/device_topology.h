@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/cuda/runtime/context.h"
@@ -31,9 +32,8 @@ class DeviceTopology {
   DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
                  const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way);
 
-  /// Which vertices may slide, as trismooth::find_slidable(). `regions`: those of the constraints, on the device.
-  /// Waits.
-  Slidable find_slidable(const std::int32_t* regions, const Sliding& slide) const;
+  /// What trismooth::find_slidable() is to look at. `regions`: those of the constraints, on the device. Waits.
+  std::vector<NearTriangle> near_triangles(const std::int32_t* regions) const;
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

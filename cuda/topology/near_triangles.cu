@@ -48,7 +48,6 @@ std::vector<NearTriangle> near_triangles(Context& context, const TriangleList& t
     if (found <= size) {
       std::vector<NearTriangle> near(found);
       list.download(near);
-      std::ranges::sort(near, {}, &NearTriangle::number);
       return near;
     }
     size = found;

@@ -9,7 +9,7 @@
 
 namespace trismooth::cuda {
 
-/// The triangles with a vertex that nothing but lines holds, ascending by their numbers. `fixed`: the bits of namespace
+/// The triangles with a vertex that nothing but lines holds, in any order. `fixed`: the bits of namespace
 /// hold of each vertex; `regions`: null where there are none. Waits for the device.
 std::vector<NearTriangle> near_triangles(Context& context, const TriangleList& triangles, const std::uint8_t* fixed,
                                          const std::int32_t* regions);

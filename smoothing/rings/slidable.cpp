@@ -242,10 +242,13 @@ Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std:
                     {reasons(a), reasons(b), reasons(c)},
                     constraints.regions.empty() ? 0 : constraints.regions[i]});
   }
-  return find_slidable(near, constraints.slide);
+  return find_slidable(std::move(near), constraints.slide);
 }
 
-Slidable find_slidable(std::span<const NearTriangle> near, const Sliding& slide) {
+Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide) {
+  if (!std::ranges::is_sorted(near, {}, &NearTriangle::number)) {
+    std::ranges::sort(near, {}, &NearTriangle::number);
+  }
   Slidable slidable;
   slidable.along = slide.deviation == 0 ? Slide::straight : slide.along;
   slidable.corner_angle = slide.corner_angle;
@@ -291,6 +294,11 @@ Slidable find_slidable(std::span<const NearTriangle> near, const Sliding& slide)
       slidable.links.push_back({first, second});
     }
   }
+  std::vector<std::uint8_t> may_slide;
+  for (std::int32_t v = 0; v < slidable.vertex_count(); ++v) {
+    may_slide.push_back(slidable.may_slide(v) ? 1 : 0);
+  }
+  slidable.fans = SlidableFans(slidable.triangles, may_slide, slidable.is_free, slidable.vertices);
   return slidable;
 }
 

@@ -8,6 +8,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/rings/slidable_fans.h"
 
 namespace trismooth {
 
@@ -25,6 +26,7 @@ struct Slidable {
   std::vector<Triangle> triangles;             ///< with a vertex that may slide, as they are listed
   std::vector<std::int32_t> triangle_numbers;  ///< of these in the mesh
   std::vector<std::array<std::int32_t, 2>> links;
+  SlidableFans fans;
 
   Slide along = Slide::off;
   double corner_angle = 0;  ///< in degrees
@@ -65,7 +67,7 @@ constexpr TRISMOOTH_HOST_DEVICE bool is_held_by_lines(std::uint8_t reasons) {
 Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
                        const Constraints& constraints, Workers& workers);
 
-/// The same from the triangles with a vertex that is_held_by_lines(), ascending by their numbers.
-Slidable find_slidable(std::span<const NearTriangle> near, const Sliding& slide);
+/// The same from the triangles with a vertex that is_held_by_lines().
+Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide);
 
 }  // namespace trismooth

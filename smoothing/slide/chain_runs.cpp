@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "trismooth/base/number_lists.h"
+#include "trismooth/base/splitmix64.h"
 
 namespace trismooth {
 
@@ -39,6 +41,37 @@ class VertexGroups {
  private:
   std::vector<std::int32_t> parents_;
   bool any_ = false;
+};
+
+/// Vertices by where they are, in an open hash table: a sort would take several times as long.
+class VerticesByPoint {
+ public:
+  /// For as many vertices as there are points, which outlive it.
+  explicit VerticesByPoint(std::span<const Point2<double>> points)
+      : points_(points), slots_(std::bit_ceil(2 * points.size() + 1), Slidable::none) {}
+
+  /// The first vertex that was put where `v` is, or v itself.
+  std::int32_t put(std::int32_t v) {
+    const Point2<double> point = points_[static_cast<std::size_t>(v)];
+    std::size_t slot = hash(point) & (slots_.size() - 1);
+    while (slots_[slot] != Slidable::none && !(points_[static_cast<std::size_t>(slots_[slot])] == point)) {
+      slot = (slot + 1) & (slots_.size() - 1);
+    }
+    if (slots_[slot] == Slidable::none) {
+      slots_[slot] = v;
+    }
+    return slots_[slot];
+  }
+
+ private:
+  static std::uint64_t hash(Point2<double> point) {
+    // (0 and -0 are the same.)
+    return splitmix64(splitmix64(std::bit_cast<std::uint64_t>(point.x + 0.0)) +
+                      std::bit_cast<std::uint64_t>(point.y + 0.0));
+  }
+
+  std::span<const Point2<double>> points_;
+  std::vector<std::int32_t> slots_;  ///< a power of two of them, at most half of them taken
 };
 
 class RunFinder {
@@ -110,25 +143,20 @@ class RunFinder {
         hold(a != Slidable::none ? a : b);
       }
     }
-    struct Held {
-      double x, y;
-      std::int32_t vertex;
-    };
-    std::vector<Held> held;
+    VerticesByPoint held(mesh_.points);
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
-      if (slidable_.is_free[static_cast<std::size_t>(v)] == 0) {
-        held.push_back({point(v).x, point(v).y, v});
+      if (slidable_.is_free[static_cast<std::size_t>(v)] != 0) {
+        continue;
       }
-    }
-    std::ranges::sort(held, [](const Held& a, const Held& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    for (std::size_t i = 1; i < held.size(); ++i) {
-      if (held[i - 1].x == held[i].x && held[i - 1].y == held[i].y) {
-        if (slidable_.coincident) {
-          groups_.join(held[i - 1].vertex, held[i].vertex);
-        } else {
-          hold(held[i - 1].vertex);
-          hold(held[i].vertex);
-        }
+      const std::int32_t other = held.put(v);
+      if (other == v) {
+        continue;
+      }
+      if (slidable_.coincident) {
+        groups_.join(other, v);
+      } else {
+        hold(other);
+        hold(v);
       }
     }
   }

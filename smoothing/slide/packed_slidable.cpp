@@ -43,22 +43,4 @@ std::vector<std::int32_t> packed_numbers(const Slidable& slidable, std::span<con
   return numbers;
 }
 
-std::vector<SlidVertex> slid_vertices(const SlideChains& chains, std::span<const SlidePlace> places,
-                                      const LocalFrame& frame, Storage storage) {
-  const SlideView view = chains.view();
-  std::vector<SlidVertex> slid;
-  for (const Slider& slider : chains.sliders) {
-    const SlidePlace& place = places[static_cast<std::size_t>(slider.knot)];
-    if (place.arc == chains.places[static_cast<std::size_t>(slider.knot)].arc) {
-      continue;
-    }
-    const ChainCurve curve(view, slider.chain);
-    chains.for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
-      slid.push_back({v, rounded_to(storage, frame.leave(curve.position(place, copy), largest_stored(storage)))});
-    });
-  }
-  std::ranges::sort(slid, {}, &SlidVertex::vertex);
-  return slid;
-}
-
 }  // namespace trismooth

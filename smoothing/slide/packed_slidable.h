@@ -39,14 +39,4 @@ class PackedSlidable {
 /// Complexity: linear in these.
 std::vector<std::int32_t> packed_numbers(const Slidable& slidable, std::span<const std::int32_t> input_index);
 
-/// A vertex that has slid, and where it is to be stored, in the caller's coordinates.
-struct SlidVertex {
-  std::int32_t vertex;  ///< as the chains number it
-  Point2<double> stored;
-};
-
-/// The vertices that are elsewhere on their chains, ascending. `places`: see SlidePass.
-std::vector<SlidVertex> slid_vertices(const SlideChains& chains, std::span<const SlidePlace> places,
-                                      const LocalFrame& frame, Storage storage);
-
 }  // namespace trismooth

@@ -1,14 +1,12 @@
 #include "trismooth/smoothing/slide/slide_chains.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
 
 #include "trismooth/base/number_lists.h"
-#include "trismooth/base/splitmix64.h"
 #include "trismooth/smoothing/slide/chain_runs.h"
 
 namespace trismooth {
@@ -114,27 +112,17 @@ class ChainWriter {
 
   /// The triangles around each slider.
   void find_fans() {
-    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-    for (std::size_t t = 0; t < slidable_.triangles.size(); ++t) {
-      for (const std::int32_t v : slidable_.triangles[t]) {
-        if (slides(v)) {
-          pairs.emplace_back(v, static_cast<std::int32_t>(t));
-        }
-      }
-    }
-    const NumberLists triangles_at(0, slidable_.vertex_count(), pairs);
-    const std::vector<std::uint8_t> is_unknown = vertices_without_free_neighbour();
     std::int32_t fan = 0;
     for (Slider& slider : chains_.sliders) {
       slider.fan = fan;
       chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
-        const auto begin = std::ssize(chains_.sides);
-        for (const std::int32_t t : triangles_at[v]) {
-          chains_.sides.push_back(side_of(v, t, is_unknown));
+        for (const ListedSide& side : slidable_.fans.around(v)) {
+          if (is_reversed(side.triangle)) {
+            chains_.sides.push_back({side.second, side.first, side.second_is_unknown, side.first_is_unknown});
+          } else {
+            chains_.sides.push_back({side.first, side.second, side.first_is_unknown, side.second_is_unknown});
+          }
         }
-        // Sums are the same in whatever order the triangles are listed.
-        std::sort(chains_.sides.begin() + begin, chains_.sides.end(),
-                  [](const FanSide& a, const FanSide& b) { return a.from < b.from; });
         chains_.fans.push_back(static_cast<std::int32_t>(chains_.sides.size()));
         ++fan;
       });
@@ -142,36 +130,13 @@ class ChainWriter {
   }
 
   void find_held_triangles() {
-    for (std::size_t t = 0; t < slidable_.triangles.size(); ++t) {
-      const Triangle& triangle = slidable_.triangles[t];
-      if (std::ranges::none_of(triangle, [this](std::int32_t v) { return is_free(v); }) &&
-          std::ranges::any_of(triangle, [this](std::int32_t v) { return slidable_.may_slide(v); })) {
-        chains_.held_triangles.push_back(canonical_corners(triangle, is_reversed(t)));
-      }
+    for (const std::int32_t t : slidable_.fans.held_triangles()) {
+      chains_.held_triangles.push_back(
+          canonical_corners(slidable_.triangles[static_cast<std::size_t>(t)], is_reversed(t)));
     }
   }
 
-  bool is_reversed(std::size_t t) const { return mesh_.reversed[t] != 0; }
-
-  std::vector<std::uint8_t> vertices_without_free_neighbour() const {
-    std::vector<std::uint8_t> is_unknown(slidable_.vertices.size(), 1);
-    for (const Triangle& triangle : slidable_.triangles) {
-      if (std::ranges::any_of(triangle, [this](std::int32_t v) { return is_free(v); })) {
-        for (const std::int32_t v : triangle) {
-          is_unknown[static_cast<std::size_t>(v)] = 0;
-        }
-      }
-    }
-    return is_unknown;
-  }
-
-  FanSide side_of(std::int32_t v, std::int32_t t, std::span<const std::uint8_t> is_unknown) const {
-    Triangle triangle =
-        canonical_corners(slidable_.triangles[static_cast<std::size_t>(t)], is_reversed(static_cast<std::size_t>(t)));
-    std::rotate(triangle.begin(), std::ranges::find(triangle, v), triangle.end());
-    const auto [self, from, to] = triangle;
-    return {from, to, is_unknown[static_cast<std::size_t>(from)] != 0, is_unknown[static_cast<std::size_t>(to)] != 0};
-  }
+  bool is_reversed(std::int32_t t) const { return mesh_.reversed[static_cast<std::size_t>(t)] != 0; }
 
   /// Colours sliders that share an edge, through any of their copies, differently: greedily, in the order of
   /// splitmix64(number in the mesh) of the first copy.
@@ -183,35 +148,28 @@ class ChainWriter {
       chains_.for_copies(chains_.sliders[static_cast<std::size_t>(s)],
                          [&](std::int32_t /*copy*/, std::int32_t v) { slider_of[static_cast<std::size_t>(v)] = s; });
     }
-    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-    for (const Triangle& triangle : slidable_.triangles) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = slider_of[static_cast<std::size_t>(triangle[i])];
-        const std::int32_t b = slider_of[static_cast<std::size_t>(triangle[(i + 1) % 3])];
-        if (a != Slidable::none && b != Slidable::none && a != b) {
-          edges.emplace_back(a, b);
-          edges.emplace_back(b, a);
-        }
-      }
-    }
-    const NumberLists others(0, slider_count, edges);
-    std::vector<std::pair<std::uint64_t, std::int32_t>> order;
-    for (std::int32_t s = 0; s < slider_count; ++s) {
-      order.emplace_back(splitmix64(static_cast<std::uint64_t>(number_of(s))), s);
-    }
-    std::ranges::sort(order);
-    std::vector<std::int32_t> colours(order.size(), Slidable::none);
+    std::vector<std::int32_t> colours(chains_.sliders.size(), Slidable::none);
     std::vector<std::int32_t> sizes;  // of the colours
     std::vector<std::int32_t> taken;  // by colour: the last slider whose neighbours have it
-    for (const auto& [key, s] : order) {
-      taken.resize(sizes.size() + 1, Slidable::none);
-      for (const std::int32_t other : others[s]) {
-        if (const std::int32_t colour = colours[static_cast<std::size_t>(other)]; colour != Slidable::none) {
-          taken[static_cast<std::size_t>(colour)] = s;
-        }
+    for (const std::int32_t v : slidable_.fans.colouring_order()) {
+      const std::int32_t s = slider_of[static_cast<std::size_t>(v)];
+      if (s == Slidable::none || v != first_copy(s)) {
+        continue;
       }
+      taken.resize(sizes.size() + 1, Slidable::none);
+      const Slider& slider = chains_.sliders[static_cast<std::size_t>(s)];
+      const auto take_colour_of = [&](std::int32_t other_vertex) {
+        const std::int32_t other = slider_of[static_cast<std::size_t>(other_vertex)];
+        if (other != Slidable::none && colours[static_cast<std::size_t>(other)] != Slidable::none) {
+          taken[static_cast<std::size_t>(colours[static_cast<std::size_t>(other)])] = s;
+        }
+      };
+      chains_.for_sides(slider, [&](std::int32_t /*vertex*/, const FanSide& side) {
+        take_colour_of(side.from);
+        take_colour_of(side.to);
+      });
       const auto colour = static_cast<std::size_t>(
-          std::ranges::find_if(taken, [s = s](std::int32_t by) { return by != s; }) - taken.begin());
+          std::ranges::find_if(taken, [s](std::int32_t by) { return by != s; }) - taken.begin());
       colours[static_cast<std::size_t>(s)] = static_cast<std::int32_t>(colour);
       sizes.resize(std::max(sizes.size(), colour + 1), 0);
       ++sizes[colour];
@@ -226,11 +184,8 @@ class ChainWriter {
     chains_.sliders = std::move(sorted);
   }
 
-  /// The number in the mesh of a slider's first copy.
-  std::int32_t number_of(std::int32_t slider) const {
-    const std::int32_t v =
-        chains_.vertices[static_cast<std::size_t>(chains_.sliders[static_cast<std::size_t>(slider)].knot)];
-    return slidable_.vertices[static_cast<std::size_t>(v)];
+  std::int32_t first_copy(std::int32_t slider) const {
+    return chains_.vertices[static_cast<std::size_t>(chains_.sliders[static_cast<std::size_t>(slider)].knot)];
   }
 
   const Slidable& slidable_;
@@ -264,12 +219,9 @@ void SlideChains::renumber(std::span<const std::int32_t> numbers) {
 NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (const Slider& slider : sliders) {
-    for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
-      const std::int32_t fan = slider.fan + copy;
-      for (std::int32_t i = fans[fan]; i < fans[fan + 1]; ++i) {
-        pairs.emplace_back(v, sides[i].from);
-        pairs.emplace_back(v, sides[i].to);
-      }
+    for_sides(slider, [&](std::int32_t v, const FanSide& side) {
+      pairs.emplace_back(v, side.from);
+      pairs.emplace_back(v, side.to);
     });
   }
   return {first, end, pairs};

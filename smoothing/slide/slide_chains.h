@@ -33,7 +33,7 @@ struct SlideChains {
   std::vector<FanSide> sides;
   std::vector<SlidePlace> places;  ///< of the knots themselves
   /// The triangles with a vertex that may slide, as far as connectivity says it, and none that is free: no one-ring has
-  /// them. In canonical order.
+  /// them. Canonical corners.
   std::vector<Triangle> held_triangles;
   SlideCurve curve = SlideCurve::polyline;
 
@@ -45,6 +45,16 @@ struct SlideChains {
     for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
       visit(copy, vertices[slider.knot + copy * chain.count]);
     }
+  }
+  /// Calls visit(vertex, side) for the triangles of the vertices that slide with a slider.
+  template <class Visit>
+  void for_sides(const Slider& slider, const Visit& visit) const {
+    for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
+      const std::int32_t fan = slider.fan + copy;
+      for (std::int32_t i = fans[fan]; i < fans[fan + 1]; ++i) {
+        visit(v, sides[i]);
+      }
+    });
   }
   /// How many vertices slide, those of all copies.
   std::int64_t vertex_count() const;

@@ -57,26 +57,31 @@ class ChainCurve {
     }
     return found;
   }
-  TRISMOOTH_HOST_DEVICE double limit(std::int32_t i) const { return view_.limits[chain_.first + wrap(i)]; }
+  /// The smaller one of the limits of two knots.
+  TRISMOOTH_HOST_DEVICE double limit(std::int32_t i, std::int32_t j) const {
+    const double first = view_.limits[chain_.first + wrap(i)];
+    const double second = view_.limits[chain_.first + wrap(j)];
+    return first < second ? first : second;
+  }
 
   /// Where a place is on a copy. On the polyline a coordinate that is the same at both ends of the segment keeps its
   /// bits, and a place at a knot has those of the knot.
   TRISMOOTH_HOST_DEVICE Point2<double> position(const SlidePlace& place, std::int32_t copy) const {
-    const double part = part_of(place);
-    const Point2<double> from = knot(place.segment, copy);
-    const Point2<double> way = knot(place.segment + 1, copy) - from;
+    const Point2<double> straight = on_polyline(place, copy);
     if (view_.curve == SlideCurve::polyline) {
-      return {from.x + part * way.x, from.y + part * way.y};
+      return straight;
     }
     // Hermite's cubic, as what it is beside the polyline.
+    const double part = part_of(place);
+    const Point2<double> way = knot(place.segment + 1, copy) - knot(place.segment, copy);
     const double length = arc(place.segment + 1) - arc(place.segment);
     const Point2<double> out = slope(place.segment, copy);
     const Point2<double> in = slope(place.segment + 1, copy);
     const double rest = 1 - part;
     const double of_out = part * rest * rest;
     const double of_in = part * part * rest;
-    return {from.x + part * way.x + (of_out * (length * out.x - way.x) - of_in * (length * in.x - way.x)),
-            from.y + part * way.y + (of_out * (length * out.y - way.y) - of_in * (length * in.y - way.y))};
+    return {straight.x + (of_out * (length * out.x - way.x) - of_in * (length * in.x - way.x)),
+            straight.y + (of_out * (length * out.y - way.y) - of_in * (length * in.y - way.y))};
   }
 
   /// Where the place would be on the polyline.

@@ -7,16 +7,14 @@
 
 namespace trismooth {
 
-/// How far an edge of the new line is from the part of the old one that it replaces, in units of what is allowed.
-struct EdgeDeviation {
-  double distance = 0;  ///< in the local frame
-  double share = 0;     ///< the largest of (distance / limit) where they differ; above 1: it is not allowed
+/// The largest of some distances in units of a limit that each has; above 1: it is not allowed.
+struct LargestShare {
+  double value = 0;
 
-  TRISMOOTH_HOST_DEVICE void add(double apart, double limit) {
-    distance = apart > distance ? apart : distance;
-    const double of_limit = apart > 0 ? apart / limit : 0;
+  TRISMOOTH_HOST_DEVICE void add(double distance, double limit) {
+    const double share = distance > 0 ? distance / limit : 0;
     // (A share that is no number is one too many.)
-    share = share >= of_limit ? share : of_limit;
+    value = value >= share ? value : share;
   }
 };
 
@@ -42,31 +40,35 @@ inline TRISMOOTH_HOST_DEVICE double distance_from_edge(Point2<double> from, Poin
 }
 
 /// The deviation of the edge from `start` to `end`, which are at the places `first` and `last` of a chain, in this
-/// order. Both lines are walked through together: knots of the old one are met at the nearest part of the edge that
-/// does not lie behind the last one's, what is between is interpolated. The distance of two such walkers is largest at
-/// knots and ends, so it is known exactly, and the Hausdorff distance of the lines is no larger (nor their Frechet
-/// distance). Where only knots differ from the edge, and are met in their order, it is the Hausdorff distance of both
-/// parts. Complexity: linear in the knots between.
-inline TRISMOOTH_HOST_DEVICE EdgeDeviation deviation_of(const ChainCurve& curve, std::int32_t copy,
-                                                        const SlidePlace& first, Point2<double> start,
-                                                        const SlidePlace& last, Point2<double> end) {
-  EdgeDeviation found;
-  const auto limit_at = [&](const SlidePlace& place) {
-    const double before = curve.limit(place.segment);
-    const double after = curve.limit(place.segment + 1);
-    return before < after ? before : after;
-  };
-  found.add(std::sqrt(squared_length(start - curve.on_polyline(first, copy))), limit_at(first));
-  found.add(std::sqrt(squared_length(end - curve.on_polyline(last, copy))), limit_at(last));
+/// order: calls visit(distance, i, j) for distances of which the largest is the deviation, each with the knots (maybe
+/// one) at whose edges it is. Both lines are walked through together: knots of the old one are met at the nearest part
+/// of the edge that does not lie behind the last one's, what is between is interpolated. The distance of two such
+/// walkers is largest at knots and ends, so it is known exactly, and the Hausdorff distance of the lines is no larger
+/// (nor their Frechet distance). Where only knots differ from the edge, and are met in their order, it is the Hausdorff
+/// distance of both parts. Complexity: linear in the knots between.
+template <class Visit>
+TRISMOOTH_HOST_DEVICE void for_deviations(const ChainCurve& curve, std::int32_t copy, const SlidePlace& first,
+                                          Point2<double> start, const SlidePlace& last, Point2<double> end,
+                                          const Visit& visit) {
+  visit(std::sqrt(squared_length(start - curve.on_polyline(first, copy))), first.segment, first.segment + 1);
+  visit(std::sqrt(squared_length(end - curve.on_polyline(last, copy))), last.segment, last.segment + 1);
   double met = 0;
   for (std::int32_t i = first.segment + 1; curve.arc(i) < last.arc; ++i) {
     const Point2<double> knot = curve.knot(i, copy);
     const double nearest = nearest_part(start, end, knot);
     const bool is_foot = nearest > 0 && nearest < 1 && nearest >= met;
     met = nearest > met ? nearest : met;
-    found.add(distance_from_edge(start, end, knot, met, is_foot), curve.limit(i));
+    visit(distance_from_edge(start, end, knot, met, is_foot), i, i);
   }
-  return found;
+}
+
+/// The largest share of what the chain's limits allow that an edge takes: see for_deviations().
+inline TRISMOOTH_HOST_DEVICE double deviation_share(const ChainCurve& curve, std::int32_t copy, const SlidePlace& first,
+                                                    Point2<double> start, const SlidePlace& last, Point2<double> end) {
+  LargestShare largest;
+  for_deviations(curve, copy, first, start, last, end,
+                 [&](double distance, std::int32_t i, std::int32_t j) { largest.add(distance, curve.limit(i, j)); });
+  return largest.value;
 }
 
 }  // namespace trismooth

@@ -75,15 +75,18 @@ bool SlideGuard::settle_links(std::vector<std::int32_t>& reverted) {
   return found;
 }
 
-/// Calls visit(first, second, deviation) for the edges of the lines as they are now, between two knots of first copies.
-/// `limits`: those that shares are of.
-template <class Visit>
-void SlideGuard::for_edges(const std::vector<double>& limits, const Visit& visit) const {
-  SlideView view = view_;
-  view.limits = limits.data();
+/// Judges the edges of the lines as they are now, between two knots of first copies each.
+bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
+  SlideView by_allowed = view_;
+  by_allowed.limits = chains_.allowed.data();
+  SlideView by_length = view_;
+  by_length.limits = chains_.lengths.data();
+  std::vector<std::int32_t> beyond;  // sliders
+  deviation_ = {};
   for (std::size_t c = 0; c < chains_.chains.size(); ++c) {
     const SlideChain& chain = chains_.chains[c];
-    const ChainCurve curve(view, static_cast<std::int32_t>(c));
+    const ChainCurve curve(by_allowed, static_cast<std::int32_t>(c));
+    const ChainCurve lengths(by_length, static_cast<std::int32_t>(c));
     const std::int32_t edges = chain.is_closed ? chain.count : chain.count - 1;
     for (std::int32_t i = 0; i < edges; ++i) {
       const bool is_seam = i + 1 == chain.count;
@@ -94,30 +97,28 @@ void SlideGuard::for_edges(const std::vector<double>& limits, const Visit& visit
       if (is_seam) {
         to = {to.arc + chain.length, to.segment + chain.count};
       }
-      for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
+      bool is_good = from.arc < to.arc;
+      for (std::int32_t copy = 0; is_good && copy < chain.copies; ++copy) {
         const auto at = [&](std::int32_t knot) {
           return after_[static_cast<std::size_t>(chains_.vertices[knot + copy * chain.count])];
         };
-        EdgeDeviation found;
-        if (from.arc < to.arc) {
-          found = deviation_of(curve, copy, from, at(first), to, at(second));
-        } else {
-          found.share = std::numeric_limits<double>::infinity();
-        }
-        visit(first, second, found);
+        LargestShare of_allowed;
+        LargestShare of_length;
+        for_deviations(curve, copy, from, at(first), to, at(second),
+                       [&](double distance, std::int32_t j, std::int32_t k) {
+                         deviation_.distance = std::max(deviation_.distance, distance);
+                         of_allowed.add(distance, curve.limit(j, k));
+                         of_length.add(distance, lengths.limit(j, k));
+                       });
+        deviation_.relative = std::max(deviation_.relative, of_length.value);
+        is_good = of_allowed.value <= 1;
+      }
+      if (!is_good) {
+        beyond.push_back(slider_at_[static_cast<std::size_t>(first)]);
+        beyond.push_back(slider_at_[static_cast<std::size_t>(second)]);
       }
     }
   }
-}
-
-bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
-  std::vector<std::int32_t> beyond;
-  for_edges(chains_.allowed, [&](std::int32_t first, std::int32_t second, const EdgeDeviation& found) {
-    if (!(found.share <= 1)) {
-      beyond.push_back(slider_at_[static_cast<std::size_t>(first)]);
-      beyond.push_back(slider_at_[static_cast<std::size_t>(second)]);
-    }
-  });
   bool found = false;
   for (const std::int32_t slider : beyond) {
     if (slider >= 0) {
@@ -164,16 +165,6 @@ bool SlideGuard::settle_triangles(std::vector<std::int32_t>& reverted) {
     }
   }
   return found;
-}
-
-LineDeviation SlideGuard::deviation() const {
-  LineDeviation largest;
-  // (Shares of the lengths nearby in place of what is allowed.)
-  for_edges(chains_.lengths, [&](std::int32_t /*first*/, std::int32_t /*second*/, const EdgeDeviation& found) {
-    largest.distance = std::max(largest.distance, found.distance);
-    largest.relative = std::max(largest.relative, found.share);
-  });
-  return largest;
 }
 
 std::int64_t SlideGuard::slid_vertices() const {

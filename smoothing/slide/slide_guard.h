@@ -29,7 +29,8 @@ class SlideGuard {
   /// Complexity of a round: linear in the knots.
   std::int64_t settle(std::vector<std::int32_t>& reverted);
 
-  LineDeviation deviation() const;
+  /// What settle() found at last.
+  const LineDeviation& deviation() const { return deviation_; }
   /// Vertices that are elsewhere on their chains.
   std::int64_t slid_vertices() const;
 
@@ -39,8 +40,6 @@ class SlideGuard {
   bool settle_links(std::vector<std::int32_t>& reverted);
   bool settle_lines(std::vector<std::int32_t>& reverted);
   bool settle_triangles(std::vector<std::int32_t>& reverted);
-  template <class Visit>
-  void for_edges(const std::vector<double>& limits, const Visit& visit) const;
 
   const SlideChains& chains_;
   SlideView view_;
@@ -48,6 +47,7 @@ class SlideGuard {
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
   bool guards_triangles_;
+  LineDeviation deviation_;
   std::vector<std::int32_t> slider_at_;  ///< of each knot of the first copies; -1: it is an end
 };
 

@@ -16,17 +16,24 @@ TRISMOOTH_HOST_DEVICE FanTarget fan_target(const SlidingVertex<Points>& vertex, 
   double areas = 0;
   double largest_share = 0;
   int count = 0;
-  vertex.for_sides(vertex.own(), [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-    const Point2<double> a = vertex.point(side.from) - position;
-    const Point2<double> b = vertex.point(side.to) - position;
-    const double area = cross(a, b);
-    ++count;
-    if (area > 0) {
-      areas += area;
-      const double share = share_of_error(area, squared_length(a) + squared_length(b) + squared_length(b - a));
-      largest_share = share > largest_share ? share : largest_share;
-    }
-  });
+  struct Element {
+    double area;
+    double share;
+  };
+  vertex.for_sides(
+      vertex.own(),
+      [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+        const Point2<double> a = vertex.point(side.from) - position;
+        const Point2<double> b = vertex.point(side.to) - position;
+        const double area = cross(a, b);
+        const double squares = squared_length(a) + squared_length(b) + squared_length(b - a);
+        return Element{area, area > 0 ? share_of_error(area, squares) : 0};
+      },
+      [&](const Element& element) {
+        ++count;
+        areas += element.area > 0 ? element.area : 0;
+        largest_share = element.share > largest_share ? element.share : largest_share;
+      });
   const double mean_area = areas / static_cast<double>(count);
   if (asked > 0) {
     return {asked, growth_bound(largest_share, 1 / asked, mesh)};

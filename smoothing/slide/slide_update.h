@@ -29,21 +29,38 @@ struct FanTarget {
   double largest_share;
 };
 
+/// Who looks at the triangles of a slider: one thread, at one after the other. Others may be several threads that do
+/// the same with the same arguments and share this out; take() is called in the order of the triangles in any case.
+struct SlideAlone {
+  /// Calls take(find(i)) for `begin` <= i < `end`.
+  template <class Find, class Take>
+  TRISMOOTH_HOST_DEVICE void for_each(std::int32_t begin, std::int32_t end, const Find& find, const Take& take) const {
+    for (std::int32_t i = begin; i < end; ++i) {
+      take(find(i));
+    }
+  }
+};
+
 /// What a vertex that slides does.
 struct SlideMove {
   SlidePlace place;
   bool moved;
-  double squares;  ///< see VertexMove, of all copies
-  int neighbours;  ///< likewise
+  double moved_squares;  ///< see MoveLength::moved, of all copies
+  double squares;        ///< see MoveLength::sum, likewise
 };
 
-/// One slider and its surroundings. `Points`: points(v) is the position of a packed vertex.
-template <class Points>
+/// One slider and its surroundings. `Points`: points(v) is the position of a packed vertex; `Team`: as SlideAlone.
+template <class Points, class Team = SlideAlone>
 class SlidingVertex {
  public:
   TRISMOOTH_HOST_DEVICE SlidingVertex(const SlideView& view, const SlidePlaces& places, const Slider& slider,
-                                      const Points& points)
-      : view_(view), slider_(slider), points_(points), curve_(view, slider.chain), own_(places[slider.knot]) {
+                                      const Points& points, const Team& team = {})
+      : view_(view),
+        slider_(slider),
+        points_(points),
+        team_(team),
+        curve_(view, slider.chain),
+        own_(places[slider.knot]) {
     const SlideChain& chain = curve_.chain();
     const std::int32_t i = slider.knot - chain.first;
     // The places of a closed chain are counted on from its first knot, which those beyond the seam do not know.
@@ -73,9 +90,9 @@ class SlidingVertex {
     }
     for (std::int32_t copy = 0; copy < copies(); ++copy) {
       const Point2<double> here = curve_.position(place, copy);
-      const EdgeDeviation first = deviation_of(curve_, copy, before_, curve_.position(before_, copy), place, here);
-      const EdgeDeviation second = deviation_of(curve_, copy, place, here, after_, curve_.position(after_, copy));
-      if (!(first.share <= 1 && second.share <= 1)) {
+      const double first = deviation_share(curve_, copy, before_, curve_.position(before_, copy), place, here);
+      const double second = deviation_share(curve_, copy, place, here, after_, curve_.position(after_, copy));
+      if (!(first <= 1 && second <= 1)) {
         return false;
       }
     }
@@ -104,15 +121,15 @@ class SlidingVertex {
     return own_;
   }
 
-  /// Calls visit(copy, position, side) for all triangles of all copies where it is at `place`.
-  template <class Visit>
-  TRISMOOTH_HOST_DEVICE void for_sides(const SlidePlace& place, const Visit& visit) const {
+  /// Calls take(find(copy, position, side)) for all triangles of all copies where it is at `place`.
+  template <class Find, class Take>
+  TRISMOOTH_HOST_DEVICE void for_sides(const SlidePlace& place, const Find& find, const Take& take) const {
     for (std::int32_t copy = 0; copy < copies(); ++copy) {
       const Point2<double> position = curve_.position(place, copy);
       const std::int32_t fan = slider_.fan + copy;
-      for (std::int32_t i = view_.fans[fan]; i < view_.fans[fan + 1]; ++i) {
-        visit(copy, position, view_.sides[i]);
-      }
+      team_.for_each(
+          view_.fans[fan], view_.fans[fan + 1], [&](std::int32_t i) { return find(copy, position, view_.sides[i]); },
+          take);
     }
   }
 
@@ -120,12 +137,16 @@ class SlidingVertex {
   TRISMOOTH_HOST_DEVICE double worst_quotient(const SlidePlace& place, int& inverted) const {
     double worst = 1;
     inverted = 0;
-    for_sides(place, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-      const double quotient = shape_quotient(position, point(side.from), point(side.to));
-      // A quotient that is no number is the worst.
-      worst = quotient >= worst ? worst : quotient;
-      inverted += quotient < 0 ? 1 : 0;
-    });
+    for_sides(
+        place,
+        [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+          return shape_quotient(position, point(side.from), point(side.to));
+        },
+        [&](double quotient) {
+          // A quotient that is no number is the worst.
+          worst = quotient >= worst ? worst : quotient;
+          inverted += quotient < 0 ? 1 : 0;
+        });
     return worst;
   }
 
@@ -134,12 +155,19 @@ class SlidingVertex {
     if (place.arc == own_.arc) {
       return stays();
     }
-    SlideMove move{place, true, 0, 0};
-    for_sides(own_, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-      move.squares += squared_length(point(side.from) - position);
-      ++move.neighbours;
-    });
-    return move;
+    int neighbours = 0;
+    double squares = 0;
+    for_sides(
+        own_,
+        [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+          return squared_length(point(side.from) - position);
+        },
+        [&](double squared) {
+          squares += squared;
+          ++neighbours;
+        });
+    const Point2<double> way = curve_.position(place, 0) - curve_.position(own_, 0);
+    return {place, true, squared_length(way) * neighbours, squares};
   }
 
   /// To the place if the worst of its triangles gets better there and no more are inverted.
@@ -159,6 +187,7 @@ class SlidingVertex {
   const SlideView& view_;
   const Slider& slider_;
   const Points& points_;
+  Team team_;
   ChainCurve curve_;
   SlidePlace own_;
   SlidePlace before_{};  ///< the neighbours on the chain
@@ -166,22 +195,21 @@ class SlidingVertex {
 };
 
 /// To the middle of its neighbours on the chain.
-template <class Points>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const Laplacian& /*method*/, const SlidingVertex<Points>& vertex,
-                                      const FanTarget& /*target*/) {
+template <class Vertex>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const Laplacian& /*method*/, const Vertex& vertex, const FanTarget& /*target*/) {
   return vertex.moves_to(vertex.as_far_as_it_may(vertex.middle()));
 }
 
 /// The same if the worst of its triangles gets better (the paper's rule, section 3.3.4).
-template <class Points>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const SmartLaplacian& /*method*/, const SlidingVertex<Points>& vertex,
+template <class Vertex>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const SmartLaplacian& /*method*/, const Vertex& vertex,
                                       const FanTarget& /*target*/) {
   return vertex.smart_move(vertex.as_far_as_it_may(vertex.middle()));
 }
 
 /// As length_weighted_position(), along the chain.
-template <class Points>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const WeightedLaplacian& /*method*/, const SlidingVertex<Points>& vertex,
+template <class Vertex>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const WeightedLaplacian& /*method*/, const Vertex& vertex,
                                       const FanTarget& /*target*/) {
   const double back = vertex.own().arc - vertex.before().arc;
   const double on = vertex.after().arc - vertex.own().arc;
@@ -190,10 +218,10 @@ TRISMOOTH_HOST_DEVICE SlideMove slide(const WeightedLaplacian& /*method*/, const
 }
 
 /// The energy of a fan along the chain.
-template <class T, bool shaped, bool is_last, class Points>
+template <class T, bool shaped, bool is_last, class Vertex>
 class SlidingEnergy {
  public:
-  TRISMOOTH_HOST_DEVICE SlidingEnergy(const MeanRatio<T, shaped, is_last>& method, const SlidingVertex<Points>& vertex,
+  TRISMOOTH_HOST_DEVICE SlidingEnergy(const MeanRatio<T, shaped, is_last>& method, const Vertex& vertex,
                                       const FanTarget& target)
       : targets_(method.targets()),
         vertex_(vertex),
@@ -201,11 +229,21 @@ class SlidingEnergy {
         energy_{is_last ? targets_.scales->power : 1, static_cast<double>(targets_.scales->size_weight),
                 static_cast<double>(targets_.scales->least_quotient)} {}
 
-  /// The derivatives by the arc, on either side of a place that is at a knot.
+  /// Derivatives by the arc.
+  struct Slopes {
+    double slope = 0;
+    double curvature = 0;
+
+    TRISMOOTH_HOST_DEVICE void add(const Slopes& other) {
+      slope += other.slope;
+      curvature += other.curvature;
+    }
+  };
+  /// The energy with its derivatives, which are two where the place is at a knot.
   struct Expansion {
     double value = 0;
-    double back_slope = 0, back_curvature = 0;
-    double on_slope = 0, on_curvature = 0;
+    Slopes back;
+    Slopes on;
     bool is_valid = true;
   };
 
@@ -215,13 +253,19 @@ class SlidingEnergy {
     const ChainCurve& curve = vertex_.curve();
     const bool at_knot = place.arc == curve.arc(place.segment) && (curve.chain().is_closed || place.segment > 0);
     const SlidePlace back{place.arc, at_knot ? place.segment - 1 : place.segment};
-    vertex_.for_sides(place, [&](std::int32_t copy, Point2<double> position, const FanSide& side) {
-      const SideTerms<double, 7> terms = energy_.expansion(triangle(position, side));
-      found.value += terms.values[0];
-      found.is_valid = found.is_valid && terms.margin > 0;
-      add(terms, curve.tangent(place, copy), found.on_slope, found.on_curvature);
-      add(terms, curve.tangent(back, copy), found.back_slope, found.back_curvature);
-    });
+    vertex_.for_sides(
+        place,
+        [&](std::int32_t copy, Point2<double> position, const FanSide& side) {
+          const SideTerms<double, 7> terms = energy_.expansion(triangle(position, side));
+          return Expansion{terms.values[0], along(terms, curve.tangent(back, copy)),
+                           along(terms, curve.tangent(place, copy)), terms.margin > 0};
+        },
+        [&](const Expansion& term) {
+          found.value += term.value;
+          found.back.add(term.back);
+          found.on.add(term.on);
+          found.is_valid = found.is_valid && term.is_valid;
+        });
     return found;
   }
 
@@ -231,31 +275,37 @@ class SlidingEnergy {
     double sum = 0;
     bool good = true;
     double largest = 0;
-    vertex_.for_sides(place, [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-      const SideTerms<double, 1> terms = energy_.value(triangle(position, side));
-      sum += terms.values[0];
-      good = good && terms.margin > 0;
-      largest = terms.share > largest ? terms.share : largest;
-    });
+    vertex_.for_sides(
+        place,
+        [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+          return energy_.value(triangle(position, side));
+        },
+        [&](const SideTerms<double, 1>& terms) {
+          sum += terms.values[0];
+          good = good && terms.margin > 0;
+          largest = terms.share > largest ? terms.share : largest;
+        });
     return good && sum < value && (largest <= target_.largest_share || largest <= largest_share_now());
   }
 
   TRISMOOTH_HOST_DEVICE int power() const { return energy_.power; }
 
  private:
-  static TRISMOOTH_HOST_DEVICE void add(const SideTerms<double, 7>& terms, Point2<double> along, double& slope,
-                                        double& curvature) {
-    slope += along.x * terms.values[1] + along.y * terms.values[2];
-    curvature += (along.x * along.x) * terms.values[3] + (along.y * along.y) * terms.values[5] +
-                 2 * (along.x * along.y) * terms.values[4];
+  /// The derivatives of a triangle's terms in one direction.
+  static TRISMOOTH_HOST_DEVICE Slopes along(const SideTerms<double, 7>& terms, Point2<double> way) {
+    return {
+        way.x * terms.values[1] + way.y * terms.values[2],
+        (way.x * way.x) * terms.values[3] + (way.y * way.y) * terms.values[5] + 2 * (way.x * way.y) * terms.values[4]};
   }
 
   TRISMOOTH_HOST_DEVICE double largest_share_now() const {
     double largest = 0;
-    vertex_.for_sides(vertex_.own(), [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-      const double share = energy_.value(triangle(position, side)).share;
-      largest = share > largest ? share : largest;
-    });
+    vertex_.for_sides(
+        vertex_.own(),
+        [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
+          return energy_.value(triangle(position, side)).share;
+        },
+        [&](double share) { largest = share > largest ? share : largest; });
     return largest;
   }
 
@@ -286,25 +336,24 @@ class SlidingEnergy {
   }
 
   const MeanRatioTargets<T>& targets_;
-  const SlidingVertex<Points>& vertex_;
+  const Vertex& vertex_;
   const FanTarget& target_;
   MeanRatioEnergy<double, is_last ? 0 : 1> energy_;
 };
 
 /// One damped Newton step in the arc on the energy of the fan, as MeanRatio makes it in the plane.
-template <class T, bool shaped, bool is_last, class Points>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const MeanRatio<T, shaped, is_last>& method, const SlidingVertex<Points>& vertex,
+template <class T, bool shaped, bool is_last, class Vertex>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const MeanRatio<T, shaped, is_last>& method, const Vertex& vertex,
                                       const FanTarget& target) {
   constexpr int most_tries = 4;
-  const SlidingEnergy<T, shaped, is_last, Points> energy(method, vertex, target);
+  const SlidingEnergy<T, shaped, is_last, Vertex> energy(method, vertex, target);
   const auto at = energy.expansion(vertex.own());
   if (!at.is_valid) {
     return slide(SmartLaplacian{}, vertex, target);
   }
   // At a kink the energy may fall on one side of it alone.
-  const bool goes_on = at.on_slope < 0;
-  const double slope = goes_on ? at.on_slope : at.back_slope;
-  const double curvature = goes_on ? at.on_curvature : at.back_curvature;
+  const bool goes_on = at.on.slope < 0;
+  const auto [slope, curvature] = goes_on ? at.on : at.back;
   if (!(goes_on || slope > 0) || !(curvature > 0)) {
     return vertex.stays();
   }

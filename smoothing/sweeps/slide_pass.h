@@ -107,9 +107,7 @@ class SlidePass {
     if (!move.moved) {
       return;
     }
-    const Point2<double> way = vertex.curve().position(move.place, 0) - vertex.curve().position(vertex.own(), 0);
-    const MoveLength<T> length{static_cast<T>(squared_length(way) * move.neighbours), static_cast<T>(move.squares)};
-    add_move(tally, length, working.tolerance);
+    add_move(tally, MoveLength<T>{static_cast<T>(move.moved_squares), static_cast<T>(move.squares)}, working.tolerance);
     chains_.for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
       const Point2<double> place = vertex.curve().position(move.place, copy);
       working.points[v] = {static_cast<T>(place.x), static_cast<T>(place.y)};
@@ -117,11 +115,10 @@ class SlidePass {
         working.other_points[v] = working.points[v];
       }
       mark(working.marked, v);
-      const std::int32_t fan = slider.fan + copy;
-      for (std::int32_t i = chains_.fans[fan]; i < chains_.fans[fan + 1]; ++i) {
-        mark(working.marked, chains_.sides[i].from);
-        mark(working.marked, chains_.sides[i].to);
-      }
+    });
+    chains_.for_sides(slider, [&](std::int32_t /*v*/, const FanSide& side) {
+      mark(working.marked, side.from);
+      mark(working.marked, side.to);
     });
     places_[slider.knot] = move.place;
   }
