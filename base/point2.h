@@ -17,6 +17,12 @@ struct Point2 {
   friend constexpr TRISMOOTH_HOST_DEVICE Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 };
 
+/// `now`, of which a coordinate that equals that of `before` has its bits: -0 stays -0.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE Point2<T> with_kept_bits(Point2<T> before, Point2<T> now) {
+  return {now.x == before.x ? before.x : now.x, now.y == before.y ? before.y : now.y};
+}
+
 /// Twice the signed area between two vectors: positive where b is counter-clockwise of a.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T cross(Point2<T> a, Point2<T> b) {

@@ -2,7 +2,7 @@
 // above 4M vertices), and checks on the way that every run gives the same bits.
 //
 //     gpu_smoothing --vertices 100000 1000000 --precision single --executions resident --runs 7 --json results.json
-//     gpu_smoothing --experiments full-sweeps rings host-arrays plan serial --json results.json
+//     gpu_smoothing --experiments full-sweeps rings host-arrays plan sliding serial --json results.json
 //
 // The experiments are described in gpu_smoothing_experiments.h; each has its own sizes unless --vertices gives them.
 // "to-stop": times are those of the device's own clock. A mesh is analysed and packed once ("prepare"); then its
@@ -27,11 +27,12 @@ namespace {
 
 using namespace benchmarks;
 
-constexpr std::array<std::pair<const char*, void (*)(Session&)>, 6> experiments{{{"to-stop", &smooth_to_stop},
+constexpr std::array<std::pair<const char*, void (*)(Session&)>, 7> experiments{{{"to-stop", &smooth_to_stop},
                                                                                  {"full-sweeps", &sweep_fully},
                                                                                  {"rings", &find_rings},
                                                                                  {"host-arrays", &smooth_host_arrays},
                                                                                  {"plan", &call_plan_again},
+                                                                                 {"sliding", &slide_along},
                                                                                  {"serial", &compare_with_serial}}};
 
 std::vector<std::string> experiment_names() {

@@ -21,6 +21,9 @@ void smooth_host_arrays(Session& session);
 /// A plan on the device called again with coordinates that are there, by the host's clock.
 void call_plan_again(Session& session);
 
+/// Vertices of boundaries that slide, beside the same without, on the CPU and on the device, by the host's clock.
+void slide_along(Session& session);
+
 /// The device beside one CPU thread that evaluates every vertex in every sweep, and beside the CPU at its best.
 void compare_with_serial(Session& session);
 

@@ -92,7 +92,7 @@ class Plan::Implementation {
     if (constraints.slide.along == Slide::off) {
       return std::async(std::launch::deferred, [] { return Slidable{}; });
     }
-    return std::async([near = topology.near_triangles(constraints.regions), slide = constraints.slide] {
+    return std::async([near = topology.near_lines(constraints.regions), slide = constraints.slide] {
       return find_slidable(near, slide);
     });
   }

@@ -53,7 +53,8 @@ struct PipelineOptions {
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
   /// Which vertices of boundaries and interfaces slide along them. Lines, their tags and links are those of the file,
-  /// in place of its own. Meshes of quadratic triangles slide on straight stretches alone.
+  /// in place of its own. Meshes of quadratic triangles, in tilted planes and in files of few digits do not
+  /// slide; a note says so.
   Sliding slide{};
   /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
   /// smoothing.mean_ratio.target_lengths.

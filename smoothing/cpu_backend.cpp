@@ -280,7 +280,8 @@ class CpuSmoother final : public PreparedSmoother {
     }
     for (const SlidVertex& slid : run.slid) {
       if (!(run.after[slid.vertex] == run.before[slid.vertex])) {
-        run.points[rings_.input_index[slid.vertex]] = slid.stored;
+        Point2<double>& point = run.points[rings_.input_index[slid.vertex]];
+        point = with_kept_bits(point, slid.stored);
         ++moved;
       }
     }

@@ -53,8 +53,8 @@ struct Sliding {
   /// One number a line; a chain ends where it changes. Empty: all are the same.
   ArrayView<std::int32_t> line_tags{};
   /// Pairs of vertices that slide as one, as those of two sides that are periodic: both at the same part of the same
-  /// edge of their chains. Chains that are not linked vertex by vertex from end to end stay where they are; so do
-  /// linked vertices that are on none.
+  /// edge of their chains. Chains that are not linked vertex by vertex from end to end, the ends as well, stay where
+  /// they are; so do linked vertices that are on none.
   ArrayView<std::int32_t> links{};
   /// Vertices of several chains that lie in the same place without being one, as on the two faces of a crack, slide as
   /// if linked. Else they stay where they are.

@@ -91,9 +91,10 @@ SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Smoothin
 ///
 /// `constraints` are those of smooth(); `regions` has one number a triangle of six nodes. The result counts corners
 /// (moved_vertices) and says which went back; middles are in no count. Throws as SmoothingPlan does, the points are
-/// untouched then: also std::invalid_argument unless there are six numbers for each triangle, and MeshError for a
-/// middle that is none of the vertices. Complexity: that of smooth(), and linear beside it. The middles and their guard
-/// are done on the host, whoever makes the sweeps, so the bits are the same for all backends.
+/// untouched then: also std::invalid_argument unless there are six numbers for each triangle, or where vertices are to
+/// slide, and MeshError for a middle that is none of the vertices. Complexity: that of smooth(), and linear beside it.
+/// The middles and their guard are done on the host, whoever makes the sweeps, so the bits are the same for all
+/// backends.
 ///
 /// How valid the elements are is to be had of quadratic_quality() (quadratic_quality.h).
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,

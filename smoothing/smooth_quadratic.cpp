@@ -187,6 +187,10 @@ SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::i
   Workers workers(options.threads);
   const QuadraticLists lists = listed_quadratics(triangles, static_cast<std::int64_t>(points.size()));
   check_constraints(constraints, static_cast<std::int32_t>(points.size()), std::ssize(lists.corners));
+  if (constraints.slide.along != Slide::off) {
+    throw std::invalid_argument(
+        "vertices of quadratic triangles do not slide, since the middles of sides would leave them");
+  }
   std::vector<std::uint8_t> named = named_vertices(constraints, points.size());
   std::vector<std::uint8_t> in_other_cell(constraints.other_cells.begin(), constraints.other_cells.end());
   in_other_cell.resize(points.size(), 0);
@@ -195,6 +199,7 @@ SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::i
   settled.fixed = named;
   settled.other_cells = in_other_cell;
   settled.regions = constraints.regions;
+  settled.slide = constraints.slide;
   const std::vector<Point2<double>> before = points.read(workers);
   SmoothingResult result = smooth(points, lists.corners, settled, options);
   const Stopwatch watch;

@@ -49,7 +49,10 @@ struct Scatter {
   const std::int32_t* vertices;
   Point2<double>* stored;
 
-  __device__ void operator()(std::uint32_t i) const { stored[vertices[i]] = values[i]; }
+  __device__ void operator()(std::uint32_t i) const {
+    Point2<double>& point = stored[vertices[i]];
+    point = with_kept_bits(point, values[i]);
+  }
 };
 
 struct NoteFans {

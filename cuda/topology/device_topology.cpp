@@ -8,7 +8,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
-#include "trismooth/cuda/topology/near_triangles.h"
+#include "trismooth/cuda/topology/near_lines.h"
 #include "trismooth/cuda/topology/ring_building.h"
 #include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
@@ -61,8 +61,8 @@ DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std:
   components_ = number_components(context, std::move(forest_words));
 }
 
-std::vector<NearTriangle> DeviceTopology::near_triangles(const std::int32_t* regions) const {
-  return cuda::near_triangles(*context_, triangles_, fixed_.data(), regions);
+NearLines DeviceTopology::near_lines(const std::int32_t* regions) const {
+  return cuda::near_lines(*context_, triangles_, vertex_count(), fixed_.data(), regions);
 }
 
 bool DeviceTopology::orient(const Point2<double>* local_points) {

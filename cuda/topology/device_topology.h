@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/cuda/runtime/context.h"
@@ -33,7 +32,7 @@ class DeviceTopology {
                  const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way);
 
   /// What trismooth::find_slidable() is to look at. `regions`: those of the constraints, on the device. Waits.
-  std::vector<NearTriangle> near_triangles(const std::int32_t* regions) const;
+  NearLines near_lines(const std::int32_t* regions) const;
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

@@ -54,6 +54,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
         found.in_other_cell[static_cast<std::size_t>(v)] = 1;
       }
     }
+    found.cells = std::ssize(line_cells);
     ValueNumbers tags;
     tags.of_item.assign(line_cells.size(), 0);
     for (const DataArray& array : document.cell_arrays) {

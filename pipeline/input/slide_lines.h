@@ -12,6 +12,7 @@ namespace trismooth {
 
 /// What a document says of the lines that vertices may slide on, for trismooth::Sliding.
 struct SlideLines {
+  std::int64_t cells = 0;                   ///< line cells
   std::vector<std::int32_t> lines;          ///< two points for each edge of its line cells
   std::vector<std::int32_t> tags;           ///< one number a line: lines that the file's groups tell apart differ
   std::vector<std::int32_t> links;          ///< pairs of points that are periodic

@@ -63,9 +63,14 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
   } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
     text = "No vertex could be improved: the mesh is as it was.";
   } else if (result.smoothing) {
-    text = fmt::format("{} of {} free vertices moved in {} sweep{}; {}.", count_text(result.smoothing->moved_vertices),
-                       count_text(result.input.free_vertices), count_text(result.smoothing->sweeps),
-                       result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
+    const SlidingResult sliding = result.smoothing->sliding.value_or(SlidingResult{});
+    text = fmt::format("{} of {} free vertices moved", count_text(result.smoothing->moved_vertices - sliding.slid),
+                       count_text(result.input.free_vertices));
+    if (sliding.vertices > 0) {
+      text += fmt::format(", and {} of {} on lines slid,", count_text(sliding.slid), count_text(sliding.vertices));
+    }
+    text += fmt::format(" in {} sweep{}; {}.", count_text(result.smoothing->sweeps),
+                        result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
   }
   if (last.inverted > 0) {
     text += fmt::format(" {} of {} triangles {} inverted.", count_text(last.inverted), count_text(last.triangles),

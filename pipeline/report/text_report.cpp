@@ -61,7 +61,7 @@ std::string_view why_nothing_moved(const PipelineResult& result) {
   if (result.input.triangles == 0) {
     return "nothing to smooth: the mesh has no triangles";
   }
-  if (result.input.free_vertices == 0) {
+  if (result.input.free_vertices == 0 && result.smoothing->sliding.value_or(SlidingResult{}).vertices == 0) {
     return "nothing to smooth: every vertex is fixed";
   }
   if (result.smoothing->reverted_vertices > 0) {

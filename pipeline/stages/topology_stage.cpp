@@ -209,6 +209,10 @@ void connect_mesh(RunState& run) {
   }
   settle_sliding(run);
   const SlideLines lines = slide_lines_of(run);
+  if (lines.cells > 0) {
+    run.note(std::to_string(lines.cells) + " of these cells " + (lines.cells == 1 ? "is a line" : "are lines") +
+             ": their vertices slide where nothing else holds them");
+  }
   run.found = rings_of(run, {.fixed = fixed,
                              .fixed_ids = ids,
                              .other_cells = run.slide != Slide::off ? lines.in_other_cell : mesh.in_other_cell,

@@ -40,8 +40,11 @@ struct Line {
 /// Triangles at lines, their vertices numbered from 0 in their order.
 class NearMesh {
  public:
-  explicit NearMesh(std::span<const NearTriangle> near) : near_(near), places_(corners_of(near)) {
-    reasons_.resize(places_.sorted().size());
+  /// `others`: vertices that no line is at.
+  NearMesh(std::span<const NearTriangle> near, std::span<const std::int32_t> others)
+      : near_(near), places_(vertices_of(near, others)) {
+    // (What holds the others is nothing that lines ask for.)
+    reasons_.assign(places_.sorted().size(), hold::named);
     for (const NearTriangle& triangle : near) {
       Triangle corners{};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -64,9 +67,10 @@ class NearMesh {
   std::int32_t number_in_mesh(std::int32_t v) const { return places_.sorted()[static_cast<std::size_t>(v)]; }
 
  private:
-  static std::vector<std::int32_t> corners_of(std::span<const NearTriangle> near) {
-    std::vector<std::int32_t> corners;
-    corners.reserve(3 * near.size());
+  static std::vector<std::int32_t> vertices_of(std::span<const NearTriangle> near,
+                                               std::span<const std::int32_t> others) {
+    std::vector<std::int32_t> corners(others.begin(), others.end());
+    corners.reserve(others.size() + 3 * near.size());
     for (const NearTriangle& triangle : near) {
       corners.insert(corners.end(), triangle.corners.begin(), triangle.corners.end());
     }
@@ -232,22 +236,25 @@ Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std:
         return is_held_by_lines(reasons(a)) || is_held_by_lines(reasons(b)) || is_held_by_lines(reasons(c));
       },
       workers);
-  std::vector<NearTriangle> near;
-  near.reserve(numbers.size());
+  const BulkVector<std::int32_t> others = numbers_of(
+      std::ssize(fixed), [&](std::int64_t v) { return is_held_otherwise(reasons(static_cast<std::int32_t>(v))); },
+      workers);
+  NearLines near{{}, {others.begin(), others.end()}};
+  near.triangles.reserve(numbers.size());
   for (const std::int32_t t : numbers) {
     const auto i = static_cast<std::size_t>(t);
     const auto& [a, b, c] = triangles[i];
-    near.push_back({t,
-                    triangles[i],
-                    {reasons(a), reasons(b), reasons(c)},
-                    constraints.regions.empty() ? 0 : constraints.regions[i]});
+    near.triangles.push_back({t,
+                              triangles[i],
+                              {reasons(a), reasons(b), reasons(c)},
+                              constraints.regions.empty() ? 0 : constraints.regions[i]});
   }
   return find_slidable(std::move(near), constraints.slide);
 }
 
-Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide) {
-  if (!std::ranges::is_sorted(near, {}, &NearTriangle::number)) {
-    std::ranges::sort(near, {}, &NearTriangle::number);
+Slidable find_slidable(NearLines near, const Sliding& slide) {
+  if (!std::ranges::is_sorted(near.triangles, {}, &NearTriangle::number)) {
+    std::ranges::sort(near.triangles, {}, &NearTriangle::number);
   }
   Slidable slidable;
   slidable.along = slide.deviation == 0 ? Slide::straight : slide.along;
@@ -255,7 +262,7 @@ Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide) {
   slidable.deviation = slide.deviation;
   slidable.curve = slidable.along == Slide::curves ? slide.curve : SlideCurve::polyline;
   slidable.coincident = slide.coincident;
-  const NearMesh mesh(near);
+  const NearMesh mesh(near.triangles, near.others);
   const std::vector<std::array<std::int32_t, 2>> neighbours = ChainSearch(mesh, slide).neighbours();
   const auto slides = [&](std::int32_t v) { return neighbours[static_cast<std::size_t>(v)][0] != Slidable::none; };
   // The triangles around those that slide, and their vertices.
@@ -267,6 +274,14 @@ Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide) {
       for (const std::int32_t v : mesh.corners(t)) {
         is_involved[static_cast<std::size_t>(v)] = 1;
       }
+    }
+  }
+  if (slidable.triangles.empty()) {
+    return slidable;
+  }
+  for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_free(v)) {
+      is_involved[static_cast<std::size_t>(v)] = 1;
     }
   }
   std::vector<std::int32_t> places(neighbours.size(), Slidable::none);

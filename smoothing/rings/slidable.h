@@ -15,7 +15,8 @@ namespace trismooth {
 class Workers;
 
 /// What is to be known of a mesh's connectivity for vertices to slide, wherever they are. Vertices are numbered here
-/// from 0 in the order of `vertices`, which are those of the triangles around the vertices that may slide.
+/// from 0 in the order of `vertices`: those of the triangles around the vertices that may slide, and all that are held,
+/// for these may lie in the same place.
 struct Slidable {
   static constexpr std::int32_t none = -1;
 
@@ -54,10 +55,21 @@ struct NearTriangle {
   std::int32_t region;                  ///< 0 where there are no regions
 };
 
+/// What find_slidable() looks at.
+struct NearLines {
+  std::vector<NearTriangle> triangles;  ///< with a vertex that is_held_by_lines(), in any order
+  std::vector<std::int32_t> others;     ///< the vertices that is_held_otherwise(), in any order
+};
+
 /// Whether nothing but lines holds a vertex: a boundary, an interface, or one that the caller names.
 constexpr TRISMOOTH_HOST_DEVICE bool is_held_by_lines(std::uint8_t reasons) {
   constexpr unsigned of_lines = hold::boundary | hold::interface | hold::line;
   return reasons != 0 && (reasons & ~of_lines) == 0;
+}
+
+/// Whether something else holds a vertex that is in use.
+constexpr TRISMOOTH_HOST_DEVICE bool is_held_otherwise(std::uint8_t reasons) {
+  return reasons != 0 && !is_held_by_lines(reasons) && !hold::is_unused(reasons);
 }
 
 /// Finds which vertices may slide as far as connectivity says it: those that nothing but a boundary, an interface or a
@@ -67,7 +79,7 @@ constexpr TRISMOOTH_HOST_DEVICE bool is_held_by_lines(std::uint8_t reasons) {
 Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
                        const Constraints& constraints, Workers& workers);
 
-/// The same from the triangles with a vertex that is_held_by_lines().
-Slidable find_slidable(std::vector<NearTriangle> near, const Sliding& slide);
+/// The same from what lies at the lines.
+Slidable find_slidable(NearLines near, const Sliding& slide);
 
 }  // namespace trismooth

@@ -216,8 +216,10 @@ class RunFinder {
     }
     if (groups_.any()) {
       add_partly_held_groups(faulty);
+      const bool is_sound = faulty.empty();
       std::ranges::fill(first_of_run_, Slidable::none);
-      for (std::size_t r = 0; r < runs_.size() && faulty.empty(); ++r) {
+      // (All that slide have a run, and so have those in their groups, where nothing is faulty so far.)
+      for (std::size_t r = 0; is_sound && r < runs_.size(); ++r) {
         match(static_cast<std::int32_t>(r), faulty);
       }
     }
@@ -300,8 +302,9 @@ class RunFinder {
           return false;
         }
       }
-      return run.is_closed || (groups_.of(run.vertices.front()) == groups_.of(copy.vertices.front()) ||
-                               groups_.of(run.vertices.front()) != groups_.of(copy.vertices.back()));
+      // (Vertices next to ends slide on the edges there.)
+      return groups_.of(run.vertices.front()) == groups_.of(copy.vertices.front()) &&
+             groups_.of(run.vertices.back()) == groups_.of(copy.vertices.back());
     };
     for (int direction = 0; direction < 2; ++direction) {
       if (copy.is_closed) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -50,11 +51,7 @@ class ChainWriter {
     const std::int32_t segments = run.is_closed ? count : count - 1;
     for (std::int32_t i = 0; i < count; ++i) {
       chains_.arcs.push_back(chain.length);
-      const bool has_before = run.is_closed || i > 0;
-      const bool has_after = run.is_closed || i < segments;
-      const double before = has_before ? length(i > 0 ? i - 1 : count - 1) : length(i);
-      const double after = has_after ? length(i) : before;
-      const double nearby = std::min(before, after);
+      const double nearby = shortest_around(run, copies, static_cast<std::size_t>(i));
       const double allowed = slidable_.along == Slide::curves ? slidable_.deviation * nearby : 0;
       const double rounded = rounding_around(run, copies, static_cast<std::size_t>(i));
       chains_.lengths.push_back(nearby);
@@ -62,7 +59,7 @@ class ChainWriter {
       chains_.limits.push_back(std::max(allowed - rounded, 2 * rounded));
       chains_.allowed.push_back(std::max(allowed, 3 * rounded));
       chains_.places.push_back({chain.length, run.is_closed || i < segments ? i : i - 1});
-      chain.length += i < segments ? after : 0;
+      chain.length += i < segments ? length(i) : 0;
       if (run.is_closed || (i > 0 && i < segments)) {
         chains_.sliders.push_back({number, chain.first + i, 0});
       }
@@ -101,6 +98,26 @@ class ChainWriter {
     look(run);
     std::ranges::for_each(copies, look);
     return largest;
+  }
+
+  /// The length of the shortest edge at a vertex of a run or of the same one of its copies.
+  double shortest_around(const ChainRun& run, std::span<const ChainRun> copies, std::size_t i) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    const auto look = [&](const ChainRun& of) {
+      const std::size_t count = of.vertices.size();
+      const auto length = [&](std::size_t from, std::size_t to) {
+        return std::sqrt(squared_length(point(of.vertices[to % count]) - point(of.vertices[from % count])));
+      };
+      if (of.is_closed || i > 0) {
+        shortest = std::min(shortest, length(i + count - 1, i));
+      }
+      if (of.is_closed || i + 1 < count) {
+        shortest = std::min(shortest, length(i, i + 1));
+      }
+    };
+    look(run);
+    std::ranges::for_each(copies, look);
+    return shortest;
   }
 
   void add_knots(const ChainRun& run) {

@@ -111,7 +111,8 @@ bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
                          of_length.add(distance, lengths.limit(j, k));
                        });
         deviation_.relative = std::max(deviation_.relative, of_length.value);
-        is_good = of_allowed.value <= 1;
+        // (Two vertices may be stored at the same place, of few digits.)
+        is_good = of_allowed.value <= 1 && !(at(first) == at(second));
       }
       if (!is_good) {
         beyond.push_back(slider_at_[static_cast<std::size_t>(first)]);

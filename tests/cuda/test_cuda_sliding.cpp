@@ -1,8 +1,6 @@
 // Vertices that slide along boundaries and interfaces, on the device: the CPU's bits, counts and deviations.
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,7 +10,7 @@
 #include "catch.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
-#include "support/distorted_meshes.h"
+#include "support/sliding_meshes.h"
 
 using namespace properties;
 using test_meshes::Random;
@@ -51,34 +49,18 @@ std::string difference_of_sliding(const Run& found, const Run& expected) {
 
 /// Rings of vertices between two circles, uneven on each, with an interface between two of them.
 RandomMesh annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) {
-  Random random(seed);
   RandomMesh mesh;
-  for (std::int32_t r = 0; r < rings; ++r) {
-    for (std::int32_t i = 0; i < around; ++i) {
-      const double angle = 2 * std::numbers::pi * (i + random.between(-0.35, 0.35)) / around;
-      const double radius = 0.3 + 0.7 * r / (rings - 1);
-      mesh.mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-  }
-  for (std::int32_t r = 0; r + 1 < rings; ++r) {
-    for (std::int32_t i = 0; i < around; ++i) {
-      const std::int32_t a = r * around + i;
-      const std::int32_t b = r * around + (i + 1) % around;
-      mesh.mesh.triangles.insert(mesh.mesh.triangles.end(), {{a, a + around, b}, {b, a + around, b + around}});
-      mesh.regions.insert(mesh.regions.end(), {r < rings / 2 ? 1 : 2, r < rings / 2 ? 1 : 2});
-    }
+  mesh.mesh = sliding_meshes::uneven_annulus(around, rings, seed);
+  const auto half = static_cast<std::size_t>(2 * around * (rings / 2));
+  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    mesh.regions.push_back(t < half ? 1 : 2);
   }
   return mesh;
 }
 
 RandomMesh uneven_square(std::int32_t side, std::uint64_t seed) {
-  Random random(seed);
   RandomMesh mesh;
-  mesh.mesh = distorted_meshes::grid(side, [&](test_meshes::Point p) {
-    const double most = 0.25 / (side - 1);
-    const test_meshes::Point by{random.between(-most, most), random.between(-most, most)};
-    return test_meshes::Point{p.x > 0 && p.x < 1 ? p.x + by.x : p.x, p.y > 0 && p.y < 1 ? p.y + by.y : p.y};
-  });
+  mesh.mesh = sliding_meshes::uneven_square(side, 0.25, seed);
   return mesh;
 }
 

@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/runtime/for_each.cuh"
+#include "trismooth/cuda/topology/near_lines.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// Lists them as threads happen to run; those that there is no room for are counted still.
+struct ListNear {
+  TriangleList triangles;
+  const std::uint8_t* fixed;
+  const std::int32_t* regions;
+  NearTriangle* list;
+  std::uint32_t list_size;
+  std::uint32_t* count;
+
+  __device__ void operator()(std::uint32_t t) const {
+    const Triangle corners = triangles[t];
+    const std::uint8_t reasons[3] = {fixed[corners[0]], fixed[corners[1]], fixed[corners[2]]};
+    if (!is_held_by_lines(reasons[0]) && !is_held_by_lines(reasons[1]) && !is_held_by_lines(reasons[2])) {
+      return;
+    }
+    if (const std::uint32_t place = atomicAdd(count, 1U); place < list_size) {
+      list[place] = {static_cast<std::int32_t>(t),
+                     corners,
+                     {reasons[0], reasons[1], reasons[2]},
+                     regions == nullptr ? 0 : regions[t]};
+    }
+  }
+};
+
+/// The same of the vertices that something else holds.
+struct ListOthers {
+  const std::uint8_t* fixed;
+  std::int32_t* list;
+  std::uint32_t list_size;
+  std::uint32_t* count;
+
+  __device__ void operator()(std::uint32_t v) const {
+    if (!is_held_otherwise(fixed[v])) {
+      return;
+    }
+    if (const std::uint32_t place = atomicAdd(count, 1U); place < list_size) {
+      list[place] = static_cast<std::int32_t>(v);
+    }
+  }
+};
+
+/// Calls list(elements, their number, count) with room for as many elements as there turn out to be.
+template <class Element, class List>
+std::vector<Element> listed(Context& context, std::uint32_t at_most, const List& list) {
+  constexpr std::uint32_t usual_size = 65536;
+  std::uint32_t size = std::min(usual_size, at_most);
+  for (;;) {
+    DeviceBuffer<Element> elements(context, size);
+    DeviceBuffer<std::uint32_t> count(context, 1);
+    count.fill_bytes(0);
+    list(elements.data(), size, count.data());
+    const std::uint32_t found = download(context, count.data());
+    if (found <= size) {
+      std::vector<Element> near(found);
+      elements.download(near);
+      return near;
+    }
+    size = found;
+  }
+}
+
+}  // namespace
+
+NearLines near_lines(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
+                     const std::uint8_t* fixed, const std::int32_t* regions) {
+  const auto triangle_count = static_cast<std::uint32_t>(triangles.count);
+  const auto vertices = static_cast<std::uint32_t>(vertex_count);
+  return {
+      listed<NearTriangle>(context, triangle_count,
+                           [&](NearTriangle* list, std::uint32_t size, std::uint32_t* count) {
+                             for_each(context, triangle_count, ListNear{triangles, fixed, regions, list, size, count});
+                           }),
+      listed<std::int32_t>(context, vertices, [&](std::int32_t* list, std::uint32_t size, std::uint32_t* count) {
+        for_each(context, vertices, ListOthers{fixed, list, size, count});
+      })};
+}
+
+}  // namespace trismooth::cuda
