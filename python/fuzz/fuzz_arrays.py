@@ -22,7 +22,8 @@ import trismooth
 ARGUMENTS = (
     "points|triangles|regions|fixed|other_cells|size|out|method|form|backend|layout|execution|order|topology|precision|"
     "evaluation|guard|untangle|max_sweeps|tolerance|time_limit|target_quality|threads|size_weight|power|target|"
-    "record_min_shape|progress|stream|inplace|n_points|quality"
+    "record_min_shape|progress|stream|inplace|n_points|quality|slide|corner_angle|deviation|curve|slide_coincident|"
+    "lines|line_tags|links"
 )
 NAMES_AN_ARGUMENT = re.compile(rf"({ARGUMENTS})\b|'[^']*' is no option|options?: ")
 FLOATS = ["f8", "f4", ">f8", "f2", "g", "c16", "i4", "O", "U4"]
@@ -98,11 +99,22 @@ class Maker:
             return self.random.choice(STRANGE)
         return array
 
+    def pairs(self, points: int) -> np.ndarray:
+        """Pairs of vertices: edges along the rows of a grid, or any."""
+        first = self.numbers.integers(0, max(points, 1), self.random.randrange(10))
+        second = first + 1 if self.one_in(2) else self.numbers.permutation(first)
+        pairs = np.column_stack([first, second])
+        return pairs if self.one_in(8) else pairs[second < points]
+
     def constraint(self, name: str, points: int, triangles: int) -> object:
         if name == "regions":
             array = self.numbers.integers(-3, 3, triangles)
         elif name == "size":
             array = np.exp(self.numbers.normal(0, 2, points))
+        elif name in ("lines", "links"):
+            array = self.pairs(points)
+        elif name == "line_tags":
+            array = self.numbers.integers(-3, 3, self.random.randrange(10))
         elif self.one_in(2):
             array = self.numbers.integers(0, 2, points).astype(bool)
         else:
@@ -131,9 +143,17 @@ class Maker:
             "target": ["uniform", "input-shape"],
             "record_min_shape": [True, False],
             "quality": [True, False, None],
+            "slide": ["off", "straight", "curves", "curves"],
+            "corner_angle": [None, 0, 30.0, 120, 180],
+            "deviation": [None, 0, 1e-3, 0.3, 1],
+            "curve": ["polyline", "spline"],
+            "slide_coincident": [True, False],
         }
         options = {}
-        for name in self.random.sample(sorted(choices), self.random.randrange(6)):
+        names = self.random.sample(sorted(choices), self.random.randrange(6))
+        if self.one_in(3):
+            names += [name for name in ("slide", "deviation", "corner_angle", "curve") if name not in names]
+        for name in names:
             options[name] = self.random.choice(STRANGE if self.one_in(15) else choices[name])
         options.setdefault("max_sweeps", 20)
         if self.one_in(40):
@@ -162,6 +182,9 @@ def check_result(result: object, points: object, triangles: object, options: dic
     assert np.isfinite(smoothed.astype(float)).all(), "a coordinate that is not finite"
     moved = int(np.any(smoothed != given, axis=1).sum())
     assert moved == result.moved or moved <= result.moved, f"{moved} vertices differ, {result.moved} are said to"
+    slid = 0 if result.sliding is None else result.sliding.slid
+    assert 0 <= slid <= result.moved, f"{slid} vertices slid, {result.moved} moved"
+    assert (result.sliding is not None) == (options.get("slide", "off") != "off"), "sliding that nobody asked for, or none"
     guarded = options.get("guard", True) is True and not (result.untangling or {}).get("turned_components")
     if result.has_quality and guarded and areas_can_be_told(given):
         assert result.after.inverted <= result.before.inverted, "more inverted triangles than before"
@@ -179,6 +202,13 @@ def call(seed: int) -> str:
     for name in ("regions", "fixed", "other_cells", "size"):
         if make.one_in(5):
             arguments[name] = make.constraint(name, count, many)
+    if make.one_in(5):
+        arguments["lines"] = make.constraint("lines", count, many)
+        if make.one_in(2):
+            lines = len(arguments["lines"]) if hasattr(arguments["lines"], "__len__") else 0
+            arguments["line_tags"] = make.numbers.integers(-1, 2, lines) if make.one_in(2) else make.constraint("line_tags", count, many)
+    if make.one_in(8):
+        arguments["links"] = make.constraint("links", count, many)
     if make.one_in(4):
         arguments["out"] = points if make.one_in(2) else make.spoiled(make.points(columns, rows), FLOATS)
     before = points.copy() if isinstance(points, np.ndarray) else None

@@ -18,6 +18,7 @@
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
+#include "trismooth/python/constraint_arrays.h"
 #include "trismooth/python/device_array.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
@@ -79,18 +80,19 @@ bool is_integer(const DeviceArray& array) {
 /// one behind the other; all others are copied on the device.
 class DevicePlan {
  public:
-  DevicePlan(nb::handle triangles_capsule, std::int64_t vertex_count, nb::handle regions, nb::handle fixed,
-             nb::handle other_cells, nb::handle size, std::uintptr_t stream, const nb::dict& arguments)
+  DevicePlan(nb::handle triangles_capsule, std::int64_t vertex_count, const nb::dict& constraints,
+             std::uintptr_t stream, const nb::dict& arguments)
       : triangles_(triangles_capsule, "triangles"),
         device_(triangles_.device()),
-        sizes_(reals(size, "size", static_cast<std::size_t>(vertex_count))) {
+        sizes_(reals(constraint_of(constraints, "size"), "size", static_cast<std::size_t>(vertex_count))) {
     if (!is_integer(triangles_)) {
       triangles_.raise_type("integers are needed, not " + triangles_.type_text());
     }
     if (triangles_.dimensions() != 2 || triangles_.extent(1) != 3) {
       triangles_.raise_value("shape " + triangles_.shape_text() + "; expected (M, 3) on a CUDA device");
     }
-    SmoothingOptions options = parse_options(arguments);
+    CallOptions call = parse_options(arguments);
+    SmoothingOptions& options = call.smoothing;
     options.backend = nullptr;
     options.mean_ratio.target_lengths = sizes_;
     options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
@@ -98,7 +100,8 @@ class DevicePlan {
     mesh_.triangle_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
     const CurrentDevice current(device_);
     context_ = std::make_unique<cuda::Context>(stream_of(stream));
-    hold(regions, fixed, other_cells);
+    hold(constraints);
+    mesh_.constraints.slide = call.slide;
     gather_triangles();
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] { plan_.emplace(mesh_, options, context_->stream()); });
@@ -172,8 +175,8 @@ class DevicePlan {
     mesh_.triangles = triangle_numbers_.data();
   }
 
-  void hold(nb::handle regions, nb::handle fixed, nb::handle other_cells) {
-    if (!regions.is_none()) {
+  void hold(const nb::dict& constraints) {
+    if (const nb::handle regions = constraint_of(constraints, "regions"); !regions.is_none()) {
       const DeviceArray labels(regions, "regions");
       labels.require_device(device_);
       if (!is_integer(labels)) {
@@ -185,13 +188,14 @@ class DevicePlan {
                             region_numbers_.data());
       mesh_.constraints.regions = region_numbers_.data();
     }
-    hold_vertices(fixed, "fixed", fixed_flags_, mesh_.constraints.fixed);
-    hold_vertices(other_cells, "other_cells", other_cell_flags_, mesh_.constraints.other_cells);
+    hold_vertices(constraints, "fixed", fixed_flags_, mesh_.constraints.fixed);
+    hold_vertices(constraints, "other_cells", other_cell_flags_, mesh_.constraints.other_cells);
   }
 
   /// From a bool for each vertex, or from vertex numbers, which take the way over the host: they are few.
-  void hold_vertices(nb::handle object, const char* argument, cuda::DeviceBuffer<std::uint8_t>& flags,
+  void hold_vertices(const nb::dict& constraints, const char* argument, cuda::DeviceBuffer<std::uint8_t>& flags,
                      const std::uint8_t*& held) {
+    const nb::handle object = constraint_of(constraints, argument);
     if (object.is_none()) {
       return;
     }
@@ -309,10 +313,8 @@ void bind_device(nb::module_& module) {
   module.attr("has_cuda") = true;
   module.def("new_device_array", &new_device_array, "rows"_a, "columns"_a, "is_float32"_a, "device"_a);
   nb::class_<DevicePlan>(module, "DevicePlan")
-      .def(nb::init<nb::handle, std::int64_t, nb::handle, nb::handle, nb::handle, nb::handle, std::uintptr_t,
-                    const nb::dict&>(),
-           "triangles"_a, "vertex_count"_a, "regions"_a.none(), "fixed"_a.none(), "other_cells"_a.none(),
-           "size"_a.none(), "stream"_a, "options"_a)
+      .def(nb::init<nb::handle, std::int64_t, const nb::dict&, std::uintptr_t, const nb::dict&>(), "triangles"_a,
+           "vertex_count"_a, "constraints"_a, "stream"_a, "options"_a)
       .def("smooth", &DevicePlan::smooth, "points"_a, "out"_a, "is_new"_a, "progress"_a.none())
       .def_prop_ro("vertex_count", &DevicePlan::vertex_count)
       .def_prop_ro("triangle_count", &DevicePlan::triangle_count)

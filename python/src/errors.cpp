@@ -31,6 +31,9 @@ std::string with_argument(const std::string& message) {
   if (message.starts_with(sizes)) {
     return "size" + message.substr(sizes.size());
   }
+  if (message.starts_with("the paper's executions")) {
+    return "execution: " + message;
+  }
   if (message.starts_with("points: ") || message.starts_with("triangles: ")) {
     return message;
   }

@@ -219,7 +219,12 @@ class FileMesh {
 
   FileOutcome smooth(const nb::dict& arguments, const nb::dict& file_arguments, const nb::object& progress) {
     PipelineOptions options = pipeline_options(file_arguments);
-    options.smoothing = parse_options(arguments);
+    CallOptions call = parse_options(arguments);
+    if (options.geographic && call.slide.along != Slide::off) {
+      raise_value_error("slide", "is for lines in a plane, which geographic makes curves of; leave out one of them");
+    }
+    options.smoothing = std::move(call.smoothing);
+    options.slide = call.slide;
     Interruption interruption(progress);
     options.smoothing.progress = std::ref(interruption);
     return run(options, smooth_document);

@@ -102,6 +102,16 @@ bool is_integer(const HostArray& array) {
   return array.kind() == 'i' || array.kind() == 'u';
 }
 
+/// Raises ValueError unless the number is that of a vertex.
+template <class T>
+void require_vertex(const HostArray& array, T number, std::size_t vertex_count) {
+  if (!std::in_range<std::int64_t>(number) || std::cmp_less(number, 0) ||
+      std::cmp_greater_equal(number, vertex_count)) {
+    array.raise_value("vertex " + std::to_string(number) + " is not one of the " + std::to_string(vertex_count) +
+                      " vertices");
+  }
+}
+
 /// Raises TypeError for numbers that are 0 and 1 alone and as many as vertices: what was meant is a mask.
 void require_no_mask(const HostArray& array, std::size_t vertex_count) {
   bool is_mask = array.extent(0) == vertex_count && vertex_count > 2;
@@ -346,11 +356,7 @@ std::vector<std::uint8_t> vertex_flags(nb::handle object, const std::string& arg
   } else if (is_integer(array)) {
     require_no_mask(array, vertex_count);
     for_integers(array, [&](std::size_t, auto number) {
-      if (!std::in_range<std::int64_t>(number) || std::cmp_less(number, 0) ||
-          std::cmp_greater_equal(number, vertex_count)) {
-        array.raise_value("vertex " + std::to_string(number) + " is not one of the " + std::to_string(vertex_count) +
-                          " vertices");
-      }
+      require_vertex(array, number, vertex_count);
       flags[static_cast<std::size_t>(number)] = 1;
     });
   } else {
@@ -359,7 +365,8 @@ std::vector<std::uint8_t> vertex_flags(nb::handle object, const std::string& arg
   return flags;
 }
 
-std::vector<std::int32_t> integers(nb::handle object, const std::string& argument, std::size_t count) {
+std::vector<std::int32_t> integers(nb::handle object, const std::string& argument, std::size_t count,
+                                   const char* of_what) {
   if (object.is_none()) {
     return {};
   }
@@ -367,13 +374,42 @@ std::vector<std::int32_t> integers(nb::handle object, const std::string& argumen
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
-  require_list(array, count, "triangle");
+  require_list(array, count, of_what);
   std::vector<std::int32_t> numbers(count);
   for_integers(array, [&](std::size_t i, auto number) {
     if (!std::in_range<std::int32_t>(number)) {
       array.raise_value("the number " + std::to_string(number) + " has no place in 32 bits");
     }
     numbers[i] = static_cast<std::int32_t>(number);  // NOLINT(bugprone-signed-char-misuse): int8 are numbers here
+  });
+  return numbers;
+}
+
+std::vector<std::int32_t> vertex_pairs(nb::handle object, const std::string& argument, std::size_t vertex_count) {
+  if (object.is_none()) {
+    return {};
+  }
+  const HostArray array(object, argument);
+  if (array.dimensions() == 1 && array.extent(0) == 0) {
+    return {};  // an empty list
+  }
+  if (!is_integer(array)) {
+    array.raise_type("integers are needed, not " + array.type_text());
+  }
+  if (array.dimensions() != 2 || array.extent(1) != 2) {
+    array.raise_value("shape " + array.shape_text() + "; expected (K, 2), two vertex numbers a row");
+  }
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(2 * array.extent(0));
+  with_integer_type(array.kind(), array.item_size(), [&]<class T>(T) {
+    for (std::size_t i = 0; i < array.extent(0); ++i) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto number = number_at<T>(array.data() + static_cast<std::ptrdiff_t>(i) * array.stride(0) +
+                                         static_cast<std::ptrdiff_t>(end) * array.stride(1));
+        require_vertex(array, number, vertex_count);
+        numbers.push_back(static_cast<std::int32_t>(number));
+      }
+    }
   });
   return numbers;
 }

@@ -115,9 +115,14 @@ class TriangleArray {
 /// for numbers out of range.
 std::vector<std::uint8_t> vertex_flags(nanobind::handle array, const std::string& argument, std::size_t vertex_count);
 
-/// The integers of an array of one dimension and `count` of them, as int32. Empty for None. Raises where they are of
-/// another type, number, or do not fit.
-std::vector<std::int32_t> integers(nanobind::handle array, const std::string& argument, std::size_t count);
+/// The integers of an array of one dimension and `count` of them, one for each `of_what`, as int32. Empty for None.
+/// Raises where they are of another type, number, or do not fit.
+std::vector<std::int32_t> integers(nanobind::handle array, const std::string& argument, std::size_t count,
+                                   const char* of_what);
+
+/// The vertex numbers of an array of integers of shape (K, 2), pair by pair. Empty for None. Raises for another type or
+/// shape and for numbers out of range.
+std::vector<std::int32_t> vertex_pairs(nanobind::handle array, const std::string& argument, std::size_t vertex_count);
 
 /// The numbers of an array of float of one dimension and `count` of them. Empty for None.
 std::vector<double> reals(nanobind::handle array, const std::string& argument, std::size_t count);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include <nanobind/stl/string.h>
 
@@ -23,9 +24,16 @@ namespace {
 
 /// An option as it is parsed: the backend's name has to wait for all others.
 struct Parsed {
-  SmoothingOptions options;
+  SmoothingOptions options{};
+  Sliding slide{};
   std::string backend = "auto";
 };
+
+/// Throws std::invalid_argument for options that do not fit.
+void check(const Parsed& parsed) {
+  parsed.options.validate();
+  parsed.slide.validate();
+}
 
 /// Whether it is a bool, of Python's or NumPy's.
 bool is_flag(nb::handle value) {
@@ -113,6 +121,14 @@ void parse_target_quality(nb::handle value, const char* name, Parsed& parsed) {
   }
 }
 
+/// None: the default.
+template <auto member>
+void parse_slide_number(nb::handle value, const char* name, Parsed& parsed) {
+  if (!value.is_none()) {
+    parsed.slide.*member = real_of(value, name);
+  }
+}
+
 constexpr auto options = std::to_array<Option>({
     {"method", parse_choice<&SmoothingOptions::method>},
     {"form", parse_choice<&SmoothingOptions::form>},
@@ -142,6 +158,14 @@ constexpr auto options = std::to_array<Option>({
     {"target", [](nb::handle value, const char* name,
                   Parsed& parsed) { parsed.options.mean_ratio.target = choice_of<TargetShape>(value, name); }},
     {"record_min_shape", parse_flag<&SmoothingOptions::record_min_shape>},
+    {"slide",
+     [](nb::handle value, const char* name, Parsed& parsed) { parsed.slide.along = choice_of<Slide>(value, name); }},
+    {"corner_angle", parse_slide_number<&Sliding::corner_angle>},
+    {"deviation", parse_slide_number<&Sliding::deviation>},
+    {"curve", [](nb::handle value, const char* name,
+                 Parsed& parsed) { parsed.slide.curve = choice_of<SlideCurve>(value, name); }},
+    {"slide_coincident",
+     [](nb::handle value, const char* name, Parsed& parsed) { parsed.slide.coincident = flag_of(value, name); }},
 });
 
 const Option* find_option(std::string_view name) {
@@ -160,16 +184,16 @@ std::string_view text_view(nb::handle key) {
 
 /// Raises ValueError for options that do not fit. It begins with the name of the one that by itself is to blame, if one
 /// is.
-void validate(const SmoothingOptions& all, const nb::dict& arguments) {
+void validate(const Parsed& all, const nb::dict& arguments) {
   try {
-    all.validate();
+    check(all);
   } catch (const std::invalid_argument& error) {
     for (const auto& [key, value] : arguments) {
       const Option& option = *find_option(text_view(key));
       Parsed alone;
       option.parse(value, option.name, alone);
       try {
-        alone.options.validate();
+        check(alone);
       } catch (const std::invalid_argument& of_option) {
         raise_value_error(option.name, of_option.what());
       }
@@ -203,7 +227,7 @@ std::vector<std::string> option_names() {
   return names;
 }
 
-SmoothingOptions parse_options(const nb::dict& arguments) {
+CallOptions parse_options(const nb::dict& arguments) {
   Parsed parsed;
   for (const auto& [key, value] : arguments) {
     const Option* const option = find_option(text_view(key));
@@ -215,9 +239,9 @@ SmoothingOptions parse_options(const nb::dict& arguments) {
     }
     option->parse(value, option->name, parsed);
   }
-  validate(parsed.options, arguments);
+  validate(parsed, arguments);
   choose_backend(parsed.backend, parsed.options);
-  return parsed.options;
+  return {std::move(parsed.options), parsed.slide};
 }
 
 }  // namespace trismooth::python

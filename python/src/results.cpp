@@ -126,6 +126,25 @@ void bind_sweeps(nb::module_& module) {
       });
 }
 
+void bind_sliding(nb::module_& module) {
+  nb::class_<SlidingResult>(module, "SlidingResult", "What became of vertices that may slide along lines.")
+      .def_ro("lines", &SlidingResult::chains,
+              "Runs of edges that vertices may slide on; those linked with each other count once.")
+      .def_ro("vertices", &SlidingResult::vertices, "Vertices that may slide.")
+      .def_ro("slid", &SlidingResult::slid, "Those that did.")
+      .def_ro("largest_deviation", &SlidingResult::largest_deviation,
+              "The largest distance between the old lines and the new ones, in the unit of the points.")
+      .def_ro("relative_deviation", &SlidingResult::relative_deviation,
+              "The largest one as a part of the length of the edge nearby: what `deviation` bounds.")
+      .def("__repr__", [](const SlidingResult& sliding) {
+        std::ostringstream text;
+        text << "SlidingResult(lines=" << sliding.chains << ", vertices=" << sliding.vertices
+             << ", slid=" << sliding.slid << ", largest_deviation=" << sliding.largest_deviation
+             << ", relative_deviation=" << sliding.relative_deviation << ")";
+        return text.str();
+      });
+}
+
 /// A property of the smoothing's result.
 template <auto member>
 auto of_smoothing() {
@@ -137,6 +156,7 @@ auto of_smoothing() {
 void bind_results(nb::module_& module) {
   bind_quality(module);
   bind_sweeps(module);
+  bind_sliding(module);
   nb::class_<Outcome>(module, "Outcome", "What a smoothing did; see trismooth.Result.")
       .def_ro("before", &Outcome::before)
       .def_ro("after", &Outcome::after)
@@ -151,6 +171,7 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("colours", of_smoothing<&SmoothingResult::colours>())
       .def_prop_ro("history", of_smoothing<&SmoothingResult::history>())
       .def_prop_ro("untangling", &untangling_of)
+      .def_prop_ro("sliding", of_smoothing<&SmoothingResult::sliding>())
       .def_prop_ro("backend", of_smoothing<&SmoothingResult::backend>())
       .def_prop_ro("device", of_smoothing<&SmoothingResult::device>())
       .def_prop_ro("threads", of_smoothing<&SmoothingResult::threads>())

@@ -16,7 +16,7 @@ struct Outcome {
   std::optional<QualityReport> after;   ///< likewise
 };
 
-/// Makes the classes of results: Outcome, SweepRecord, QualityReport, MetricSummary, WorstElement.
+/// Makes the classes of results: Outcome, SweepRecord, SlidingResult, QualityReport, MetricSummary, WorstElement.
 void bind_results(nanobind::module_& module);
 
 }  // namespace trismooth::python

@@ -13,6 +13,7 @@
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/python/constraint_arrays.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
@@ -28,21 +29,6 @@ using namespace nb::literals;
 namespace trismooth::python {
 
 namespace {
-
-/// What holds vertices, as the library takes it. Owns the arrays.
-struct HeldArrays {
-  HeldArrays(nb::handle regions_object, nb::handle fixed_object, nb::handle other_cells_object,
-             std::size_t vertex_count, std::size_t triangle_count)
-      : regions(integers(regions_object, "regions", triangle_count)),
-        fixed(vertex_flags(fixed_object, "fixed", vertex_count)),
-        other_cells(vertex_flags(other_cells_object, "other_cells", vertex_count)) {}
-
-  Constraints constraints() const { return {.fixed = fixed, .other_cells = other_cells, .regions = regions}; }
-
-  std::vector<std::int32_t> regions;
-  std::vector<std::uint8_t> fixed;
-  std::vector<std::uint8_t> other_cells;
-};
 
 /// The caller's points, copied to be smoothed: what fails leaves the caller's arrays as they are, and the caller's
 /// other threads do not disturb.
@@ -124,21 +110,25 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
   return outcome;
 }
 
-Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle out_object, nb::handle regions,
-                      nb::handle fixed, nb::handle other_cells, nb::handle size, bool with_quality,
-                      const nb::object& progress, const nb::dict& arguments) {
+Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle out_object,
+                      const nb::dict& constraints, bool with_quality, const nb::object& progress,
+                      const nb::dict& arguments) {
   const HostArray points_array(points_object, "points");
   const PointArray points(points_array);
   const HostArray out(out_object, "out", HostArray::Access::write);
   const HostArray triangle_numbers(triangles_object, "triangles");
   const TriangleArray triangles(triangle_numbers);
-  const HeldArrays held(regions, fixed, other_cells, points.size(), triangles.size());
-  const std::vector<double> sizes = reals(size, "size", points.size());
-  SmoothingOptions options = parse_options(arguments);
-  options.mean_ratio.target_lengths = sizes;
+  const ConstraintArrays held(constraints, points.size(), triangles.size());
+  CallOptions call = parse_options(arguments);
+  SmoothingOptions& options = call.smoothing;
+  options.mean_ratio.target_lengths = held.sizes();
+  if (triangles.nodes() == 6) {
+    held.require_no_sliding(call.slide);
+  }
   Interruption interruption(progress);
   options.progress = std::ref(interruption);
   const IndexView corners = triangles.corners();
+  const Constraints all = held.constraints(call.slide);
   WorkingPoints working;
   std::function<MeshQuality()> mesh_quality;
   if (with_quality) {
@@ -147,28 +137,31 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   return smooth_into(points_array, out, working, mesh_quality, options.threads, [&](const PointView& view) {
     if (triangles.nodes() == 6) {
       const std::vector<std::int32_t> nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
-      return trismooth::smooth_quadratic(view, nodes, held.constraints(), options);
+      return trismooth::smooth_quadratic(view, nodes, all, options);
     }
-    return trismooth::smooth(view, corners, held.constraints(), options);
+    return trismooth::smooth(view, corners, all, options);
   });
 }
 
 /// A SmoothingPlan for Python: with all it refers to, for one thread at a time.
 class HostPlan {
  public:
-  HostPlan(nb::handle triangles_object, std::size_t vertex_count, nb::handle regions, nb::handle fixed,
-           nb::handle other_cells, nb::handle size, const nb::dict& arguments)
-      : vertex_count_(vertex_count), sizes_(reals(size, "size", vertex_count)) {
+  HostPlan(nb::handle triangles_object, std::size_t vertex_count, const nb::dict& constraints,
+           const nb::dict& arguments)
+      : vertex_count_(vertex_count) {
     const HostArray numbers(triangles_object, "triangles");
     const TriangleArray triangles(numbers);
     if (triangles.nodes() != 3) {
       numbers.raise_value("a plan is for triangles of three nodes; smooth() takes those of six");
     }
-    const HeldArrays held(regions, fixed, other_cells, vertex_count, triangles.size());
-    SmoothingOptions options = parse_options(arguments);
+    const ConstraintArrays held(constraints, vertex_count, triangles.size());
+    CallOptions call = parse_options(arguments);
+    SmoothingOptions& options = call.smoothing;
+    sizes_ = held.sizes();
     options.mean_ratio.target_lengths = sizes_;
     options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
     threads_ = options.threads;
+    const Constraints all = held.constraints(call.slide);
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
       const IndexView corners = triangles.corners();
@@ -176,7 +169,7 @@ class HostPlan {
       if (kept.data() != triangles_.data()) {
         triangles_.assign(kept.begin(), kept.end());
       }
-      plan_.emplace(static_cast<std::int64_t>(vertex_count), triangles_, held.constraints(), options);
+      plan_.emplace(static_cast<std::int64_t>(vertex_count), triangles_, all, options);
     });
   }
 
@@ -216,13 +209,12 @@ class HostPlan {
 }  // namespace
 
 void bind_smoothing(nb::module_& module) {
-  module.def("smooth", &smooth_arrays, "points"_a, "triangles"_a, "out"_a, "regions"_a.none(), "fixed"_a.none(),
-             "other_cells"_a.none(), "size"_a.none(), "quality"_a, "progress"_a.none(), "options"_a);
+  module.def("smooth", &smooth_arrays, "points"_a, "triangles"_a, "out"_a, "constraints"_a, "quality"_a,
+             "progress"_a.none(), "options"_a);
   module.def("option_names", &option_names);
   nb::class_<HostPlan>(module, "HostPlan")
-      .def(nb::init<nb::handle, std::size_t, nb::handle, nb::handle, nb::handle, nb::handle, const nb::dict&>(),
-           "triangles"_a, "vertex_count"_a, "regions"_a.none(), "fixed"_a.none(), "other_cells"_a.none(),
-           "size"_a.none(), "options"_a)
+      .def(nb::init<nb::handle, std::size_t, const nb::dict&, const nb::dict&>(), "triangles"_a, "vertex_count"_a,
+           "constraints"_a, "options"_a)
       .def("smooth", &HostPlan::smooth, "points"_a, "out"_a, "quality"_a, "progress"_a.none())
       .def_prop_ro("vertex_count", &HostPlan::vertex_count)
       .def_prop_ro("triangle_count", &HostPlan::triangle_count);

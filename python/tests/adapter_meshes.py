@@ -42,6 +42,11 @@ class Grid:
         return row * (SIDE + 1) + column
 
     @property
+    def middle_column(self) -> np.ndarray:
+        """Numbers of the vertices on the line between the regions, from below."""
+        return np.flatnonzero(self.is_interface)
+
+    @property
     def points3(self) -> np.ndarray:
         return np.column_stack([self.points, np.zeros(len(self.points))])
 
@@ -107,6 +112,11 @@ def smallest_jacobian(points: np.ndarray, triangles: np.ndarray) -> float:
             columns = np.stack([np.einsum("k,mkd->md", d, nodes) for d in (du, dv)], axis=-1)
             smallest = min(smallest, float(np.linalg.det(columns).min()))
     return smallest
+
+
+def edges(run: np.ndarray) -> np.ndarray:
+    """The edges between vertices that follow each other."""
+    return np.column_stack([run[:-1], run[1:]])
 
 
 def smooth_in_place(mesh: object, **options: object) -> trismooth.Result:

@@ -51,6 +51,14 @@ def test_in_place(precision: type, several: bool) -> None:
     assert shapes(x, G.triangles).min() > shapes(G.points, G.triangles).min() + 0.05
 
 
+def test_vertices_slide() -> None:
+    mesh = Mesh(G.points, G.triangles)
+    result = trismooth.smooth(mesh, slide="straight", regions=G.regions)
+    expected = trismooth.smooth(G.points, G.triangles, slide="straight", regions=G.regions)
+    assert np.array_equal(mesh.geometry.x[:, :2], expected.points)
+    assert result.sliding.slid > 0
+
+
 def test_tags_are_regions() -> None:
     right = np.flatnonzero(G.regions == 2)
     every = np.arange(200)

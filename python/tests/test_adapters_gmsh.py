@@ -225,6 +225,96 @@ def test_quadrangle_among_triangles_is_held() -> None:
     assert moved_by() == set(TAGS[G.is_inside]) - set(corners)
 
 
+def on_line(nodes: set[int], axis: int) -> np.ndarray:
+    """Coordinates of these nodes along an axis."""
+    place = coordinates()
+    return np.array([np.frombuffer(place[node])[axis] for node in sorted(nodes)])
+
+
+def spread(curve: int) -> None:
+    """Move the nodes inside of a curve along it, to uneven distances."""
+    tags, _, parameters = gmsh.model.mesh.getNodes(1, curve, returnParametricCoord=True)
+    (low,), (high,) = gmsh.model.getParametrizationBounds(1, curve)
+    for tag, parameter in zip(tags, parameters):
+        t = (parameter - low) / (high - low)
+        parameter = low + (high - low) * (t + 0.12 * np.sin(6 * t))
+        if low < parameter < high:
+            gmsh.model.mesh.setNode(tag, gmsh.model.getValue(1, curve, [parameter]), [parameter])
+
+
+def test_nodes_of_curves_slide_where_that_is_wanted() -> None:
+    two_squares()
+    gmsh.model.mesh.generate(2)
+    shake(0.02)
+    (between,) = (tag for _, tag in gmsh.model.getEntities(1) if len(gmsh.model.getAdjacencies(1, tag)[0]) == 2)
+    spread(between)
+    before = coordinates()
+    result = trismooth.gmsh.smooth(slide="straight")
+    moved = {node for node, bits in coordinates().items() if bits != before[node]}
+    assert moved & nodes_on(1, between) and not moved & nodes_on(0)
+    assert np.array_equal(on_line(nodes_on(1, between), 0), np.full(len(nodes_on(1, between)), 1.0))
+    assert (result.sliding.lines, result.sliding.slid) == (7, len(moved & nodes_on(1)))
+    tags, places, parameters = gmsh.model.mesh.getNodes(1, between, returnParametricCoord=True)
+    assert np.allclose(gmsh.model.getValue(1, between, parameters), places, rtol=0, atol=1e-12)
+
+
+def test_nodes_of_embedded_curves_and_circles_slide() -> None:
+    geo_square()
+    gmsh.model.mesh.generate(2)
+    shake(0.02)
+    spread(5)
+    moved = moved_by(slide="straight")
+    assert moved & nodes_on(1, 5) and not moved & nodes_on(0)
+    gmsh.model.add("disk")
+    gmsh.model.occ.addDisk(0, 0, 0, 1, 1)
+    gmsh.model.occ.synchronize()
+    gmsh.model.mesh.generate(2)
+    spread(1)
+    assert not moved_by(slide="straight") & nodes_on(1)
+    before = coordinates()
+    result = trismooth.gmsh.smooth(slide="curves", deviation=0.05)
+    assert 0 < result.sliding.relative_deviation <= 0.05
+    assert not {node for node, bits in coordinates().items() if bits != before[node]} & nodes_on(0)
+    tags, places, parameters = gmsh.model.mesh.getNodes(1, 1, returnParametricCoord=True)
+    assert np.allclose(gmsh.model.getValue(1, 1, parameters), places, rtol=0, atol=0.01)
+
+
+def test_periodic_curves_slide_as_one() -> None:
+    surface = gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
+    gmsh.model.occ.synchronize()
+    lower, right, upper, left = (abs(tag) for _, tag in gmsh.model.getBoundary([(2, surface)]))
+    gmsh.model.mesh.setPeriodic(1, [right], [left], [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 0.15)
+    gmsh.model.mesh.setTransfiniteCurve(left, 9, "Progression", 1.3)
+    gmsh.model.mesh.generate(2)
+    before = on_line(nodes_on(1, left), 1)
+    moved = moved_by(slide="straight")
+    assert moved & nodes_on(1, left)
+    _, here, there, _ = gmsh.model.mesh.getPeriodicNodes(1, right)
+    assert len(here) >= 7
+    place = coordinates()
+    for first, second in zip(here, there):
+        assert np.frombuffer(place[first])[1] == np.frombuffer(place[second])[1]
+    assert (on_line(nodes_on(1, left), 1) != before).any()
+
+
+def test_fixed_nodes_of_curves_and_discrete_surfaces() -> None:
+    two_squares()
+    gmsh.model.mesh.generate(2)
+    for _, curve in gmsh.model.getEntities(1):
+        spread(curve)
+    fixed = sorted(nodes_on(1))[::2]
+    moved = moved_by(slide="straight", fixed=fixed)
+    assert not moved & set(fixed) and moved & nodes_on(1)
+    gmsh.model.add("discrete")
+    discrete_grid()
+    ends = TAGS[[G.vertex(2, 3), G.vertex(3, 4)]]
+    gmsh.model.addDiscreteEntity(1, 3)
+    gmsh.model.mesh.addElementsByType(3, 1, [], ends)
+    moved = moved_by(slide="straight")
+    assert moved & set(TAGS[G.is_interface]) and not moved & set(ends)
+
+
 def test_periodic_surfaces_are_held() -> None:
     occ = gmsh.model.occ
     surfaces = [occ.addRectangle(x, 0, 0, 1, 1) for x in (0, 3, 6)]
@@ -273,6 +363,10 @@ def test_faults_name_the_argument() -> None:
         trismooth.gmsh.smooth(fixed=[True, False])
     with pytest.raises(TypeError, match="^regions: "):
         trismooth.gmsh.smooth(regions="physical")
+    with pytest.raises(TypeError, match="^lines: "):
+        trismooth.gmsh.smooth(slide="straight", lines=[[0, 1]])
+    with pytest.raises(ValueError, match="^slide: "):
+        trismooth.gmsh.smooth(slide="round")
     with pytest.raises(TypeError, match="^out: "):
         trismooth.gmsh.smooth(out=np.zeros((3, 2)))
     assert coordinates() == before

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
+from adapter_meshes import edges, grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
 
 meshio = pytest.importorskip("meshio")
 
@@ -137,6 +137,79 @@ def test_cells_that_are_not_triangles() -> None:
     for _, nodes in [("line", line), *others]:
         expected[np.ravel(nodes)] = False
     assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
+
+
+def test_line_cells_are_lines_where_vertices_slide() -> None:
+    column = edges(G.middle_column)
+    cells = [("line", column[:4]), ("triangle", G.triangles), ("line", column[4:]), ("vertex", [[G.vertex(5, 8)]])]
+    mesh = mesh_of(cells)
+    held = {"lines": column, "other_cells": [G.vertex(5, 8)], "slide": "straight"}
+    expected = trismooth.smooth(G.points, G.triangles, **held)
+    result = trismooth.smooth(mesh, slide="straight")
+    assert np.array_equal(result.mesh.points, expected.points)
+    has_moved = moved(mesh, result.mesh)[G.middle_column]
+    assert has_moved[1:4].any() and has_moved[4] and not has_moved[8]
+    assert np.array_equal(result.mesh.points[G.middle_column, 0], np.full(11, 0.5))
+    assert result.sliding.slid == expected.sliding.slid > 0
+    # Data of regions tell them apart, others do not.
+    for name, lines in (("gmsh:physical", expected.sliding.lines + 1), ("u", expected.sliding.lines)):
+        mesh.cell_data = {name: [np.full(4, 3), np.ones(200), np.full(6, 4), np.array([0])]}
+        tagged = trismooth.smooth(mesh, slide="straight")
+        assert tagged.sliding.lines == lines
+        assert moved(mesh, tagged.mesh)[G.vertex(5, 4)] == (name == "u")
+    assert not moved(mesh, trismooth.smooth(mesh, slide="straight", regions="u").mesh)[G.vertex(5, 4)]
+    mesh.cell_data = {}
+    mesh.cell_sets = {"below": [np.arange(4), None, np.array([], dtype=int), None]}
+    assert not moved(mesh, trismooth.smooth(mesh, slide="straight").mesh)[G.vertex(5, 4)]
+    # Where nothing slides they hold their vertices.
+    assert not moved(mesh, trismooth.smooth(mesh).mesh)[G.middle_column].any()
+    assert trismooth.smooth(mesh, lines=edges(G.middle_column)).sliding is None
+
+
+def test_lines_of_the_user_are_in_place_of_those_of_the_mesh() -> None:
+    mesh = mesh_of([("line", edges(G.middle_column)), ("triangle", G.triangles)])
+    row = G.vertex(0, 3) + np.arange(11)
+    for lines in (edges(row), False):
+        result = trismooth.smooth(mesh, slide="straight", lines=lines)
+        of_arrays = {"lines": None if lines is False else lines, "slide": "straight"}
+        assert np.array_equal(result.mesh.points, trismooth.smooth(G.points, G.triangles, **of_arrays).points)
+    with pytest.raises(ValueError, match="^line_tags: "):
+        trismooth.smooth(mesh, slide="straight", line_tags=np.ones(10))
+    with pytest.raises(ValueError, match="^lines: vertex 999 "):
+        trismooth.smooth(mesh, slide="straight", lines=[[0, 999]])
+
+
+def test_periodic_vertices_slide_as_one() -> None:
+    mesh = mesh_of([("triangle", G.triangles)])
+    left, right = (np.flatnonzero(G.column == column) for column in (0, 10))
+    mesh.points[left[1:-1], 1] += np.random.default_rng(2).uniform(-0.03, 0.03, 9)
+    mesh.points[right, 1] = mesh.points[left, 1]
+    mesh.gmsh_periodic = [[1, (2, 1), [], np.column_stack([right, left])]]
+    new = trismooth.smooth(mesh, slide="straight").mesh.points
+    assert np.array_equal(new[left, 1], new[right, 1])
+    assert (new[left, 1] != mesh.points[left, 1]).any()
+    apart = trismooth.smooth(mesh, slide="straight", links=False).mesh.points
+    assert (apart[left, 1] != apart[right, 1]).any()
+    linked = trismooth.smooth(mesh, slide="straight", links=np.column_stack([left, right])).mesh.points
+    assert np.array_equal(linked, new)
+
+
+def test_quadratic_triangles_do_not_slide() -> None:
+    q = quadratic_grid()
+    mesh = mesh_of([("triangle6", q.triangles)], q.points)
+    with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
+        trismooth.smooth(mesh, slide="straight")
+
+
+@pytest.mark.skipif(not DATA.exists(), reason="the example meshes are not here")
+@pytest.mark.skipif(not trismooth.build_info()["files"], reason="this build has no files")
+def test_a_file_of_gmsh_slides_as_the_program_has_it() -> None:
+    result = trismooth.smooth(meshio.read(DATA / "channel.msh"), slide="curves", deviation=0.01)
+    mesh = trismooth.read(DATA / "channel.msh")
+    expected = mesh.smooth(slide="curves", deviation=0.01)
+    assert np.array_equal(result.mesh.points, mesh.points)
+    assert repr(result.sliding) == repr(expected.sliding)
+    assert result.sliding.slid > 0
 
 
 def test_polyhedra_hold_their_vertices() -> None:

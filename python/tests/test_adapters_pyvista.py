@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
+from adapter_meshes import edges, grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
 from trismooth import adapters
 
 pv = pytest.importorskip("pyvista")
@@ -157,6 +157,54 @@ def test_cells_that_are_not_triangles_of_poly_data() -> None:
     assert np.array_equal(moved(mesh, new), expected)
     assert np.array_equal(new.faces, mesh.faces)
     assert np.array_equal(new.lines, mesh.lines)
+
+
+COLUMN = G.middle_column.tolist()
+
+
+def with_lines(kind: Any, first: bool = False) -> Any:
+    """The grid with the line between its regions as a polyline and two lines, and a vertex of it as a cell."""
+    if kind is pv.PolyData:
+        faces = np.insert(TRIANGLES, 0, 3, axis=1).ravel()
+        lines = [9, *COLUMN[:9], 2, *COLUMN[8:10], 2, *COLUMN[9:]]
+        return pv.PolyData(G.points3, faces=faces, lines=lines, verts=[1, COLUMN[7]])
+    polyline, line = (pv.CellType.POLY_LINE, COLUMN[:9]), (pv.CellType.LINE, COLUMN[8:10])
+    return unstructured_grid(polyline, line, (pv.CellType.LINE, COLUMN[9:]), (pv.CellType.VERTEX, [COLUMN[7]]), first=first)
+
+
+def line_data(mesh: Any, *values: int) -> np.ndarray:
+    """Values of the polyline and the two lines among those of all cells."""
+    if isinstance(mesh, pv.PolyData):
+        return np.concatenate([[0], values, np.ones(len(TRIANGLES))]).astype(int)
+    ones = np.ones(len(TRIANGLES))
+    is_first = mesh.celltypes[0] != pv.CellType.TRIANGLE
+    return np.concatenate([values, [0], ones] if is_first else [ones, values, [0]]).astype(int)
+
+
+@pytest.mark.parametrize("kind,first", [(pv.PolyData, False), (pv.UnstructuredGrid, False), (pv.UnstructuredGrid, True)])
+def test_line_cells_are_lines_where_vertices_slide(kind: Any, first: bool) -> None:
+    mesh = with_lines(kind, first)
+    arrays = {"lines": edges(G.middle_column), "other_cells": [COLUMN[7]], "slide": "straight"}
+    expected = trismooth.smooth(np.array(mesh.points), TRIANGLES, **arrays)
+    result = trismooth.smooth(mesh, slide="straight")
+    assert np.array_equal(result.mesh.points, expected.points)
+    has_moved = moved(mesh, result.mesh)[COLUMN]
+    assert has_moved[[1, 2, 3, 8, 9]].sum() > 2 and not has_moved[[0, 7, 10]].any()
+    assert repr(result.sliding) == repr(expected.sliding)
+    # Cell arrays of regions tell them apart; others do so if they are named.
+    for name, options in (("material", {}), ("u", {"regions": "u"})):
+        tagged = with_lines(kind, first)
+        tagged.cell_data[name] = line_data(tagged, 4, 5, 5)
+        apart = trismooth.smooth(tagged, slide="straight", **options)
+        assert apart.sliding.vertices == result.sliding.vertices - 1
+        assert not moved(tagged, apart.mesh)[COLUMN[8]]
+        assert np.array_equal(apart.mesh.cell_data[name], tagged.cell_data[name])
+    # Where nothing slides they hold their vertices.
+    assert not moved(mesh, trismooth.smooth(mesh).mesh)[COLUMN].any()
+    del arrays["lines"]
+    without = trismooth.smooth(np.array(mesh.points), TRIANGLES, **arrays)
+    assert np.array_equal(trismooth.smooth(mesh, slide="straight", lines=False).mesh.points, without.points)
+    assert (without.points != expected.points).any()
 
 
 def rows_as_strips() -> list[list[int]]:

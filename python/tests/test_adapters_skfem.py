@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from adapter_meshes import grid, same_bits, shapes, smooth_in_place
+from adapter_meshes import edges, grid, same_bits, shapes, smooth_in_place
 
 skfem = pytest.importorskip("skfem")
 
@@ -109,6 +109,29 @@ def test_boundaries_inside_are_held(make: Any) -> None:
     assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed=False).mesh), ~G.is_boundary)
     expected[G.vertex(2, 8)] = False
     assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed=[G.vertex(2, 8)]).mesh), expected)
+
+
+def test_boundaries_are_lines_where_vertices_slide() -> None:
+    mesh = mesh1()
+    facets = mesh.facets_satisfying(lambda x: x[0] == 0.5)
+    facets = facets[np.argsort(mesh.p[1, mesh.facets[:, facets]].mean(axis=0))]
+    column = G.middle_column
+    whole = mesh.with_boundaries({"line": facets, "outside": mesh.boundary_facets()})
+    result = trismooth.smooth(whole, slide="straight")
+    expected = trismooth.smooth(G.points, G.triangles, lines=edges(column), slide="straight")
+    assert np.array_equal(result.mesh.p.T, expected.points)
+    assert moved(mesh, result.mesh)[column[1:-1]].any()
+    parts = mesh.with_boundaries({"low": facets[:4], "high": facets[3:]})  # with a facet in both
+    has_moved = moved(mesh, trismooth.smooth(parts, slide="straight").mesh)[column]
+    assert not has_moved[[0, 3, 4, 10]].any() and has_moved.any()
+    has_moved = moved(mesh, trismooth.smooth(parts, slide="straight", fixed="low").mesh)[column]
+    assert not has_moved[:5].any() and has_moved[5:].any()
+    fixed = trismooth.smooth(parts, slide="straight", fixed=[column[7]])
+    assert not moved(mesh, fixed.mesh)[column[7]]
+    none = trismooth.smooth(parts, slide="straight", fixed=False)
+    assert np.array_equal(none.mesh.p.T, trismooth.smooth(G.points, G.triangles, slide="straight").points)
+    with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
+        trismooth.smooth(mesh2(), slide="straight")
 
 
 def test_oriented_interface() -> None:

@@ -12,6 +12,7 @@ import pytest
 
 import trismooth
 from conftest import grid
+from trismooth._constraints import Constraints
 
 pytestmark = pytest.mark.skipif(
     not trismooth.build_info()["cuda"] or "device 0" not in trismooth.build_info()["devices"], reason="no CUDA device"
@@ -102,6 +103,7 @@ OPTIONS = [
     for form in ("a", "b")
     for precision in ("double", "single")
 ] + [{"guard": False}, {"untangle": True}, {"max_sweeps": 3}, {"tolerance": 1e-2}, {"target_quality": 0.3}, {"power": 1},
+     {"slide": "straight"}, {"slide": "curves", "corner_angle": 120, "deviation": 0.1, "curve": "spline", "slide_coincident": True},
      {"target": "input-shape"}, {"size_weight": 0.0}, {"execution": "single-block", "layout": "soa"}, {"evaluation": "all"}]
 
 
@@ -118,7 +120,7 @@ def test_in_place_nothing_is_copied(writable):
     pointer = writable.pointer(on_device)
     result = trismooth.smooth(on_device, corners, out=on_device)
     assert result.points is on_device and writable.pointer(on_device) == pointer
-    assert trismooth._device.DevicePlan(corners, len(points), (None,) * 4, {"method": "smart", "backend": "auto"})._plan.copied_bytes == 0
+    assert trismooth._device.DevicePlan(corners, len(points), Constraints(), {"method": "smart", "backend": "auto"})._plan.copied_bytes == 0
     np.testing.assert_array_equal(writable.get(on_device), host(points, triangles))
 
 
@@ -136,6 +138,34 @@ def test_constraints_on_the_device_hold(library):
             put(points), put(triangles), regions=put(regions), fixed=put(fixed_too), other_cells=put(other), size=put(size)
         )
         np.testing.assert_array_equal(library.get(result.points), expected)
+
+
+def test_vertices_slide_along_what_the_device_knows(library):
+    points, triangles = grid(60, 40)
+    points[points[:, 1] == 0, 0] = 60 * (points[points[:, 1] == 0, 0] / 60) ** 1.2
+    regions = (points[triangles].mean(axis=1)[:, 0] > 30).astype(np.int64)
+    fixed = np.arange(70, 75)
+    expected = trismooth.smooth(points, triangles, regions=regions, fixed=fixed, slide="straight", backend="cpu")
+    assert expected.sliding.slid > 0
+    put = library.put
+    given = {"regions": put(regions), "fixed": put(fixed), "slide": "straight"}
+    plan = trismooth.Plan(put(triangles), len(points), **given)
+    for result in (trismooth.smooth(put(points), put(triangles), **given), plan.smooth(put(points))):
+        np.testing.assert_array_equal(library.get(result.points), expected.points)
+        assert repr(result.sliding) == repr(expected.sliding)
+    assert trismooth.smooth(put(points), put(triangles)).sliding is None
+
+
+def test_lines_named_on_the_host_slide_on_the_device_too():
+    points, triangles = grid(60, 40)
+    row = 20 * 61 + np.arange(61)
+    points[row, 1] = 20
+    links = np.column_stack([np.arange(41) * 61, np.arange(41) * 61 + 60])
+    given = {"lines": np.column_stack([row[:-1], row[1:]]), "links": links, "slide": "straight"}
+    result = trismooth.smooth(points, triangles, backend="cuda", **given)
+    expected = trismooth.smooth(points, triangles, backend="cpu", **given)
+    np.testing.assert_array_equal(result.points, expected.points)
+    assert repr(result.sliding) == repr(expected.sliding)
 
 
 def test_any_strides_and_heights(writable):
@@ -200,6 +230,13 @@ def test_bad_input_names_the_argument_and_leaves_the_arrays(writable):
         (lambda: trismooth.smooth(p, t, out=put(points.astype(np.float32))), TypeError, "out"),
         (lambda: trismooth.smooth(p, t, backend="cpu"), ValueError, "backend"),
         (lambda: trismooth.smooth(p, t, stream="x"), TypeError, "stream"),
+        (lambda: trismooth.smooth(p, t, slide="straight", lines=put(np.array([[0, 1]]))), ValueError, "lines"),
+        (lambda: trismooth.smooth(p, t, lines=[[0, 1]]), ValueError, "lines"),
+        (lambda: trismooth.smooth(p, t, slide="straight", links=put(np.array([[0, 1]]))), ValueError, "links"),
+        (lambda: trismooth.smooth(p, t, slide="straight", line_tags=[1]), ValueError, "line_tags"),
+        (lambda: trismooth.smooth(p, t, slide="straight", deviation=5), ValueError, "deviation"),
+        (lambda: trismooth.smooth(p, t, slide="straight", execution="cdp"), ValueError, "execution"),
+        (lambda: trismooth.smooth(p, t, slide="straight", target_quality=0.5), ValueError, "target_quality"),
         (lambda: trismooth.Plan(t, len(points)).smooth(points), ValueError, "points"),
         (lambda: trismooth.Plan(triangles, len(points)).smooth(p), ValueError, "points"),
     ]

@@ -1,4 +1,4 @@
-"""What README.md and docs/python.md show in Python runs, and the docstrings' examples are true."""
+"""What README.md, docs/python.md and docs/sliding.md show in Python runs, and the docstrings' examples are true."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BLOCK = re.compile(r"^```python([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 def blocks():
     """Each block of Python of the pages, but for those that say why not: (place, code)."""
-    for page in (ROOT / "README.md", ROOT / "docs" / "python.md"):
+    for page in (ROOT / "README.md", ROOT / "docs" / "python.md", ROOT / "docs" / "sliding.md"):
         text = page.read_text(encoding="utf-8")
         for match in BLOCK.finditer(text):
             if "no-run: " not in match[1]:

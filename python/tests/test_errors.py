@@ -97,6 +97,39 @@ CASES = [
     ({"power": 9}, ValueError, "power"),
     ({"power": "3"}, TypeError, "power"),
     ({"target": "round"}, ValueError, "target"),
+    ({"slide": "round"}, ValueError, "slide: "),
+    ({"slide": True}, TypeError, "slide: "),
+    ({"slide": None}, TypeError, "slide: "),
+    ({"slide": "curves", "corner_angle": 181}, ValueError, "corner_angle: "),
+    ({"slide": "curves", "corner_angle": -1}, ValueError, "corner_angle: "),
+    ({"corner_angle": float("nan")}, ValueError, "corner_angle: "),
+    ({"corner_angle": "30"}, TypeError, "corner_angle: "),
+    ({"slide": "curves", "deviation": 2}, ValueError, "deviation: "),
+    ({"deviation": -1e-9}, ValueError, "deviation: "),
+    ({"deviation": "1e-3"}, TypeError, "deviation: "),
+    ({"curve": "circle"}, ValueError, "curve: "),
+    ({"curve": 1}, TypeError, "curve: "),
+    ({"slide_coincident": "on"}, TypeError, "slide_coincident: "),
+    ({"lines": [[0, len(POINTS)]]}, ValueError, f"lines: vertex {len(POINTS)} is not one of the {len(POINTS)} vertices"),
+    ({"lines": [[0, -1]], "slide": "curves"}, ValueError, "lines: vertex -1 is"),
+    ({"lines": np.array([[0, 2**63]], np.uint64)}, ValueError, "lines: vertex 9223372036854775808 is"),
+    ({"lines": [0, 1]}, ValueError, "lines: shape (2,); expected (K, 2)"),
+    ({"lines": [[0, 1, 2]]}, ValueError, "lines: shape (1, 3); expected (K, 2)"),
+    ({"lines": np.zeros((0, 3), int)}, ValueError, "lines: shape (0, 3)"),
+    ({"lines": [[0.0, 1.0]]}, TypeError, "lines: "),
+    ({"lines": [[True, False]]}, TypeError, "lines: "),
+    ({"lines": "boundary"}, TypeError, "lines: "),
+    ({"lines": False}, TypeError, "lines: "),
+    ({"lines": [[0, 1]], "line_tags": [1, 2]}, ValueError, "line_tags: shape (2,); expected (1,), one for each line"),
+    ({"lines": [[0, 1]], "line_tags": [[1]]}, ValueError, "line_tags: "),
+    ({"lines": [[0, 1]], "line_tags": [np.nan]}, ValueError, "line_tags: "),
+    ({"line_tags": [1]}, ValueError, "line_tags: "),
+    ({"links": [[0, len(POINTS)]]}, ValueError, "links: vertex "),
+    ({"links": [0, 1]}, ValueError, "links: shape (2,)"),
+    ({"links": [["a", "b"]], "slide": "straight"}, TypeError, "links: "),
+    ({"triangles": [[0, 1, 5, 6, 2, 7]], "slide": "curves"}, ValueError, "slide: is for triangles of three nodes"),
+    ({"triangles": [[0, 1, 5, 6, 2, 7]], "lines": [[0, 1]]}, ValueError, "lines: are for triangles of three nodes"),
+    ({"triangles": [[0, 1, 5, 6, 2, 7]], "links": [[0, 1]]}, ValueError, "links: are for triangles of three nodes"),
     ({"progress": 5}, TypeError, "progress"),
     ({"stream": 3}, TypeError, "stream"),
     ({"inplace": True}, TypeError, "inplace"),
@@ -218,6 +251,14 @@ def test_empty_lists_are_none_of_what_they_list():
     expected = trismooth.smooth(POINTS, TRIANGLES).points
     np.testing.assert_array_equal(trismooth.smooth(POINTS, TRIANGLES, fixed=[], other_cells=()).points, expected)
     np.testing.assert_array_equal(trismooth.smooth(POINTS, []).points, POINTS)
+
+
+def test_none_and_empty_lists_are_no_lines():
+    expected = trismooth.smooth(POINTS, TRIANGLES, slide="curves").points
+    given = {"lines": [], "line_tags": [], "links": [], "corner_angle": None, "deviation": None}
+    np.testing.assert_array_equal(trismooth.smooth(POINTS, TRIANGLES, slide="curves", **given).points, expected)
+    empty = np.zeros((0, 2), np.int16)
+    np.testing.assert_array_equal(trismooth.smooth(POINTS, TRIANGLES, slide="curves", lines=empty).points, expected)
 
 
 def test_flags_of_numpy_are_flags():

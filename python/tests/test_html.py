@@ -41,6 +41,36 @@ def test_lead_says_what_happened(result):
     assert "No triangle is inverted." in text
 
 
+def test_vertices_that_slid_are_not_among_the_free_ones(mesh):
+    points, triangles = mesh
+    lower = points[:, 1] == 0
+    points[lower, 0] = 12 * (points[lower, 0] / 12) ** 1.1
+    result = trismooth.smooth(points, triangles, slide="straight", max_sweeps=20)
+    slid, vertices = result.sliding.slid, result.sliding.vertices
+    assert 0 < slid < result.moved and vertices == 2 * (11 + 8)
+    free = result.moved - slid
+    assert free <= result.free_vertices
+    text = text_of(result._repr_html_())
+    assert text.startswith(f"{free} of {result.free_vertices} free vertices moved in {result.sweeps} sweeps; ")
+    assert f" {slid} of {vertices} vertices on 4 lines slid; lines are where they were. " in text
+
+
+def test_vertices_that_alone_slid_are_told():
+    points, triangles = grid(6, 1)
+    points[1:6, 0] += 0.3
+    result = trismooth.smooth(points, triangles, slide="straight")
+    text = text_of(result._repr_html_())
+    assert text.startswith("0 of 0 free vertices moved in ")
+    assert f"{result.sliding.slid} of 10 vertices on 2 lines slid" in text
+
+
+def test_where_none_can_slide_that_is_told(mesh):
+    points, triangles = mesh
+    is_held = (points[:, 0] % 12 == 0) | (points[:, 1] % 9 == 0)
+    result = trismooth.smooth(points, triangles, slide="curves", fixed=is_held)
+    assert "No vertex of a boundary or an interface can slide." in text_of(result._repr_html_())
+
+
 def test_cards_have_the_figures_before_and_after(result):
     text = text_of(result._repr_html_())
     before, after = result.before["shape"], result.after["shape"]
@@ -133,6 +163,7 @@ def test_texts_are_escaped():
         reverted=0,
         reproducible=False,
         note="a < b & c",
+        sliding=None,
         warnings=["<script>alert(1)</script>"],
         losses=[],
         timings={"smooth": 20.0},

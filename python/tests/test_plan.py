@@ -28,14 +28,37 @@ def test_a_plan_takes_constraints_and_sizes():
     np.testing.assert_array_equal(plan.smooth(points).points, trismooth.smooth(points, triangles, **held).points)
 
 
+def test_a_plan_has_vertices_slide():
+    points, triangles = grid(20, 15)
+    middle = np.flatnonzero(points[:, 0] == 0)
+    on_left, on_right = middle, middle + 20
+    held = {
+        "slide": "curves",
+        "deviation": 0.1,
+        "corner_angle": 60,
+        "lines": np.column_stack([np.arange(5), np.arange(1, 6)]),
+        "line_tags": ["a", "a", "b", "b", "b"],
+        "links": np.column_stack([on_left, on_right]),
+    }
+    plan = trismooth.Plan(triangles, len(points), **held)
+    for _ in range(2):
+        result, expected = plan.smooth(points), trismooth.smooth(points, triangles, **held)
+        np.testing.assert_array_equal(result.points, expected.points)
+        assert repr(result.sliding) == repr(expected.sliding) and result.sliding.slid > 0
+        points = points + [[0.1, 0]] * (points[:, 1:] > 7)
+
+
 def test_the_callers_arrays_may_go_and_change():
     points, triangles = grid(20, 15)
-    expected = trismooth.smooth(points, triangles, size=1 + points[:, 0]).points
+    lines, links = np.array([[0, 22], [22, 44]]), np.array([[21, 41], [42, 62]])
+    given = {"slide": "straight", "lines": lines, "line_tags": np.array([1, 2]), "links": links}
+    expected = trismooth.smooth(points, triangles, size=1 + points[:, 0], **given).points
     mine, size = triangles.copy(), 1 + points[:, 0]
-    plan = trismooth.Plan(mine, len(points), size=size)
+    plan = trismooth.Plan(mine, len(points), size=size, **given)
     mine[:] = -1
     size[:] = np.nan
-    del size
+    lines[:] = links[:] = 10**6
+    del size, lines, links
     gc.collect()
     np.testing.assert_array_equal(plan.smooth(points).points, expected)
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-
 import numpy as np
 import pytest
 
 import trismooth
+from conftest import grid
+from program import hash_of, off_file, program_hash
 
 pytestmark = pytest.mark.skipif(not trismooth.build_info()["files"], reason="this build has no files")
-xxhash = pytest.importorskip("xxhash")
-PROGRAM = os.environ.get("TRISMOOTH_PROGRAM")
+pytest.importorskip("xxhash")
 
 COMBINATIONS = [
     {"method": method, "form": form, "precision": precision, "guard": guard}
@@ -46,49 +43,23 @@ SINGLE = [
     {"layout": "soa", "execution": "single-block"},
     {"execution": "cdp"},
     {"time_limit": 1000.0},
+    {"slide": "off", "curve": "spline", "deviation": 0.5},
+    {"slide": "straight"},
+    {"slide": "straight", "guard": False},
+    {"slide": "straight", "method": "weighted", "precision": "single"},
+    {"slide": "curves", "corner_angle": 95, "deviation": 0.1, "curve": "spline", "guard": False},
+    {"slide": "curves", "curve": "polyline", "slide_coincident": True, "form": "a"},
+    {"slide": "curves", "slide_coincident": False, "deviation": 0},
     # What the program has no option for: results do not depend on it.
     {"evaluation": "all"},
     {"record_min_shape": True},
 ]
-NOT_OF_THE_PROGRAM = ("evaluation", "record_min_shape")
-
-
-def arguments_of(options):
-    """The options on the program's command line."""
-    arguments = []
-    for name, value in {"method": "mean-ratio", **options}.items():
-        if name in NOT_OF_THE_PROGRAM:
-            continue
-        text = value if isinstance(value, str) else {True: "on", False: "off"}.get(value, repr(value)) if isinstance(value, bool) else repr(value)
-        arguments += ["--" + name.replace("_", "-"), text]
-    return arguments
-
-
-def hash_of(points):
-    """XXH64 of x, y, z as little-endian float64, as the program's report has it."""
-    return xxhash.xxh64(np.ascontiguousarray(points, "<f8").tobytes()).hexdigest()
 
 
 @pytest.fixture(scope="module")
 def tangled_file(tmp_path_factory):
     """A mesh with some inverted triangles, in a file that holds every bit."""
-    from conftest import grid
-
-    points, triangles = grid(40, 30, shift=0.55)
-    path = tmp_path_factory.mktemp("bits") / "mesh.off"
-    lines = ["OFF", f"{len(points)} {len(triangles)} 0"]
-    lines += [f"{x!r} {y!r} 0" for x, y in points.tolist()]
-    lines += ["3 " + " ".join(map(str, t)) for t in triangles.tolist()]
-    path.write_text("\n".join(lines) + "\n")
-    return path
-
-
-def program_hash(path, options, tmp_path, *more):
-    program = [PROGRAM] if PROGRAM else [os.sys.executable, "-m", "trismooth"]
-    report = tmp_path / "report.json"
-    command = [*program, "smooth", str(path), str(tmp_path / "out.off"), *arguments_of(options), "--report", str(report), "--quiet", *more]
-    subprocess.run(command, check=True, capture_output=True)
-    return json.loads(report.read_text())["coordinates_hash"]
+    return off_file(tmp_path_factory.mktemp("bits") / "mesh.off", *grid(40, 30, shift=0.55))
 
 
 @pytest.mark.parametrize("options", COMBINATIONS + SINGLE, ids=lambda options: ",".join(f"{k}={v}" for k, v in options.items()))

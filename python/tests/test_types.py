@@ -13,6 +13,8 @@ import trismooth
 
 pytest.importorskip("mypy")
 CALLER = """
+from typing import Optional
+
 import numpy as np
 import trismooth
 
@@ -21,7 +23,9 @@ result = trismooth.smooth(points, [[0, 1, 2]], max_sweeps=3)
 smallest: float = result.after["shape"].min
 moved: int = result.moved
 reason: str = result.stop_reason
-plan = trismooth.Plan([[0, 1, 2]], 3)
+sliding: Optional[trismooth.SlidingResult] = trismooth.smooth(points, [[0, 1, 2]], slide="curves", deviation=0.01).sliding
+slid: int = 0 if sliding is None else sliding.slid
+plan = trismooth.Plan([[0, 1, 2]], 3, slide="straight", lines=[[0, 1]], line_tags=["a"], links=[[0, 1]])
 again: trismooth.Result = plan.smooth(points)
 shapes: np.ndarray = trismooth.quality(points, [[0, 1, 2]]).shape
 mesh: trismooth.Mesh = trismooth.read("mesh.off")

@@ -14,8 +14,8 @@ from __future__ import annotations
 from typing import Any
 
 from . import adapters as adapters
-from ._core import Cancelled, DeviceError, MeshError, MetricSummary, QualityReport, ReadError, SweepRecord, WorstElement
-from ._core import WriteError
+from ._core import Cancelled, DeviceError, MeshError, MetricSummary, QualityReport, ReadError, SlidingResult
+from ._core import SweepRecord, WorstElement, WriteError
 from ._core import __version__ as __version__
 from ._mesh import Mesh, read
 from ._plan import Plan
@@ -37,6 +37,7 @@ __all__ = [
     "QualityReport",
     "ReadError",
     "Result",
+    "SlidingResult",
     "SweepRecord",
     "WorstElement",
     "WriteError",

@@ -69,13 +69,13 @@ def _detached(array: Any) -> Any:
     return array.detach() if library_of(array) == "torch" else array
 
 
-def labels(array: Any, argument: str) -> np.ndarray:
-    """Labels of any type, texts as well, as integers of 32 bits: equal ones where labels are equal."""
+def labels(array: Any, argument: str, of_what: str) -> np.ndarray:
+    """Labels of any type, texts as well, as integers of 32 bits: equal ones where labels are equal; one each `of_what`."""
     values = on_host(array, argument)
     if values.dtype.kind in "iu" and (values.dtype.itemsize <= 4 and values.dtype != np.uint32):
         return values
     if values.ndim != 1:
-        raise ValueError(f"{argument}: shape {values.shape}; expected one dimension, a label for each triangle")
+        raise ValueError(f"{argument}: shape {values.shape}; expected one dimension, a label for each {of_what}")
     if values.dtype.kind == "f" and np.isnan(values).any():
         raise ValueError(f"{argument}: a label is NaN")
     try:

@@ -64,6 +64,18 @@ class SweepRecord:
     @property
     def min_shape(self) -> float: ...
 
+class SlidingResult:
+    @property
+    def lines(self) -> int: ...
+    @property
+    def vertices(self) -> int: ...
+    @property
+    def slid(self) -> int: ...
+    @property
+    def largest_deviation(self) -> float: ...
+    @property
+    def relative_deviation(self) -> float: ...
+
 class Outcome:
     @property
     def before(self) -> Optional[QualityReport]: ...
@@ -92,6 +104,8 @@ class Outcome:
     @property
     def untangling(self) -> Optional[dict[str, int]]: ...
     @property
+    def sliding(self) -> Optional[SlidingResult]: ...
+    @property
     def backend(self) -> str: ...
     @property
     def device(self) -> str: ...
@@ -118,10 +132,7 @@ def smooth(
     points: Any,
     triangles: Any,
     out: Any,
-    regions: Any,
-    fixed: Any,
-    other_cells: Any,
-    size: Any,
+    constraints: dict[str, Any],
     quality: bool,
     progress: Any,
     options: dict[str, Any],
@@ -134,14 +145,7 @@ def cuda_text() -> str: ...
 
 class HostPlan:
     def __init__(
-        self,
-        triangles: Any,
-        vertex_count: int,
-        regions: Any,
-        fixed: Any,
-        other_cells: Any,
-        size: Any,
-        options: dict[str, Any],
+        self, triangles: Any, vertex_count: int, constraints: dict[str, Any], options: dict[str, Any]
     ) -> None: ...
     def smooth(self, points: Any, out: Any, quality: bool, progress: Any) -> Outcome: ...
     @property
@@ -158,10 +162,7 @@ class DevicePlan:
         self,
         triangles: Any,
         vertex_count: int,
-        regions: Any,
-        fixed: Any,
-        other_cells: Any,
-        size: Any,
+        constraints: dict[str, Any],
         stream: int,
         options: dict[str, Any],
     ) -> None: ...

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Optional
 
 import numpy as np
 
 from . import _arrays, _core
+from ._constraints import Constraints
 from ._result import Result
 
 #: DLPack's number of the default stream.
@@ -94,27 +95,36 @@ def _host_sizes(size: Any) -> Optional[np.ndarray]:
     return _arrays.on_host(to_host(size) if _arrays.device_of(size) is not None else size, "size", float)
 
 
+def _on_device(constraints: Constraints, stream: int) -> Dict[str, Any]:
+    """The arrays that are given, by name, as the compiled part takes them."""
+    for name in ("lines", "line_tags", "links"):
+        if getattr(constraints, name) is not None:
+            raise ValueError(f"{name}: are for arrays in memory of the host, and points are on a CUDA device")
+    return {
+        "regions": _capsule(constraints.regions, "regions", stream),
+        "fixed": _capsule(constraints.fixed, "fixed", stream),
+        "other_cells": _capsule(constraints.other_cells, "other_cells", stream),
+        "size": _host_sizes(constraints.size),
+    }
+
+
 class DevicePlan:
     """The part of Plan for arrays on a device."""
 
-    def __init__(self, triangles: Any, n_points: int, constraints: Tuple[Any, ...], options: Dict[str, Any]) -> None:
+    def __init__(self, triangles: Any, n_points: int, constraints: Constraints, options: Dict[str, Any]) -> None:
         _require_cuda("triangles", triangles)
         if options["backend"] == "cpu":
             raise ValueError("backend: 'cpu' is for arrays in memory of the host, and triangles are on a CUDA device")
         options = dict(options)
         self._given_stream = options.pop("stream", None)
         options["backend"] = "cuda"
-        regions, fixed, other_cells, size = constraints
         stream = _stream(triangles, self._given_stream)
         self._stream_number = stream
         self._triangles = triangles
         self._plan = _core.DevicePlan(
             _capsule(triangles, "triangles", stream),
             n_points,
-            _capsule(regions, "regions", stream),
-            _capsule(fixed, "fixed", stream),
-            _capsule(other_cells, "other_cells", stream),
-            _host_sizes(size),
+            _on_device(constraints, stream),
             stream,
             options,
         )
@@ -153,7 +163,7 @@ class DevicePlan:
 def smooth(
     points: Any,
     triangles: Any,
-    constraints: Tuple[Any, ...],
+    constraints: Constraints,
     out: Any,
     quality: Optional[bool],
     progress: Any,

@@ -7,6 +7,7 @@ from html import escape
 from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
 
 from ._core import QualityReport
+from ._result import free_moved, sliding_text
 
 if TYPE_CHECKING:
     from ._result import Result
@@ -125,14 +126,20 @@ def _outcome(result: Result, after: Optional[QualityReport]) -> str:
         return "No vertex could be improved: the mesh is as it was."
     reason = _STOP_REASONS.get(result.stop_reason, result.stop_reason)
     text = (
-        f"{result.moved:,} of {result.free_vertices:,} free vertices moved in {result.sweeps:,} "
+        f"{free_moved(result):,} of {result.free_vertices:,} free vertices moved in {result.sweeps:,} "
         f"sweep{_plural(result.sweeps)}; {reason}."
     )
+    if result.sliding is not None:
+        text += f" {_sentence(sliding_text(result.sliding))}"
     if result.reverted > 0:
         text += f" The guard put {result.reverted:,} back."
     if not result.reproducible:
         text += " Not reproducible."
     return text
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
 
 
 def _lead(outcome: str, report: Optional[QualityReport]) -> str:

@@ -124,6 +124,7 @@ class Mesh:
         field_arrays: Union[None, str, Sequence[str]] = None,
         project: Optional[str] = None,
         geographic: bool = False,
+        slide: str = "off",
         method: str = "mean-ratio",
         backend: str = "auto",
         progress: Optional[Progress] = None,
@@ -153,6 +154,9 @@ class Mesh:
             Smooth a surface z(x, y) in x and y.
         geographic : bool
             x and y are longitude and latitude in degrees.
+        slide : {"off", "straight", "curves"}
+            As for :func:`trismooth.smooth`. Lines, their tags and what is periodic are those of the file;
+            ``report["areas"]`` has the areas of regions before and after.
         method, backend, progress, **options
             As for :func:`trismooth.smooth`. Where ``progress`` returns False, Cancelled is raised.
 
@@ -168,6 +172,7 @@ class Mesh:
         """
         options["method"] = method
         options["backend"] = backend
+        options["slide"] = slide
         held = {
             "regions": regions,
             "fixed": None if fixed is None else _arrays.on_host(fixed, "fixed"),

@@ -7,7 +7,9 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 
 from . import _arrays, _core, adapters
+from ._constraints import Constraints, slides
 from ._result import Result
+from .adapters.flat import FlatMesh
 
 
 def _adapter_of(mesh: Any) -> Any:
@@ -23,7 +25,7 @@ def _adapter_of(mesh: Any) -> Any:
 
 
 def smooth_mesh(
-    mesh: Any, held: Dict[str, Any], size: Any, out: Any, quality: Optional[bool], progress: Any, options: Dict[str, Any]
+    mesh: Any, given: Constraints, out: Any, quality: Optional[bool], progress: Any, options: Dict[str, Any]
 ) -> Result:
     """smooth() of a mesh: the result has the smoothed one as ``mesh``."""
     from ._smooth import smooth
@@ -36,14 +38,11 @@ def smooth_mesh(
         inplace = not adapter.SUPPORTS_COPY
     if not inplace and not adapter.SUPPORTS_COPY:
         raise ValueError("inplace: meshes of this type can be smoothed in place only")
-    flat = adapter.flatten(mesh, regions=held["regions"], fixed=held["fixed"])
+    flat = adapter.flatten(mesh, regions=given.regions, fixed=given.fixed, lines=slides(options))
     result = smooth(
         flat.points,
         flat.triangles,
-        regions=flat.regions,
-        fixed=flat.fixed,
-        other_cells=_united(flat.other_cells, held["other_cells"], len(flat.points)),
-        size=size,
+        **_constraints_of(flat, given)._asdict(),
         quality=_arrays.wants_quality(quality, True),
         progress=progress,
         **options,
@@ -52,6 +51,25 @@ def smooth_mesh(
         result.input_points = None
     result.mesh = adapter.with_points(mesh, flat, result.points, inplace=inplace)
     return result
+
+
+def _constraints_of(flat: FlatMesh, given: Constraints) -> Constraints:
+    """The arrays for smooth(): of the mesh and of the user."""
+    lines, line_tags, links = given.lines, given.line_tags, given.links
+    if lines is None:
+        if line_tags is not None:
+            raise ValueError("line_tags: are for lines that are given; the mesh has its own")
+        lines, line_tags = flat.lines, flat.line_tags
+    if links is None:
+        links = flat.links
+    return given._replace(
+        regions=flat.regions,
+        fixed=flat.fixed,
+        other_cells=_united(flat.other_cells, given.other_cells, len(flat.points)),
+        lines=None if lines is False else lines,
+        line_tags=line_tags,
+        links=None if links is False else links,
+    )
 
 
 def _united(of_mesh: Any, of_user: Any, count: int) -> Any:

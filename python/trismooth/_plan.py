@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Optional
 
 from . import _arrays, _core
+from ._constraints import Constraints
 from ._result import Result
 from ._smooth import Progress
 
@@ -21,7 +22,7 @@ class Plan:
     triangles : array of integers, shape (M, 3)
     n_points : int
         The number of vertices.
-    regions, fixed, other_cells, size, method, backend, **options
+    regions, fixed, other_cells, size, slide, lines, line_tags, links, method, backend, **options
         As for :func:`trismooth.smooth`.
 
     Raises
@@ -46,12 +47,18 @@ class Plan:
         fixed: Any = None,
         other_cells: Any = None,
         size: Any = None,
+        slide: str = "off",
+        lines: Any = None,
+        line_tags: Any = None,
+        links: Any = None,
         method: str = "mean-ratio",
         backend: str = "auto",
         **options: Any,
     ) -> None:
         options["method"] = method
         options["backend"] = backend
+        options["slide"] = slide
+        constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
         self._triangles = triangles
         self._on_device = _arrays.device_of(triangles) is not None
         if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
@@ -59,19 +66,14 @@ class Plan:
         if self._on_device:
             from . import _device
 
-            self._plan: Any = _device.DevicePlan(
-                triangles, n_points, (regions, fixed, other_cells, size), options
-            )
+            self._plan: Any = _device.DevicePlan(triangles, n_points, constraints, options)
             return
         if "stream" in options:
             raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
         self._plan = _core.HostPlan(
             _arrays.on_host(triangles, "triangles"),
             n_points,
-            None if regions is None else _arrays.labels(regions, "regions"),
-            None if fixed is None else _arrays.on_host(fixed, "fixed"),
-            None if other_cells is None else _arrays.on_host(other_cells, "other_cells"),
-            None if size is None else _arrays.on_host(size, "size", float),
+            constraints.on_host(),
             options,
         )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Optional
 
 from . import _core
-from ._core import QualityReport, SweepRecord
+from ._core import QualityReport, SlidingResult, SweepRecord
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -13,6 +13,29 @@ if TYPE_CHECKING:
 
 class NotComputed(AttributeError):
     """A quality that was not asked for: pass ``quality=True``."""
+
+
+def free_moved(result: Result) -> int:
+    """How many of the free vertices moved: those that slid are none of them."""
+    return result.moved - (0 if result.sliding is None else result.sliding.slid)
+
+
+def sliding_text(sliding: SlidingResult) -> str:
+    """What became of vertices that may slide, in the words of the program's report."""
+    if sliding.vertices == 0:
+        return "no vertex of a boundary or an interface can slide"
+    text = (
+        f"{sliding.slid:,} of {sliding.vertices:,} vert{'ex' if sliding.vertices == 1 else 'ices'} on "
+        f"{sliding.lines:,} line{'' if sliding.lines == 1 else 's'} slid"
+    )
+    if sliding.slid == 0:
+        return text
+    if sliding.largest_deviation == 0:
+        return f"{text}; lines are where they were"
+    return (
+        f"{text}; lines are up to {sliding.largest_deviation:.3g} from where they were, "
+        f"{sliding.relative_deviation:.3g} of an edge"
+    )
 
 
 class Result:
@@ -64,7 +87,7 @@ class Result:
 
     @property
     def moved(self) -> int:
-        """How many vertices have other coordinates than before."""
+        """How many vertices have other coordinates than before, those that slid included."""
         return self._outcome.moved
 
     @property
@@ -100,7 +123,7 @@ class Result:
 
     @property
     def free_vertices(self) -> int:
-        """How many vertices nothing held."""
+        """How many vertices nothing held, neither in their place nor to a line."""
         return self._outcome.free_vertices
 
     @property
@@ -117,6 +140,11 @@ class Result:
     def untangling(self) -> Optional[Dict[str, int]]:
         """Counts of inverted triangles before and after, where they were untangled before the sweeps; else None."""
         return self._outcome.untangling
+
+    @property
+    def sliding(self) -> Optional[SlidingResult]:
+        """What became of vertices that may slide along lines; None where ``slide`` is "off"."""
+        return self._outcome.sliding
 
     @property
     def backend(self) -> str:
@@ -164,9 +192,11 @@ class Result:
 
     def __str__(self) -> str:
         lines = (
-            f"{self.moved} of {self.free_vertices} free vertices moved in {self.sweeps} "
+            f"{free_moved(self)} of {self.free_vertices} free vertices moved in {self.sweeps} "
             f"sweep{'' if self.sweeps == 1 else 's'}; stopped by {self.stop_reason}"
         )
+        if self.sliding is not None:
+            lines += f"\n{sliding_text(self.sliding)}"
         return f"{lines}\n\n{self._outcome.summary()}" if self.has_quality else lines
 
     def __repr__(self) -> str:
@@ -174,9 +204,10 @@ class Result:
         if self.has_quality:
             before, after = self.before["shape"], self.after["shape"]
             shapes = f", smallest shape {before.min:.4g} -> {after.min:.4g}, mean {before.mean:.4g} -> {after.mean:.4g}"
+        slid = "" if self.sliding is None else f", {self.sliding.slid} of {self.sliding.vertices} on lines slid"
         return (
-            f"<trismooth.Result: {self.moved} of {self.free_vertices} free vertices moved, {self.sweeps} sweeps, "
-            f"{self.stop_reason}{shapes}>"
+            f"<trismooth.Result: {free_moved(self)} of {self.free_vertices} free vertices moved{slid}, "
+            f"{self.sweeps} sweeps, {self.stop_reason}{shapes}>"
         )
 
     def _repr_html_(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Callable, Optional
 
 from . import _arrays, _core
+from ._constraints import Constraints
 from ._core import SweepRecord
 from ._result import Result
 
@@ -19,6 +20,10 @@ def smooth(
     fixed: Any = None,
     other_cells: Any = None,
     size: Any = None,
+    slide: str = "off",
+    lines: Any = None,
+    line_tags: Any = None,
+    links: Any = None,
     method: str = "mean-ratio",
     backend: str = "auto",
     out: Any = None,
@@ -51,6 +56,17 @@ def smooth(
         Vertices of cells that are no triangles: held, and part of the mesh even where no triangle has them.
     size : array of N floats, optional
         The edge length wanted around each vertex, in any unit, for the method "mean-ratio": only relations count.
+    slide : {"off", "straight", "curves"}
+        Whether vertices of boundaries and borders of regions move along them: "straight" on stretches that are straight
+        to rounding, where the line stays the same set of points; "curves" on all, as far as ``deviation`` allows.
+        Triangles of six nodes do not slide. See docs/sliding.md.
+    lines : array of integers, shape (K, 2), optional
+        Edges of further lines, two vertex numbers each: their vertices are held, or slide along them. Of a mesh with
+        line cells these are its lines, where vertices slide; False: it has none; an array: these in place of them.
+    line_tags : array of K labels, optional
+        A line ends where the label changes. Labels of any type, texts as well.
+    links : array of integers, shape (L, 2), optional
+        Pairs of vertices that slide as one, as those of two sides that are periodic.
     method : {"mean-ratio", "smart", "laplacian", "weighted"}
         How vertices are moved. "mean-ratio" gives the best elements and untangles inverted ones first; "smart" is the
         Smart Laplacian of the paper.
@@ -69,7 +85,9 @@ def smooth(
         ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``precision`` "double" or "single";
         ``max_sweeps`` 1000 (0: no limit); ``tolerance`` 1e-6; ``time_limit`` None (seconds); ``target_quality`` None
         (stop at this smallest shape); ``threads`` 0 (all); ``size_weight`` 1, ``power`` None (1 to 8) and ``target``
-        "uniform" or "input-shape" of "mean-ratio"; ``record_min_shape`` False; ``topology`` "auto", "host", "halfedge"
+        "uniform" or "input-shape" of "mean-ratio"; with ``slide`` ``corner_angle`` None (30 degrees: a line that turns by
+        more has a corner there, which stays), ``deviation`` None (1e-3: how far "curves" may take a line from where it
+        was, in edge lengths), ``curve`` "polyline" or "spline" and ``slide_coincident`` False; ``record_min_shape`` False; ``topology`` "auto", "host", "halfedge"
         or "device"; ``evaluation`` "changed" or "all"; and of the paper's versions on CUDA ``layout`` "aos" or "soa",
         ``execution`` "resident", "single-block" or "cdp", ``order`` "colour" or "unordered". ``stream``: the CUDA
         stream of arrays on a device, else that of their library.
@@ -77,7 +95,7 @@ def smooth(
     Returns
     -------
     Result
-        With ``points``, ``before``, ``after``, ``moved``, ``sweeps`` and more.
+        With ``points``, ``before``, ``after``, ``moved``, ``sliding``, ``sweeps`` and more.
 
     Raises
     ------
@@ -98,15 +116,15 @@ def smooth(
     """
     options["method"] = method
     options["backend"] = backend
+    options["slide"] = slide
+    constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
     if triangles is None:
         from . import _meshes
 
-        held = {"regions": regions, "fixed": fixed, "other_cells": other_cells}
-        return _meshes.smooth_mesh(points, held, size, out, quality, progress, options)
+        return _meshes.smooth_mesh(points, constraints, out, quality, progress, options)
     if _arrays.device_of(points) is not None:
         from . import _device
 
-        constraints = (regions, fixed, other_cells, size)
         return _device.smooth(points, triangles, constraints, out, quality, progress, options)
     if "inplace" in options:
         raise TypeError("inplace: is for meshes; arrays are smoothed in place by out=points")
@@ -119,10 +137,7 @@ def smooth(
         numbers,
         corners,
         output.numbers,
-        None if regions is None else _arrays.labels(regions, "regions"),
-        None if fixed is None else _arrays.on_host(fixed, "fixed"),
-        None if other_cells is None else _arrays.on_host(other_cells, "other_cells"),
-        None if size is None else _arrays.on_host(size, "size", float),
+        constraints.on_host(),
         _arrays.wants_quality(quality, out is None),
         progress,
         options,

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["smooth"]
 
-# Numbers of Gmsh for types of elements. Gmsh lists the nodes of both as VTK does.
+# Numbers of Gmsh for types of elements. Gmsh lists the nodes of the triangles as VTK does.
+_LINE = 1
 _TRIANGLE = 2
 _QUADRATIC_TRIANGLE = 9
 
@@ -22,13 +23,17 @@ _QUADRATIC_TRIANGLE = 9
 _FLATNESS = 1e-6
 
 
-def smooth(*, fixed: Any = None, **options: Any) -> Result:
+def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     """Smooth the triangles of the current model, in place.
 
     Nodes that Gmsh classifies on surfaces move: those inside of them. Nodes on curves and points are held, also where
     these are embedded in a surface, and so are the borders between surfaces. Nodes of quadrangles and of other elements
     that are no triangles are held, too, and nodes that are linked as periodic. Where they have parametric coordinates
     on their surface, moved nodes get those of the new place.
+
+    With ``slide`` nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
+    are linked as periodic on two curves slide together. Moved nodes are on the edges of the mesh as it was, not on the
+    curve of the geometry; ``deviation`` bounds how far they are from where these were.
 
     Surfaces are the regions of the result's reports. Physical groups make no difference: what is between them is on
     curves.
@@ -37,8 +42,9 @@ def smooth(*, fixed: Any = None, **options: Any) -> Result:
     ----------
     fixed : array_like of int, optional
         Tags of further nodes to hold.
-    **options
-        Those of :func:`trismooth.smooth`, without ``regions``, ``other_cells``, ``out`` and ``inplace``.
+    slide, **options
+        Those of :func:`trismooth.smooth`, without ``regions``, ``other_cells``, ``lines``, ``line_tags``, ``links``,
+        ``out`` and ``inplace``.
 
     Returns
     -------
@@ -59,13 +65,14 @@ def smooth(*, fixed: Any = None, **options: Any) -> Result:
 
     if not gmsh.isInitialized():
         raise RuntimeError("gmsh is not initialized: call gmsh.initialize() and make or open a mesh first")
-    for name in ("regions", "other_cells", "out", "inplace"):
+    for name in ("regions", "other_cells", "lines", "line_tags", "links", "out", "inplace"):
         if name in options:
             raise TypeError(f"{name}: is for arrays and meshes; here the model has it all")
     nodes = _nodes_of_model(gmsh)
-    surfaces = _surfaces(gmsh, nodes)
-    elements = _elements_of(gmsh, nodes, surfaces)
-    held = _held_nodes(nodes, surfaces, fixed)
+    surfaces = _entities(gmsh, nodes, 2)
+    curves = [] if slide == "off" else _entities(gmsh, nodes, 1)
+    elements = _elements_of(gmsh, nodes, surfaces, curves)
+    held = _held_nodes(nodes, surfaces, curves, elements.lines, fixed)
     _check_plane(nodes, elements.triangles)
     model = gmsh.model.getCurrent()
     result = trismooth.smooth(
@@ -74,11 +81,15 @@ def smooth(*, fixed: Any = None, **options: Any) -> Result:
         regions=elements.regions,
         fixed=held,
         other_cells=elements.other_nodes,
+        slide=slide,
+        lines=elements.lines,
+        line_tags=elements.line_tags,
+        links=np.concatenate([curve.periodic_nodes for curve in curves]) if curves else None,
         **options,
     )
     current = gmsh.model.getCurrent()  # the caller's progress may have changed it
     gmsh.model.setCurrent(model)
-    _move_nodes(gmsh, nodes, surfaces, np.asarray(result.points))
+    _move_nodes(gmsh, nodes, [*surfaces, *curves], np.asarray(result.points))
     gmsh.model.setCurrent(current)
     return result
 
@@ -100,9 +111,11 @@ class _Nodes:
 
 
 @dataclass
-class _Surface:
-    """A surface of a model, the nodes inside of it, and whether these have parametric coordinates."""
+class _Entity:
+    """A surface or curve of a model, the nodes inside of it, whether these have parametric coordinates, and the pairs
+    of nodes that link it to another one as periodic."""
 
+    dimension: int
     tag: int
     nodes: np.ndarray
     is_parametric: bool
@@ -111,10 +124,13 @@ class _Surface:
 
 @dataclass
 class _Elements:
-    """The triangles of a model, the surface of each, and a mask of the nodes of all other elements."""
+    """The triangles of a model, the surface of each, the lines for nodes to slide on, the curve of each, and a mask of
+    the nodes of all other elements."""
 
     triangles: np.ndarray
     regions: np.ndarray
+    lines: np.ndarray
+    line_tags: np.ndarray
     other_nodes: Optional[np.ndarray]
 
 
@@ -123,17 +139,19 @@ def _nodes_of_model(gmsh: Any) -> _Nodes:
     return _Nodes(tags, coordinates.reshape(-1, 3), np.argsort(tags, kind="stable"))
 
 
-def _surfaces(gmsh: Any, nodes: _Nodes) -> list[_Surface]:
-    surfaces = []
-    for dimension, tag in gmsh.model.getEntities(2):
+def _entities(gmsh: Any, nodes: _Nodes, dimension: int) -> list[_Entity]:
+    entities = []
+    for _, tag in gmsh.model.getEntities(dimension):
         tags, _, parameters = gmsh.model.mesh.getNodes(dimension, tag, returnParametricCoord=True)
         _, here, there, _ = gmsh.model.mesh.getPeriodicNodes(dimension, tag)
-        periodic = np.concatenate([nodes.numbers(linked) for linked in (here, there)])
-        surfaces.append(_Surface(tag, nodes.numbers(tags), len(parameters) == 2 * len(tags) > 0, periodic))
-    return surfaces
+        periodic = np.column_stack([nodes.numbers(linked) for linked in (here, there)])
+        is_parametric = len(parameters) == dimension * len(tags) > 0
+        entities.append(_Entity(dimension, tag, nodes.numbers(tags), is_parametric, periodic))
+    return entities
 
 
-def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Surface]) -> _Elements:
+def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity]) -> _Elements:
+    """Return the elements. Lines are other elements where there are no curves."""
     triangles: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
     regions: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
     others = []
@@ -154,17 +172,40 @@ def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Surface]) -> _Element
         chosen, left = left, chosen
     others += triangles[left]
     # Elements of curves and points have only nodes that are held anyway, but for meshes of unusual origin.
-    others += [nodes.numbers(tags) for dimension in (0, 1, 3) for tags in gmsh.model.mesh.getElements(dimension)[2]]
+    for dimension in (0, 1, 3):
+        for kind, _, tags in zip(*gmsh.model.mesh.getElements(dimension)):
+            if not curves or kind != _LINE:
+                others.append(nodes.numbers(tags))
     return _Elements(
-        np.concatenate(triangles[chosen]), np.concatenate(regions[chosen]), vertices_of(others, len(nodes.tags))
+        np.concatenate(triangles[chosen]),
+        np.concatenate(regions[chosen]),
+        *_lines_of(gmsh, nodes, curves),
+        vertices_of(others, len(nodes.tags)),
     )
 
 
-def _held_nodes(nodes: _Nodes, surfaces: list[_Surface], fixed: Any) -> np.ndarray:
-    """Return the mask of the nodes that are inside of no surface, are linked as periodic, or are fixed by the user."""
+def _lines_of(gmsh: Any, nodes: _Nodes, curves: list[_Entity]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the line elements of the curves, and the curve of each."""
+    lines = [np.empty((0, 2), dtype=np.int64)]
+    line_tags = [np.empty(0, dtype=np.int64)]
+    for curve in curves:
+        for kind, _, tags in zip(*gmsh.model.mesh.getElements(1, curve.tag)):
+            if kind == _LINE:
+                lines.append(nodes.numbers(tags).reshape(-1, 2))
+                line_tags.append(np.full(len(lines[-1]), curve.tag))
+    return np.concatenate(lines), np.concatenate(line_tags)
+
+
+def _held_nodes(
+    nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity], lines: np.ndarray, fixed: Any
+) -> np.ndarray:
+    """Return the mask of the nodes that are inside of no surface and on no line inside of a curve, are linked as
+    periodic on surfaces, or are fixed by the user."""
     held = np.ones(len(nodes.tags), dtype=bool)
     for surface in surfaces:
         held[surface.nodes] = False
+    for curve in curves:
+        held[np.intersect1d(curve.nodes, lines)] = False
     for surface in surfaces:
         held[surface.periodic_nodes] = True
     if fixed is not None:
@@ -195,16 +236,17 @@ def _check_plane(nodes: _Nodes, triangles: np.ndarray) -> None:
         )
 
 
-def _move_nodes(gmsh: Any, nodes: _Nodes, surfaces: list[_Surface], points: np.ndarray) -> None:
+def _move_nodes(gmsh: Any, nodes: _Nodes, entities: list[_Entity], points: np.ndarray) -> None:
     """Move the nodes whose points differ."""
     has_moved = np.any(points != nodes.points[:, :2], axis=1)
-    for surface in surfaces:
-        moved = surface.nodes[has_moved[surface.nodes]]
+    for entity in entities:
+        moved = entity.nodes[has_moved[entity.nodes]]
         if moved.size == 0:
             continue
         places = np.column_stack([points[moved], nodes.points[moved, 2]])
         parameters = np.empty((len(moved), 0))
-        if surface.is_parametric:
-            parameters = gmsh.model.getParametrization(2, surface.tag, places.reshape(-1)).reshape(-1, 2)
+        if entity.is_parametric:
+            parameters = gmsh.model.getParametrization(entity.dimension, entity.tag, places.reshape(-1))
+            parameters = parameters.reshape(-1, entity.dimension)
         for tag, place, parameter in zip(nodes.tags[moved], places, parameters):
             gmsh.model.mesh.setNode(int(tag), place, parameter)

@@ -3,7 +3,8 @@
 An adapter is a module with
 
 - ``SUPPORTS_COPY``: whether it can make a new mesh; else meshes are only smoothed in place;
-- ``flatten(mesh, regions=None, fixed=None) -> FlatMesh``;
+- ``flatten(mesh, regions=None, fixed=None, lines=False) -> FlatMesh``; with ``lines``, for vertices that slide, line
+  cells are lines of the result and do not hold their vertices otherwise;
 - ``with_points(mesh, flat, points, inplace) -> mesh``: the mesh with other points, a new one unless ``inplace``.
 
 Which adapter takes an object is decided by the names of its classes and of their modules. So no package is imported for

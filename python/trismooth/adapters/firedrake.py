@@ -17,7 +17,7 @@ SUPPORTS_COPY = False
 _VTK_ORDER = [0, 1, 2, 5, 3, 4]
 
 
-def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
     """Return the mesh as plain arrays.
 
     Parameters
@@ -29,6 +29,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
     fixed : None, False or array_like
         None, False: none. An array: a mask, or numbers of nodes of the coordinates, as in the ``nodes`` of a
         ``DirichletBC`` on the space of the coordinates.
+    lines : bool
+        Makes no difference: the mesh has no line cells.
     """
     _check(mesh)
     # Coordinates are complex where Firedrake is built so; their imaginary parts are 0.

@@ -31,6 +31,12 @@ class FlatMesh:
         Vertices to hold.
     other_cells : ndarray of bool, shape (N,), optional
         Vertices of cells that are not triangles. They are held, too.
+    lines : ndarray of int, shape (K, 2), optional
+        Where vertices may slide: edges of straight line cells, which then are not among ``other_cells``. May be empty.
+    line_tags : ndarray of int, shape (K,), optional
+        A number for each of them: lines that the mesh tells apart differ.
+    links : ndarray of int, shape (L, 2), optional
+        Likewise: pairs of vertices that are periodic.
     """
 
     points: np.ndarray
@@ -38,6 +44,9 @@ class FlatMesh:
     regions: Optional[np.ndarray] = None
     fixed: Optional[np.ndarray] = None
     other_cells: Optional[np.ndarray] = None
+    lines: Optional[np.ndarray] = None
+    line_tags: Optional[np.ndarray] = None
+    links: Optional[np.ndarray] = None
 
 
 def float_points(points: Any) -> np.ndarray:
@@ -219,6 +228,30 @@ def _gives_regions(name: str, values: np.ndarray) -> bool:
         stacklevel=2,
     )
     return False
+
+
+def tags_of_lines(
+    names: Iterable[str], regions: Any, values: Callable[[str], Optional[np.ndarray]]
+) -> Optional[np.ndarray]:
+    """Return numbers that differ where cell arrays tell lines apart: those that give regions, by their names or because
+    the user says so.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Names of the cell arrays.
+    regions : object
+        The argument ``regions``.
+    values : callable
+        Returns the values of the lines in the array of a name, as in :func:`region_arrays`.
+
+    Returns
+    -------
+    ndarray of int64, shape (K,), or None
+    """
+    chosen = as_names(regions) or []
+    arrays = [values(name) for name in names if is_region_name(name) or name in chosen]
+    return combine_labels([array for array in arrays if array is not None and array.ndim == 1])
 
 
 def as_names(value: Any) -> Optional[list[str]]:

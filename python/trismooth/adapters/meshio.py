@@ -11,12 +11,14 @@ from .flat import (
     FlatMesh,
     choose_fixed,
     choose_regions,
+    combine_labels,
     float_points,
     labels_of_sets,
     no_such_name,
     one_value_each,
     point_array_mask,
     region_arrays,
+    tags_of_lines,
     triangle_width,
     vertex_mask,
     vertices_of,
@@ -28,7 +30,7 @@ SUPPORTS_COPY = True
 _NOT_CELL_SETS = frozenset({"gmsh:bounding_entities"})
 
 
-def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
     """Return the mesh as plain arrays.
 
     Parameters
@@ -43,8 +45,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
     fixed : None, False, str, list of str or array_like
         None: the point data ``fixed``, if there are such. A name or names: of point data, where vertices are held whose
         value is not zero, or of point sets. An array: a mask, or vertex numbers.
+    lines : bool
+        Whether blocks ``line`` are lines for vertices to slide on. They differ where cell data that give regions or
+        cell sets do. Vertices that a file of Gmsh calls periodic are linked.
     """
-    return _Flattener(mesh).flatten(regions, fixed)
+    return _Flattener(mesh).flatten(regions, fixed, lines)
 
 
 def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
@@ -67,10 +72,11 @@ class _Flattener:
         self._is_chosen = [_WIDTHS.get(block.type) == width for block in mesh.cells]
         self._first_cell = np.cumsum([0] + [len(block.data) for block in mesh.cells])
 
-    def flatten(self, regions: Any, fixed: Any) -> FlatMesh:
+    def flatten(self, regions: Any, fixed: Any, lines: bool) -> FlatMesh:
         mesh = self._mesh
         count = len(mesh.points)
-        others = (block for block, chosen in zip(mesh.cells, self._is_chosen) if not chosen)
+        of_lines = [b for b, block in enumerate(mesh.cells) if lines and block.type == "line"]
+        others = (block for b, block in enumerate(mesh.cells) if not self._is_chosen[b] and b not in of_lines)
         return FlatMesh(
             float_points(mesh.points),
             np.concatenate([mesh.cells[b].data for b in self._blocks()]),
@@ -85,22 +91,41 @@ class _Flattener:
             ),
             fixed=choose_fixed(fixed, count, default=self._default_fixed, named=self._named_fixed),
             other_cells=vertices_of((nodes for block in others for nodes in _nodes_of(block.data)), count),
+            lines=np.concatenate([mesh.cells[b].data for b in of_lines]) if of_lines else None,
+            line_tags=self._line_tags(of_lines, regions) if of_lines else None,
+            links=self._links() if lines else None,
         )
 
-    def _blocks(self) -> Iterator[int]:
-        """Numbers of the blocks with the triangles that are smoothed."""
-        return (b for b, chosen in enumerate(self._is_chosen) if chosen)
+    def _line_tags(self, blocks: list[int], regions: Any) -> Optional[np.ndarray]:
+        """A number for each line: they differ where cell data that give regions or cell sets do."""
+        of_data = tags_of_lines(self._mesh.cell_data, regions, lambda name: self._values(name, blocks))
+        count = self._cell_count(blocks)
+        of_sets = labels_of_sets((self._members(name, blocks) for name in self._set_names()), count)
+        return combine_labels([of_sets] if of_data is None else [of_data, of_sets])
 
-    def _values(self, name: str) -> np.ndarray:
-        """Values of cell data at the triangles."""
+    def _links(self) -> Optional[np.ndarray]:
+        """Pairs of vertices that a file of Gmsh calls periodic."""
+        entities = getattr(self._mesh, "gmsh_periodic", None) or []
+        pairs = [np.asarray(entity[3], dtype=np.int64).reshape(-1, 2) for entity in entities]
+        return np.concatenate(pairs) if pairs else None
+
+    def _blocks(self) -> list[int]:
+        """Numbers of the blocks with the triangles that are smoothed."""
+        return [b for b, chosen in enumerate(self._is_chosen) if chosen]
+
+    def _cell_count(self, blocks: list[int]) -> int:
+        return sum(len(self._mesh.cells[b].data) for b in blocks)
+
+    def _values(self, name: str, blocks: list[int]) -> np.ndarray:
+        """Values of cell data at the cells of the blocks."""
         data = self._mesh.cell_data[name]
-        of_blocks = (np.asarray(data[b]) for b in self._blocks())
+        of_blocks = (np.asarray(data[b]) for b in blocks)
         return np.concatenate([values.reshape(-1) if values.shape[1:] == (1,) else values for values in of_blocks])
 
-    def _members(self, name: str) -> np.ndarray:
-        """Numbers of the triangles in a cell set."""
+    def _members(self, name: str, blocks: list[int]) -> np.ndarray:
+        """Numbers of the cells in a cell set, counted over the blocks."""
         first, members = 0, [np.empty(0, dtype=np.int64)]
-        for b in self._blocks():
+        for b in blocks:
             of_block = self._mesh.cell_sets[name][b]
             count = len(self._mesh.cells[b].data)
             if of_block is not None:
@@ -114,21 +139,20 @@ class _Flattener:
     def _set_names(self) -> list[str]:
         return [name for name in self._mesh.cell_sets if name not in _NOT_CELL_SETS]
 
-    def _triangle_count(self) -> int:
-        return sum(len(self._mesh.cells[b].data) for b in self._blocks())
-
     def _default_regions(self) -> list[np.ndarray]:
-        arrays = region_arrays(self._mesh.cell_data, self._values)
+        blocks = self._blocks()
+        arrays = region_arrays(self._mesh.cell_data, lambda name: self._values(name, blocks))
         sets = self._set_names()
         if sets:
-            arrays.append(labels_of_sets((self._members(name) for name in sets), self._triangle_count()))
+            arrays.append(labels_of_sets((self._members(name, blocks) for name in sets), self._cell_count(blocks)))
         return arrays
 
     def _named_regions(self, name: str) -> np.ndarray:
+        blocks = self._blocks()
         if name in self._mesh.cell_data:
-            return one_value_each(self._values(name), name)
+            return one_value_each(self._values(name, blocks), name)
         if name in self._set_names():
-            return labels_of_sets([self._members(name)], self._triangle_count())
+            return labels_of_sets([self._members(name, blocks)], self._cell_count(blocks))
         raise no_such_name("regions", name, "cell data or cell set", [*self._mesh.cell_data, *self._set_names()])
 
     def _default_fixed(self) -> Optional[np.ndarray]:

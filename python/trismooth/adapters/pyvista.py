@@ -24,18 +24,20 @@ from .flat import (
     one_value_each,
     point_array_mask,
     region_arrays,
+    tags_of_lines,
     triangle_width,
     vertices_of,
 )
 
 SUPPORTS_COPY = True
 
+_LINES = (3, 4)  # lines and polylines
 _TRIANGLE = 5
 _TRIANGLE_STRIP = 6
 _QUADRATIC_TRIANGLE = 22
 
 
-def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
     """Return the mesh as plain arrays.
 
     Parameters
@@ -49,8 +51,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
     fixed : None, False, str, list of str or array_like
         None: the point array ``fixed``, if there is one. A name or names: of point arrays; vertices are held where they
         are not zero. An array: a mask, or vertex numbers.
+    lines : bool
+        Whether lines and polylines are lines for vertices to slide on. They differ where cell arrays that give regions
+        do.
     """
-    cells = _cells_of(mesh)
+    cells = _cells_of(mesh, lines)
     count = mesh.GetNumberOfPoints()
     points = float_points(_to_numpy(mesh.GetPoints().GetData()))
     cell_data, point_data = mesh.GetCellData(), mesh.GetPointData()
@@ -61,6 +66,10 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
             return None if values is None else values[cells.of_triangle]
 
         return region_arrays(_names(cell_data), of_triangles)
+
+    def of_lines(name: str) -> Optional[np.ndarray]:
+        values = _values(cell_data, name)
+        return None if values is None else values[cells.of_line]
 
     def named_regions(name: str) -> np.ndarray:
         of_triangle: np.ndarray = _values_of_name(cell_data, name, "regions", "cell array")[cells.of_triangle]
@@ -86,6 +95,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
             named=named_fixed,
         ),
         other_cells=vertices_of(cells.other_nodes, count),
+        lines=cells.lines,
+        line_tags=tags_of_lines(_names(cell_data), regions, of_lines) if len(cells.lines) > 0 else None,
     )
 
 
@@ -112,10 +123,13 @@ def _copy(mesh: Any) -> Any:
 
 @dataclass
 class _Cells:
-    """The cells of a mesh: triangles, the cell that each of them is, and arrays of nodes of all other cells."""
+    """The cells of a mesh: triangles, the cell that each of them is, the same of edges of lines, and arrays of nodes of
+    all other cells."""
 
     triangles: np.ndarray
     of_triangle: np.ndarray
+    lines: np.ndarray
+    of_line: np.ndarray
     other_nodes: list[np.ndarray]
 
 
@@ -132,6 +146,13 @@ class _CellArray:
         nodes: np.ndarray = self.nodes[self.begins[chosen][:, None] + np.arange(width)]
         return nodes
 
+    def edges_of(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the edges between nodes that follow each other in the chosen cells, and the cell that each is of."""
+        counts = (self.ends - self.begins)[chosen] - 1
+        of_edge = np.repeat(chosen, counts)
+        first = self.begins[of_edge] + np.arange(len(of_edge)) - np.repeat(np.cumsum(counts) - counts, counts)
+        return np.column_stack([self.nodes[first], self.nodes[first + 1]]), of_edge
+
     def nodes_of_others(self, chosen: np.ndarray) -> np.ndarray:
         """Return the nodes of all cells but the chosen ones."""
         is_other = np.ones(len(self.begins), dtype=bool)
@@ -140,12 +161,13 @@ class _CellArray:
         return nodes
 
 
-def _cells_of(mesh: Any) -> _Cells:
+def _cells_of(mesh: Any, with_lines: bool) -> _Cells:
+    """Return the cells. Unless `with_lines`, lines are other cells."""
     if mesh.GetNumberOfCells() > 0:
         if mesh.IsA("vtkPolyData"):
-            return _cells_of_poly_data(mesh)
+            return _cells_of_poly_data(mesh, with_lines)
         if mesh.IsA("vtkUnstructuredGrid"):
-            return _cells_of_grid(mesh)
+            return _cells_of_grid(mesh, with_lines)
     elif mesh.IsA("vtkPointSet"):
         raise ValueError("points: it has no cells")
     raise TypeError(
@@ -154,7 +176,7 @@ def _cells_of(mesh: Any) -> _Cells:
     )
 
 
-def _cells_of_poly_data(mesh: Any) -> _Cells:
+def _cells_of_poly_data(mesh: Any, with_lines: bool) -> _Cells:
     # VTK numbers the cells in this order.
     first_polygon = mesh.GetNumberOfVerts() + mesh.GetNumberOfLines()
     first_strip = first_polygon + mesh.GetNumberOfPolys()
@@ -163,26 +185,40 @@ def _cells_of_poly_data(mesh: Any) -> _Cells:
     strips = _cell_array(mesh.GetStrips())
     of_strips, strip_of = _triangles_of_strips(strips, np.arange(len(strips.begins)))
     triangle_width(len(chosen) + len(of_strips), 0)
+    lines = _cell_array(mesh.GetLines())
+    chosen_lines = np.flatnonzero(with_lines & (lines.ends - lines.begins >= 2))
+    edges, line_of = lines.edges_of(chosen_lines)
     return _Cells(
         np.concatenate([polygons.of(chosen, 3), of_strips]),
         np.concatenate([first_polygon + chosen, first_strip + strip_of]),
-        [_cell_array(mesh.GetVerts()).nodes, _cell_array(mesh.GetLines()).nodes, polygons.nodes_of_others(chosen)],
+        edges,
+        mesh.GetNumberOfVerts() + line_of,
+        [
+            _cell_array(mesh.GetVerts()).nodes,
+            lines.nodes_of_others(chosen_lines),
+            polygons.nodes_of_others(chosen),
+        ],
     )
 
 
-def _cells_of_grid(mesh: Any) -> _Cells:
+def _cells_of_grid(mesh: Any, with_lines: bool) -> _Cells:
     cells = _cell_array(mesh.GetCells())
     types = _cell_types(mesh)
     linear, quadratic, strips = (
         np.flatnonzero(types == kind) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE, _TRIANGLE_STRIP)
     )
     of_strips, strip_of = _triangles_of_strips(cells, strips)
+    chosen_lines = np.flatnonzero(with_lines & np.isin(types, _LINES) & (cells.ends - cells.begins >= 2))
+    edges, line_of = cells.edges_of(chosen_lines)
     if triangle_width(len(linear) + len(of_strips), len(quadratic)) == 6:
-        return _Cells(cells.of(quadratic, 6), quadratic, [cells.nodes_of_others(quadratic)])
+        others = cells.nodes_of_others(np.concatenate([quadratic, chosen_lines]))
+        return _Cells(cells.of(quadratic, 6), quadratic, edges, line_of, [others])
     return _Cells(
         np.concatenate([cells.of(linear, 3), of_strips]),
         np.concatenate([linear, strip_of]),
-        [cells.nodes_of_others(np.concatenate([linear, strips]))],
+        edges,
+        line_of,
+        [cells.nodes_of_others(np.concatenate([linear, strips, chosen_lines]))],
     )
 
 

@@ -13,7 +13,7 @@ from .flat import FlatMesh, as_names, choose_fixed, choose_regions, labels_of_se
 SUPPORTS_COPY = True
 
 
-def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
+def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
     """Return the mesh as plain arrays.
 
     Parameters
@@ -25,6 +25,9 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
         None: the ends of all named boundaries, which may lie inside of the mesh. False: none of them. A name or names:
         only those of these boundaries. An array, a mask or vertex numbers: those vertices, besides all named
         boundaries.
+    lines : bool
+        Whether named boundaries are lines for vertices to slide on; they hold vertices then only where ``fixed`` has
+        their name.
     """
     _check(mesh)
     points = np.ascontiguousarray(mesh.doflocs.T)
@@ -49,8 +52,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
         mask[mesh.facets[:, np.asarray(boundaries[name])]] = True
         return mask
 
-    mask = choose_fixed(fixed, len(points), default=all_boundaries, named=named_fixed)
-    of_boundaries = all_boundaries()
+    # Lines hold what does not slide along them.
+    named = [np.asarray(facets) for facets in boundaries.values()] if lines and fixed is not False else []
+    facets = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *named]))
+    of_boundaries = None if lines else all_boundaries()
+    mask = choose_fixed(fixed, len(points), default=lambda: of_boundaries, named=named_fixed)
     if mask is not None and of_boundaries is not None and as_names(fixed) is None:
         mask = mask | of_boundaries
     return FlatMesh(
@@ -64,6 +70,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None) -> FlatMesh:
             cell_count=mesh.nelements,
         ),
         fixed=mask,
+        lines=mesh.facets[:, facets].T,
+        line_tags=labels_of_sets(named, mesh.nfacets)[facets],
     )
 
 
