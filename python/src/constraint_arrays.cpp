@@ -1,8 +1,5 @@
 #include "trismooth/python/constraint_arrays.h"
 
-#include <string>
-
-#include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 
 namespace nb = nanobind;
@@ -29,19 +26,6 @@ Constraints ConstraintArrays::constraints(const Sliding& slide) const {
   all.slide.line_tags = line_tags_;
   all.slide.links = links_;
   return all;
-}
-
-void ConstraintArrays::require_no_sliding(const Sliding& slide) const {
-  const std::string why = "for triangles of three nodes; those of six have middles on their sides";
-  if (slide.along != Slide::off) {
-    raise_value_error("slide", "is " + why);
-  }
-  if (!lines_.empty()) {
-    raise_value_error("lines", "are " + why);
-  }
-  if (!links_.empty()) {
-    raise_value_error("links", "are " + why);
-  }
 }
 
 }  // namespace trismooth::python

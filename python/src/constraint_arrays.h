@@ -24,8 +24,6 @@ class ConstraintArrays {
   /// Views of the arrays, with the settings of `slide`.
   Constraints constraints(const Sliding& slide) const;
   const std::vector<double>& sizes() const { return sizes_; }
-  /// Raises ValueError where triangles of six nodes cannot have what is wanted.
-  void require_no_sliding(const Sliding& slide) const;
 
  private:
   std::vector<std::int32_t> regions_;

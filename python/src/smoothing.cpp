@@ -122,8 +122,8 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   CallOptions call = parse_options(arguments);
   SmoothingOptions& options = call.smoothing;
   options.mean_ratio.target_lengths = held.sizes();
-  if (triangles.nodes() == 6) {
-    held.require_no_sliding(call.slide);
+  if (triangles.nodes() == 6 && call.slide.along != Slide::off) {
+    raise_value_error("slide", "is for triangles of three nodes; those of six have middles on their sides");
   }
   Interruption interruption(progress);
   options.progress = std::ref(interruption);

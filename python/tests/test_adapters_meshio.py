@@ -199,6 +199,10 @@ def test_quadratic_triangles_do_not_slide() -> None:
     mesh = mesh_of([("triangle6", q.triangles)], q.points)
     with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
         trismooth.smooth(mesh, slide="straight")
+    held = trismooth.smooth(q.points, q.triangles, lines=edges(G.middle_column), links=[[G.vertex(2, 2), G.vertex(3, 3)]])
+    on_lines = [*G.middle_column, G.vertex(2, 2), G.vertex(3, 3)]
+    assert same_bits(held.points, q.points)[on_lines].all()
+    assert not same_bits(held.points, q.points)[: len(G.points)][G.is_inside].all()
 
 
 @pytest.mark.skipif(not DATA.exists(), reason="the example meshes are not here")

@@ -128,8 +128,6 @@ CASES = [
     ({"links": [0, 1]}, ValueError, "links: shape (2,)"),
     ({"links": [["a", "b"]], "slide": "straight"}, TypeError, "links: "),
     ({"triangles": [[0, 1, 5, 6, 2, 7]], "slide": "curves"}, ValueError, "slide: is for triangles of three nodes"),
-    ({"triangles": [[0, 1, 5, 6, 2, 7]], "lines": [[0, 1]]}, ValueError, "lines: are for triangles of three nodes"),
-    ({"triangles": [[0, 1, 5, 6, 2, 7]], "links": [[0, 1]]}, ValueError, "links: are for triangles of three nodes"),
     ({"progress": 5}, TypeError, "progress"),
     ({"stream": 3}, TypeError, "stream"),
     ({"inplace": True}, TypeError, "inplace"),

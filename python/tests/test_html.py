@@ -51,8 +51,9 @@ def test_vertices_that_slid_are_not_among_the_free_ones(mesh):
     free = result.moved - slid
     assert free <= result.free_vertices
     text = text_of(result._repr_html_())
-    assert text.startswith(f"{free} of {result.free_vertices} free vertices moved in {result.sweeps} sweeps; ")
-    assert f" {slid} of {vertices} vertices on 4 lines slid; lines are where they were. " in text
+    sentence = f"{free} of {result.free_vertices} free vertices moved, and {slid} of {vertices} on lines slid, in 20 sweeps; "
+    assert text.startswith(sentence)
+    assert ". Lines are where they were. " in text
 
 
 def test_vertices_that_alone_slid_are_told():
@@ -60,15 +61,18 @@ def test_vertices_that_alone_slid_are_told():
     points[1:6, 0] += 0.3
     result = trismooth.smooth(points, triangles, slide="straight")
     text = text_of(result._repr_html_())
-    assert text.startswith("0 of 0 free vertices moved in ")
-    assert f"{result.sliding.slid} of 10 vertices on 2 lines slid" in text
+    assert text.startswith("0 of 0 free vertices moved, and 10 of 10 on lines slid, in ")
+    bent = trismooth.smooth([[0, 0], [1.7, -0.1], [2, 0], [2, 1], [1, 1], [0, 1]], [[0, 1, 5], [1, 4, 5], [1, 3, 4], [1, 2, 3]], slide="curves", deviation=0.1)
+    assert f"Lines are up to {bent.sliding.largest_deviation:.3g} from where they were, " in text_of(bent._repr_html_())
 
 
 def test_where_none_can_slide_that_is_told(mesh):
     points, triangles = mesh
     is_held = (points[:, 0] % 12 == 0) | (points[:, 1] % 9 == 0)
     result = trismooth.smooth(points, triangles, slide="curves", fixed=is_held)
-    assert "No vertex of a boundary or an interface can slide." in text_of(result._repr_html_())
+    text = text_of(result._repr_html_())
+    assert " free vertices moved in " in text
+    assert ". No vertex of a boundary or an interface can slide. " in text
 
 
 def test_cards_have_the_figures_before_and_after(result):

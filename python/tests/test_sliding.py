@@ -175,6 +175,26 @@ def test_texts_say_what_slid():
     assert "no vertex of a boundary or an interface can slide" in str(none)
 
 
+@pytest.mark.skipif(not trismooth.build_info()["cuda"], reason="this build has no CUDA")
+def test_lines_are_refused_beside_arrays_on_a_device():
+    class OnDevice:
+        def __init__(self, array):
+            self.shape, self.ndim, self.dtype = array.shape, array.ndim, array.dtype
+
+        def __dlpack_device__(self):
+            return (2, 0)
+
+        def __dlpack__(self, **options):
+            return None
+
+    points, triangles = grid(3, 3)
+    for name in ("lines", "line_tags", "links"):
+        with pytest.raises(ValueError, match=f"^{name}: are for arrays in memory of the host"):
+            trismooth.smooth(OnDevice(points), OnDevice(triangles), slide="straight", **{name: triangles[:, :2]})
+        with pytest.raises(ValueError, match=f"^{name}: are for arrays in memory of the host"):
+            trismooth.Plan(OnDevice(triangles), len(points), **{name: triangles[:, :2]})
+
+
 needs_files = pytest.mark.skipif(not trismooth.build_info()["files"], reason="this build has no files")
 
 

@@ -32,6 +32,6 @@ def _host_array(name: str, array: Any) -> Any:
     return _arrays.on_host(array, name, float if name == "size" else None)
 
 
-def slides(options: Dict[str, Any]) -> bool:
-    """Whether the options of a call have vertices slide."""
-    return bool(options.get("slide", "off") != "off")
+def slides(slide: Any) -> bool:
+    """Whether a caller's ``slide`` has vertices slide. What is no valid value is refused later."""
+    return not (isinstance(slide, str) and slide == "off")

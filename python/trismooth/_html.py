@@ -7,7 +7,7 @@ from html import escape
 from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
 
 from ._core import QualityReport
-from ._result import free_moved, sliding_text
+from ._result import free_moved, where_lines_are
 
 if TYPE_CHECKING:
     from ._result import Result
@@ -125,12 +125,16 @@ def _outcome(result: Result, after: Optional[QualityReport]) -> str:
     if result.moved == 0:
         return "No vertex could be improved: the mesh is as it was."
     reason = _STOP_REASONS.get(result.stop_reason, result.stop_reason)
+    sliding = result.sliding
+    slid = ""
+    if sliding is not None and sliding.vertices > 0:
+        slid = f", and {sliding.slid:,} of {sliding.vertices:,} on lines slid,"
     text = (
-        f"{free_moved(result):,} of {result.free_vertices:,} free vertices moved in {result.sweeps:,} "
+        f"{free_moved(result):,} of {result.free_vertices:,} free vertices moved{slid} in {result.sweeps:,} "
         f"sweep{_plural(result.sweeps)}; {reason}."
     )
-    if result.sliding is not None:
-        text += f" {_sentence(sliding_text(result.sliding))}"
+    if sliding is not None:
+        text += _sentence(where_lines_are(sliding))
     if result.reverted > 0:
         text += f" The guard put {result.reverted:,} back."
     if not result.reproducible:
@@ -139,7 +143,7 @@ def _outcome(result: Result, after: Optional[QualityReport]) -> str:
 
 
 def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}."
+    return f" {text[0].upper()}{text[1:]}." if text else ""
 
 
 def _lead(outcome: str, report: Optional[QualityReport]) -> str:

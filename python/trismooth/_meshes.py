@@ -38,7 +38,7 @@ def smooth_mesh(
         inplace = not adapter.SUPPORTS_COPY
     if not inplace and not adapter.SUPPORTS_COPY:
         raise ValueError("inplace: meshes of this type can be smoothed in place only")
-    flat = adapter.flatten(mesh, regions=given.regions, fixed=given.fixed, lines=slides(options))
+    flat = adapter.flatten(mesh, regions=given.regions, fixed=given.fixed, lines=slides(options["slide"]))
     result = smooth(
         flat.points,
         flat.triangles,

@@ -22,18 +22,26 @@ def free_moved(result: Result) -> int:
 
 def sliding_text(sliding: SlidingResult) -> str:
     """What became of vertices that may slide, in the words of the program's report."""
+    where = where_lines_are(sliding)
     if sliding.vertices == 0:
-        return "no vertex of a boundary or an interface can slide"
+        return where
     text = (
         f"{sliding.slid:,} of {sliding.vertices:,} vert{'ex' if sliding.vertices == 1 else 'ices'} on "
         f"{sliding.lines:,} line{'' if sliding.lines == 1 else 's'} slid"
     )
+    return f"{text}; {where}" if where else text
+
+
+def where_lines_are(sliding: SlidingResult) -> str:
+    """How far the new lines are from the old ones; empty where nothing slid."""
+    if sliding.vertices == 0:
+        return "no vertex of a boundary or an interface can slide"
     if sliding.slid == 0:
-        return text
+        return ""
     if sliding.largest_deviation == 0:
-        return f"{text}; lines are where they were"
+        return "lines are where they were"
     return (
-        f"{text}; lines are up to {sliding.largest_deviation:.3g} from where they were, "
+        f"lines are up to {sliding.largest_deviation:.3g} from where they were, "
         f"{sliding.relative_deviation:.3g} of an edge"
     )
 

@@ -33,8 +33,9 @@ def smooth(
 ) -> Result:
     """Smooths a planar triangle mesh: moves its free vertices so that the triangles get closer to equilateral.
 
-    Boundaries, borders of regions and what you name keep their coordinates bit for bit. No triangle that was valid
-    becomes invalid, and none ends both worse than it was and worse than the worst one around the moved vertices was.
+    Boundaries, borders of regions and what you name keep their coordinates bit for bit; with ``slide`` boundaries and
+    borders keep their lines. No triangle that was valid becomes invalid, and none ends both worse than it was and worse
+    than the worst one around the moved vertices was.
     The result is the same to the bit for every number of threads, on the CPU and on a GPU.
 
     Parameters

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
+from ._constraints import slides
 from .adapters.flat import triangle_width, vertices_of
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
             raise TypeError(f"{name}: is for arrays and meshes; here the model has it all")
     nodes = _nodes_of_model(gmsh)
     surfaces = _entities(gmsh, nodes, 2)
-    curves = [] if slide == "off" else _entities(gmsh, nodes, 1)
+    curves = _entities(gmsh, nodes, 1) if slides(slide) else []
     elements = _elements_of(gmsh, nodes, surfaces, curves)
     held = _held_nodes(nodes, surfaces, curves, elements.lines, fixed)
     _check_plane(nodes, elements.triangles)
