@@ -56,6 +56,39 @@ class Mesh:
                    default=0.0)
 
 
+def counter_clockwise(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The triangles listed as their neighbours are, and most of them counter-clockwise: how a file lists them is no
+    matter of their shape."""
+    sides: dict[tuple[int, int], list[tuple[int, bool]]] = {}
+    for t, (a, b, c) in enumerate(triangles.tolist()):
+        for u, v in ((a, b), (b, c), (c, a)):
+            sides.setdefault((min(u, v), max(u, v)), []).append((t, u < v))
+    around: list[list[tuple[int, bool]]] = [[] for _ in triangles]
+    for pair in sides.values():
+        if len(pair) == 2:
+            (s, is_up), (t, is_up_too) = pair
+            around[s].append((t, is_up == is_up_too))
+            around[t].append((s, is_up == is_up_too))
+    turned = np.zeros(len(triangles), bool)
+    found = np.zeros(len(triangles), bool)
+    for first in range(len(triangles)):
+        if found[first]:
+            continue
+        found[first] = True
+        component = [first]
+        for t in component:
+            for other, differs in around[t]:
+                if not found[other]:
+                    found[other] = True
+                    turned[other] = turned[t] ^ differs
+                    component.append(other)
+        a, b, c = (points[triangles[component, i]] for i in range(3))
+        twice = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+        if (np.where(turned[component], -twice, twice) < 0).mean() > 0.5:
+            turned[component] ^= True
+    return np.where(turned[:, None], triangles[:, ::-1], triangles)
+
+
 class Program:
     def __init__(self, path: Path, folder: Path) -> None:
         self.path = path
@@ -65,12 +98,7 @@ class Program:
         mesh = meshio.read(path)
         triangles = np.concatenate([cells.data[:, :3] for cells in mesh.cells if cells.type.startswith("triangle")])
         points = mesh.points[:, :2].astype(float)
-        a, b, c = (points[triangles[:, i]] for i in range(3))
-        u, v = b - a, c - a
-        clockwise = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0
-        # Listed clockwise is no fault of a mesh; that some are and others are not may be one.
-        if clockwise.mean() > 0.9:
-            triangles = triangles[:, ::-1]
+        triangles = counter_clockwise(points, triangles)
         held = np.asarray(mesh.point_data.get("trismooth:fixed", np.zeros(len(points)))).astype(bool)
         return Mesh(points, triangles, held, report)
 
@@ -123,8 +151,9 @@ def held(program: Program, meshes: list[Path]) -> None:
         fixed = program.smooth(path, OFF)
         straight, curves = program.smooth(path, STRAIGHT), program.smooth(path, CURVES)
         all_held = fixed.held[fixed.triangles].all(axis=1)
-        worse = [m for m in (straight, curves) if m.shapes.min() < fixed.shapes.min() - 1e-15]
-        inverted = [(m.shapes <= 0).sum() - (fixed.shapes <= 0).sum() for m in (straight, curves)]
+        before = program.as_it_is(path)
+        worse = any(m.shapes.min() < before.shapes.min() - 1e-12 or (m.shapes <= 0).sum() > (before.shapes <= 0).sum()
+                    for m in (straight, curves))
         for name, part in (("three held", all_held), ("all", np.ones(len(all_held), bool))):
             if not part.any():
                 continue
@@ -134,11 +163,10 @@ def held(program: Program, meshes: list[Path]) -> None:
                 deviation = max(curves.sliding.get("relative_deviation", 0), straight.sliding.get("relative_deviation", 0))
                 tail = (f"{straight.sliding.get('slid', 0)}, {curves.sliding.get('slid', 0)} | {deviation:.1e} "
                         f"| {straight.area_change:.1e}, {curves.area_change:.1e}")
-                tail += "; WORSE" if worse else ""
-                tail += f"; INVERTED {inverted}" if any(n > 0 for n in inverted) else ""
+                tail += "; WORSE THAN THE INPUT" if worse else ""
             else:
                 tail = " | | "
-            print(f"| {path.stem if name != 'all' else ''} | {name} | {which} | {numbers(fixed.shapes[part], 0.01)} "
+            print(f"| {path.stem} | {name} | {which} | {numbers(fixed.shapes[part], 0.01)} "
                   f"| {numbers(straight.shapes[part], 0.01)} | {numbers(curves.shapes[part], 0.01)} | {tail} |",
                   flush=True)
 

@@ -1,7 +1,6 @@
 #include "trismooth/cuda/device_smoother.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -16,59 +15,19 @@
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/run_record.h"
 #include "trismooth/cuda/runtime/timeline.h"
-#include "trismooth/cuda/slide/device_slide.h"
-#include "trismooth/cuda/slide/slide_pass.h"
+#include "trismooth/cuda/sliding_run.h"
 #include "trismooth/cuda/sweep_engine.h"
+#include "trismooth/cuda/sweeps/device_stages.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
-#include "trismooth/smoothing/sweeps/stages.h"
 
 namespace trismooth::cuda {
 
 namespace {
-
-/// What a launch of sweeps and the guard behind it leave for the host, in one piece: one copy brings it over.
-struct RunRecord {
-  static constexpr std::int32_t most_sweeps = 256;
-
-  LoopState state;
-  GuardState guard;
-  std::array<SweepSums, most_sweeps> sums;
-};
-
-/// The stages of a run whose sweeps are launched many at a time.
-class DeviceStages {
- public:
-  DeviceStages(const SmoothingOptions& options, std::int64_t free_count)
-      : stages_(options, free_count), left_(stages_.sweeps()) {}
-
-  bool is_last() const { return stages_.is_last(); }
-  std::int64_t few_moves() const { return stages_.few_moves(); }
-  template <class T>
-  MeanRatioStep<T> step() const {
-    return stages_.step<T>();
-  }
-  /// How many of `sweeps` may be launched at a time.
-  std::int32_t at_most(std::int32_t sweeps) const {
-    return is_last() ? sweeps : static_cast<std::int32_t>(std::min<std::int64_t>(sweeps, left_));
-  }
-  /// Whether next() is due after a launch that made so many sweeps. `settled`: the last one ends the stage.
-  bool is_over(std::int64_t sweeps, bool settled) {
-    left_ -= sweeps;
-    return !is_last() && (settled || left_ == 0);
-  }
-  void next(std::int64_t moved, bool settled) {
-    stages_.next(moved, settled);
-    left_ = stages_.sweeps();
-  }
-
- private:
-  Stages stages_;
-  std::int64_t left_;  ///< until next(), where the stage is not the last
-};
 
 /// Drives an engine in working precision T from stored coordinates to stored coordinates.
 template <class T>
@@ -91,7 +50,7 @@ class SweepDriver final : public DeviceSmoother {
   }
 
   void slide_on(Slidable slidable, std::vector<std::uint8_t> reversed) override {
-    slide_.emplace(context_, order_, std::move(slidable), std::move(reversed));
+    slides_.allow(context_, order_, std::move(slidable), std::move(reversed));
   }
 
   bool has_free_vertices() const override { return engine_.has_value(); }
@@ -137,10 +96,7 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    slides_ = slide_.has_value();
-    if (slides_) {
-      slide_->begin(stored, frame, storage);
-    }
+    slides_.begin(stored, frame, storage);
     Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
                   stored};
     enter(ending, result);
@@ -229,8 +185,8 @@ class SweepDriver final : public DeviceSmoother {
     for (;;) {
       const auto launched = Clock::now();
       // What comes behind the last sweep is not queued behind a stage that is not the last.
-      const bool follows = may_follow && !slides_ && stages.is_last();
-      loop.sweeps = up_to_slide(stages.at_most(batches.size()));
+      const bool follows = may_follow && !slides_.any() && stages.is_last();
+      loop.sweeps = slides_.up_to_slide(stages.at_most(batches.size()));
       if (options_.max_sweeps > 0) {
         loop.remaining = options_.max_sweeps - result.sweeps;
         loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
@@ -239,9 +195,6 @@ class SweepDriver final : public DeviceSmoother {
       launch(stages, loop, result);
       if (follows) {
         queue_ending(ending, result);
-      }
-      if (slides_ && !slide_->has_lines()) {
-        find_lines();
       }
       queue_slides(stages, loop, result.sweeps, result);
       read_record(result);
@@ -285,9 +238,7 @@ class SweepDriver final : public DeviceSmoother {
   /// The run once more up to the sweep at which the caller said stop: it gives the same bits again (but for
   /// Order::unordered), and costs less than to keep the positions of every sweep.
   void sweep_again(LoopRules loop, const Ending& ending, SmoothingResult& result) {
-    if (slides_) {
-      slide_->restart();
-    }
+    slides_.restart();
     enter(ending, result);
     host_record_.state = LoopState{};
     loop.remaining = 0;
@@ -295,7 +246,7 @@ class SweepDriver final : public DeviceSmoother {
     begin_stage();
     for (std::int64_t done = 0; done < result.sweeps;) {
       const auto left = std::min<std::int64_t>(result.sweeps - done, RunRecord::most_sweeps);
-      loop.sweeps = up_to_slide(stages.at_most(static_cast<std::int32_t>(left)));
+      loop.sweeps = slides_.up_to_slide(stages.at_most(static_cast<std::int32_t>(left)));
       launch(stages, loop, result);
       queue_slides(stages, loop, done, result);
       read_record(result);
@@ -313,64 +264,21 @@ class SweepDriver final : public DeviceSmoother {
   void begin_stage() {
     host_record_.state.evaluates_all = 1;
     host_record_.state.marks = 0;
-    sweeps_of_stage_ = 0;
+    slides_.begin_stage();
     with_engine([](auto& engine) { engine.begin_stage(); });
   }
 
-  /// Finds what slides, while the first sweeps are made.
-  void find_lines() {
-    slides_ = slide_->find_lines();
-    if (slides_ && options_.method == Method::mean_ratio) {
-      with_engine([&](auto& engine) { slide_->aim(engine.targets(), before_.data()); });
-    }
-  }
-
-  /// As many of the sweeps as there are up to the next one that vertices slide behind.
-  std::int32_t up_to_slide(std::int32_t sweeps) const {
-    if (!slides_) {
-      return sweeps;
-    }
-    std::int32_t count = 1;
-    while (count < sweeps && !slides_behind(sweeps_of_stage_ + count, false, false)) {
-      ++count;
-    }
-    return count;
-  }
-
-  /// Queues the slides behind sweeps that have been queued. `done`: sweeps of the run before them.
+  /// Queues the slides behind the sweeps of a launch. `done`: sweeps of the run before it. What slides is found while
+  /// the device makes the first ones.
   void queue_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done, SmoothingResult& result) {
-    if (!slides_) {
-      return;
-    }
-    const bool is_limit = done + loop.sweeps == options_.max_sweeps;
-    const bool due_at_end = slides_behind(sweeps_of_stage_ + loop.sweeps, false, is_limit);
     with_engine([&](auto& engine) {
-      const auto [first, second] = engine.output(0);
-      SlideWork<T> work = slide_->template work<T>();
-      work.first = first;
-      work.second = second;
-      work.first_marks = engine.marks(0);
-      work.second_marks = engine.marks(1);
-      work.tolerance = static_cast<T>(options_.tolerance);
-      result.kernel_launches += launch_slide_pass(
-          MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work, slide_->batches(),
-          due_at_end ? loop.sweeps : 0, &record_.data()->state, record_.data()->sums.data(), context_.stream());
+      slides_.find_lines(engine, before_.data());
+      result.kernel_launches += slides_.queue(engine, stages, loop, done, record_.data(), context_.stream());
     });
   }
 
-  /// Has the state say whether the run has settled where vertices slid behind its last sweep.
   void note_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done) {
-    LoopState& state = host_record_.state;
-    sweeps_of_stage_ += state.sweeps;
-    const bool settled = state.stop != LoopState::running;
-    const bool is_limit = done + state.sweeps == options_.max_sweeps;
-    if (!slides_ || state.sweeps == 0 || !slides_behind(sweeps_of_stage_, settled, is_limit)) {
-      return;
-    }
-    with_engine([&](auto& engine) { engine.note_slides(state); });
-    LoopRules rules = loop;
-    rules.few_moves = stages.few_moves();
-    state.stop = stop_after(host_record_.sums[static_cast<std::size_t>(state.sweeps - 1)], rules);
+    with_engine([&](auto& engine) { slides_.note(engine, stages, loop, done, host_record_); });
   }
 
   /// Why the smoothing ends with the last sweep of a launch, as far as its kernels know.
@@ -430,7 +338,7 @@ class SweepDriver final : public DeviceSmoother {
   /// The ending where the host knows that the run is over.
   void end_now(Ending& ending, SmoothingResult& result) {
     ending.input.is_over = true;
-    if (slides_) {
+    if (slides_.any()) {
       end_slides(ending, result);
       return;
     }
@@ -438,56 +346,21 @@ class SweepDriver final : public DeviceSmoother {
     record_.download({&host_record_, 1});
   }
 
-  /// The ending where vertices slide. Lines, by the host, and elements, by the device, have their say in turn: who goes
-  /// back for one may spoil the other. When nobody has anything to say, all is written.
   void end_slides(Ending& ending, SmoothingResult& result) {
     timeline_.rewind(1);
     timeline_.mark();
-    const auto list = [&](std::int32_t vertex, Point2<double> position) {
-      result.reverted.push_back({vertex, position});
-    };
     with_engine([&](auto& engine) {
       const auto [first, second] = engine.output(host_record_.state.current);
       ending.input.first = first;
       ending.input.second = second;
-      GuardState* const state = &record_.data()->guard;
-      bool again = true;
-      while (again) {
-        result.guard_rounds += slide_->settle(options_.guard, before_.data(), list);
-        ending.input.held = slide_->held();
-        again = false;
-        if (options_.guard) {
-          host_record_.guard = GuardState{};
-          record_.upload({&host_record_, 1});
-          result.kernel_launches += launch_guard(engine.rings(), ending.input, guard_buffers_,
-                                                 static_cast<Point2<double>*>(nullptr), state, context_.stream());
-          record_.download({&host_record_, 1});
-          const DeviceGuardOutcome outcome =
-              finish_guard(context_, engine.rings(), ending.input, guard_buffers_,
-                           static_cast<Point2<double>*>(nullptr), state, host_record_.guard, result.kernel_launches);
-          result.guard_rounds += outcome.rounds;
-          result.reverted.insert(result.reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
-          slide_->note_reverted(outcome.held, list);
-          again = !outcome.held.empty();
-        }
-      }
-      host_record_.guard = GuardState{};
-      record_.upload({&host_record_, 1});
-      launch_writing(engine.rings(), ending.input, ending.stored, state, context_.stream());
+      slides_.end(context_, engine, ending.input, guard_buffers_, ending.stored, record_, host_record_, result);
     });
-    ++result.kernel_launches;
-    record_.download({&host_record_, 1});
-    result.moved_vertices = host_record_.guard.moved;
-    slide_->finish(ending.stored, result);
     timeline_.mark();
-    // (Nobody goes back twice.)
-    std::ranges::sort(result.reverted, {}, &RevertedVertex::vertex);
-    result.reverted_vertices = std::ssize(result.reverted);
   }
 
   /// What is left of the ending when its record has been read.
   void finish(const Ending& ending, SmoothingResult& result) {
-    if (slides_) {
+    if (slides_.any()) {
       context_.synchronize();
       return;
     }
@@ -562,10 +435,8 @@ class SweepDriver final : public DeviceSmoother {
   GuardBuffers guard_buffers_;
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
-  std::optional<DeviceSlide> slide_;  ///< what may slide
-  bool slides_ = false;               ///< something does in this run, or may as far as is known
-  std::int64_t sweeps_of_stage_ = 0;  ///< done
-  std::int64_t sweeps_before_ = 0;    ///< of the run, when the last launch began
+  SlidingRun<T> slides_{options_};
+  std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began
   Timeline timeline_;
   std::optional<SweepEngine<T>> engine_;  ///< none where there is no free vertex
 };

@@ -241,13 +241,20 @@ class CpuSmoother final : public PreparedSmoother {
   /// Lines and elements have their say in turn: who goes back for one may spoil the other.
   template <class T>
   void guard_with_lines(Run<T>& run, const NumberLists& held) {
-    SlideGuard lines(run.chains, run.slide->places(), run.before, run.after, options_.guard);
+    SlideGuard lines(run.chains, run.slide->places(), run.before, run.after);
     bool again = true;
     while (again) {
       std::vector<std::int32_t> reverted;
       run.result.guard_rounds += lines.settle(reverted);
+      again = false;
+      if (options_.guard) {
+        const GuardOutcome outcome = keep_never_worse(rings_.view(), run.before, run.after, workers_, held);
+        again = list(run, outcome);
+        const std::int64_t rounds = lines.settle_triangles(outcome.threshold, reverted);
+        run.result.guard_rounds += rounds;
+        again = again || rounds > 0;
+      }
       list(run, std::span<const std::int32_t>(reverted));
-      again = options_.guard && list(run, keep_never_worse(rings_.view(), run.before, run.after, workers_, held));
     }
     const LineDeviation deviation = lines.deviation();
     run.result.sliding = {.chains = std::ssize(run.chains.chains),

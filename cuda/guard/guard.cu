@@ -161,9 +161,10 @@ class Rounds {
     std::uint32_t taken_back = 0;
     std::uint32_t rounds = 0;
     std::uint32_t listed = 0;
+    unsigned long long last_threshold = 0;
     for (;; ++rounds) {
-      const unsigned long long threshold = find_threshold(rounds % 3);
-      search(threshold);
+      last_threshold = find_threshold(rounds % 3);
+      search(last_threshold);
       barrier_.wait();
       listed = load_relaxed(&state_->listed);
       if (listed == taken_back || listed > work_.list_size) {
@@ -177,6 +178,7 @@ class Rounds {
       state_->taken_back = taken_back;
       state_->rounds += rounds;
       state_->settled = listed == taken_back ? 1 : 0;
+      state_->last_threshold = last_threshold;
     }
   }
 
@@ -278,15 +280,23 @@ class Rounds {
 
 template <class View>
 __global__ void __launch_bounds__(round_threads, 1) make_rounds(View view, GuardWork work, GuardState* state) {
-  if (view.run_is_over() && !state->nothing_offends()) {
+  if (view.run_is_over() && !state->nothing_offends() && view.held.has_good_lines()) {
     Rounds<View>(view, work, state).run();
   }
 }
 
-/// Writes the vertices that are elsewhere; if `guarded`, only where nothing offends any more.
+/// Whether nothing offends any more, or, with vertices that are held to lines, nothing has offended.
+__device__ bool may_write(const HeldView& held, const GuardState& state) {
+  if (held.after == nullptr) {
+    return state.may_write();
+  }
+  return held.lines != nullptr && state.nothing_offends() && held.lines->is_good(state.all.before);
+}
+
+/// Writes the vertices that are elsewhere; if `guarded`, only where nobody has to go back.
 template <class View>
 __global__ void __launch_bounds__(block_size) write_moved(View view, bool guarded, double2* stored, GuardState* state) {
-  if (!view.run_is_over() || (guarded && !state->may_write())) {
+  if (!view.run_is_over() || !view.held.has_good_lines() || (guarded && !may_write(view.held, *state))) {
     return;
   }
   bool moved = false;
@@ -320,9 +330,6 @@ std::int64_t launch_rounds(const View& view, GuardBuffers& buffers, Point2<doubl
         std::min(blocks_for(view.rings.size, round_threads), static_cast<unsigned>(multiprocessor_count()));
     TRISMOOTH_CUDA_CHECK(cudaLaunchCooperativeKernel(reinterpret_cast<const void*>(&make_rounds<View>), dim3(blocks),
                                                      dim3(round_threads), arguments, 0, stream));
-  }
-  if (stored == nullptr) {
-    return 1;
   }
   write_moved<<<blocks_for(view.rings.size), block_size, 0, stream>>>(view, buffers.guards(),
                                                                       reinterpret_cast<double2*>(stored), state);
@@ -399,6 +406,7 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
   std::ranges::sort(outcome.reverted, {}, &RevertedVertex::vertex);
   outcome.rounds = found.rounds;
   outcome.moved = found.moved;
+  outcome.threshold = from_falling_key(found.nothing_offends() ? found.all.before : found.last_threshold);
   return outcome;
 }
 

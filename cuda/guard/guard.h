@@ -45,14 +45,15 @@ struct GuardKeys {
 
 /// What the kernels of the guard tell each other and the host; all zeros to begin with.
 struct GuardState {
-  GuardKeys all;                     ///< of all elements as the sweeps left them
-  unsigned long long thresholds[3];  ///< keys of T, of this round, the last and the next
-  unsigned long long barriers[3];    ///< of the blocks that make rounds
-  std::uint32_t listed;              ///< offenders found, those that the list has no room for among them
-  std::uint32_t taken_back;          ///< of those, how many went back: the first ones of the list
-  std::uint32_t rounds;              ///< that took something back
-  std::uint32_t settled;             ///< not 0: the rounds are over, nothing offends any more
-  std::uint32_t moved;               ///< vertices written
+  GuardKeys all;                      ///< of all elements as the sweeps left them
+  unsigned long long thresholds[3];   ///< keys of T, of this round, the last and the next
+  unsigned long long last_threshold;  ///< the key of T when rounds ended
+  unsigned long long barriers[3];     ///< of the blocks that make rounds
+  std::uint32_t listed;               ///< offenders found, those that the list has no room for among them
+  std::uint32_t taken_back;           ///< of those, how many went back: the first ones of the list
+  std::uint32_t rounds;               ///< that took something back
+  std::uint32_t settled;              ///< not 0: the rounds are over, nothing offends any more
+  std::uint32_t moved;                ///< vertices written
 
   /// Whether no element offends from the start: no round would take anything back. (A falling key is the larger, the
   /// smaller the number.)
@@ -93,6 +94,7 @@ struct DeviceGuardOutcome {
   std::vector<std::int32_t> held;        ///< packed numbers of those of HeldView that went back
   std::vector<RevertedVertex> reverted;  ///< ascending by vertex
   std::int64_t moved = 0;                ///< vertices that were written
+  double threshold = 0;                  ///< T in the end: GuardOutcome::threshold
 };
 
 /// Queues the guard (see never_worse.h) and the writing of the result, or the writing alone if the buffers are those of
@@ -101,9 +103,9 @@ struct DeviceGuardOutcome {
 /// vertices that are elsewhere are written to `stored` (input numbering, aligned to 16 bytes), and the others keep
 /// their bits. Only where there are more offenders than the list holds, nothing is written, and finish_guard() does the
 /// rest. Returns the number of launches. `rings`: those of the free vertices, of which there is one at least; a
-/// RingsView or SlottedRingsView. `stored` may be null: nothing is written, see launch_writing(). Vertices of
-/// GuardInput::held are judged as corners of the elements of free ones and go back with these; they are in no figure
-/// and are not written.
+/// RingsView or SlottedRingsView. Vertices of GuardInput::held are judged as corners of the elements of free ones and
+/// go back with these; they are in no figure and are not written. Where there are such nothing is written either,
+/// unless nobody had to go back, as HeldView::lines says, too: what becomes of lines is to be seen to first.
 template <class T, class Rings>
 std::int64_t launch_guard(const Rings& rings, const GuardInput<T>& input, GuardBuffers& buffers, Point2<double>* stored,
                           GuardState* state, cudaStream_t stream);

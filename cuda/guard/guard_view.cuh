@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/cuda/guard/guard.h"
+#include "trismooth/cuda/guard/stored_point.cuh"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth::cuda {
@@ -49,11 +50,7 @@ class Positions {
   }
   /// Where the file would have a vertex whose working position has changed.
   __device__ Point2<double> stored(Point2<T> working) const {
-    const Point2<double> left =
-        frame_.leave({static_cast<double>(working.x), static_cast<double>(working.y)}, largest_stored(storage_));
-    return storage_ == Storage::float64 ? left
-                                        : Point2<double>{static_cast<double>(static_cast<float>(left.x)),
-                                                         static_cast<double>(static_cast<float>(left.y))};
+    return stored_point(frame_, {static_cast<double>(working.x), static_cast<double>(working.y)}, storage_);
   }
   __device__ Point2<double> stored(std::int32_t v) const { return stored(working_.load(v)); }
   /// The same in the local frame: what the guard evaluates.

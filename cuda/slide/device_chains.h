@@ -20,6 +20,8 @@ class DeviceChains {
 
   const SlideView& view() const { return view_; }
   SlidePlaces places() const { return places_; }
+  /// SlideChains::held_triangles.
+  const Triangle* held_triangles() const { return held_triangles_; }
   /// Waits for the places.
   void download_places(std::span<SlidePlace> places) const;
   /// Puts all vertices at their own knots, as they were when the chains came.
@@ -30,6 +32,7 @@ class DeviceChains {
   DeviceBuffer<std::byte> memory_;
   SlideView view_{};
   SlidePlaces places_{};
+  const Triangle* held_triangles_ = nullptr;
 };
 
 }  // namespace trismooth::cuda

@@ -1,6 +1,7 @@
 #include "trismooth/cuda/slide/device_slide.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -25,24 +26,26 @@ DeviceSlide::DeviceSlide(Context& context, const VertexOrder& order, Slidable sl
 }
 
 void DeviceSlide::begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
+  found_ = {};  // (It waits for a thread that a run has left behind that broke off.)
+  device_frame_ = frame;
   storage_ = storage;
   guard_.reset();
+  is_judged_by_host_ = false;
   has_targets_ = false;
   has_lines_ = false;
   gather_points(*context_, stored, vertices_, points_.data());
   stored_.resize(points_.size());
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(&frame_, frame, sizeof(frame_), cudaMemcpyDeviceToHost, context_->stream()));
   points_.download(stored_);
+  found_ = std::async(std::launch::async, [this] { return slidable_.chains(stored_, storage_, frame_); });
 }
 
 bool DeviceSlide::find_lines() {
   has_lines_ = true;
-  local_ = slidable_.chains(stored_, storage_, frame_);
+  local_ = found_.get();
   if (!local_.any()) {
     return false;
   }
-  before_.resize(stored_.size());
-  std::ranges::transform(stored_, before_.begin(), [this](Point2<double> point) { return frame_.enter(point); });
   device_ = DeviceChains(*context_, local_, slidable_.numbers());
   fan_of_.fill_bytes(0xFF);
   find_fans(*context_, device_.view(), static_cast<std::int32_t>(local_.sliders.size()), order_->free_count(),
@@ -64,18 +67,38 @@ void DeviceSlide::aim(const DeviceTargets<T>& targets, const Point2<double>* bef
 template void DeviceSlide::aim(const DeviceTargets<float>&, const Point2<double>*);
 template void DeviceSlide::aim(const DeviceTargets<double>&, const Point2<double>*);
 
-void DeviceSlide::take_over(bool guards) {
+SlidPoints DeviceSlide::slid_points() {
+  return {device_.view(),       device_.places().places, static_cast<std::int32_t>(local_.sliders.size()),
+          order_->free_count(), stored_slid_.data(),     held_after_.data()};
+}
+
+void DeviceSlide::judge(const Point2<double>* before, bool guards, LineVerdict* verdict) {
+  if (stored_slid_.size() < local_.vertices.size()) {
+    stored_slid_ = DeviceBuffer<Point2<double>>(*context_, local_.vertices.size());
+  }
+  const SlidPoints slid = slid_points();
+  place_slid(*context_, slid, before, static_cast<std::int32_t>(held_after_.size()), device_frame_, storage_, verdict);
+  judge_lines(*context_, slid, device_.held_triangles(),
+              guards ? static_cast<std::int32_t>(local_.held_triangles.size()) : 0, before, verdict);
+}
+
+void DeviceSlide::take_over() {
+  if (guard_) {
+    return;
+  }
   places_.resize(local_.places.size());
   device_.download_places(places_);
+  before_.resize(stored_.size());
+  std::ranges::transform(stored_, before_.begin(), [this](Point2<double> point) { return frame_.enter(point); });
   slid_ = SlidVertices(local_, places_, frame_, storage_);
   after_ = before_;
   for (const SlidVertex& slid : slid_) {
     after_[static_cast<std::size_t>(slid.vertex)] = frame_.enter(slid.stored);
   }
-  guard_.emplace(local_, places_, before_, after_, guards);
+  guard_.emplace(local_, places_, before_, after_);
 }
 
-void DeviceSlide::place_for_guard(const Point2<double>* before) {
+void DeviceSlide::place_again(const Point2<double>* before) {
   points_.upload(after_);
   place_held(*context_, before, order_->free_count(), static_cast<std::int32_t>(held_after_.size()), points_, numbers_,
              held_after_.data());
@@ -94,24 +117,15 @@ std::int32_t DeviceSlide::put_back(std::int32_t packed) {
   return *found;
 }
 
-void DeviceSlide::finish(Point2<double>* stored, SmoothingResult& result) {
-  std::vector<Point2<double>> points;
-  std::vector<std::int32_t> vertices;
-  for (const SlidVertex& slid : slid_) {
-    const auto v = static_cast<std::size_t>(slid.vertex);
-    if (!(after_[v] == before_[v])) {
-      points.push_back(slid.stored);
-      vertices.push_back(slidable_.slidable().vertices[v]);
-    }
-  }
-  points_.upload(points);
-  const DeviceBuffer<std::int32_t> written(*context_, vertices);
-  scatter_points(*context_, points_, written, points.size(), stored);
-  result.moved_vertices += std::ssize(points);
-  const LineDeviation deviation = guard_->deviation();
+void DeviceSlide::report(const LineVerdict& verdict, SmoothingResult& result) const {
+  const LineDeviation deviation = is_judged_by_host_ ? guard_->deviation()
+                                                     : LineDeviation{std::bit_cast<double>(verdict.distance),
+                                                                     std::bit_cast<double>(verdict.relative)};
+  const std::int64_t slid = guard_ ? guard_->slid_vertices() : static_cast<std::int64_t>(verdict.slid);
+  result.moved_vertices += slid;
   result.sliding = {.chains = std::ssize(local_.chains),
                     .vertices = local_.vertex_count(),
-                    .slid = guard_->slid_vertices(),
+                    .slid = slid,
                     .largest_deviation = std::ldexp(deviation.distance, frame_.exponent),
                     .relative_deviation = deviation.relative};
 }

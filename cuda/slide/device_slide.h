@@ -1,16 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/cuda/guard/held_view.h"
+#include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/slide/device_chains.h"
+#include "trismooth/cuda/slide/slid_points.h"
 #include "trismooth/cuda/slide/slide_pass.h"
 #include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/smoothing/result.h"
@@ -27,11 +29,12 @@ class DeviceSlide {
   /// `order` outlives it. `reversed`: as MeshRings::reversed, of the Slidable's triangles. Waits for the device.
   DeviceSlide(Context& context, const VertexOrder& order, Slidable slidable, std::vector<std::uint8_t> reversed);
 
-  /// Brings the vertices over for a run, as they are stored. `stored`, `frame`: on the device. Waits for it.
+  /// Brings the vertices over for a run, as they are stored, and has a thread find the lines. `stored`, `frame`: on the
+  /// device. Waits for it.
   void begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage);
   bool has_lines() const { return has_lines_; }
-  /// Finds the lines of the run. False: nothing slides. What has been queued goes on meanwhile, and it takes as long as
-  /// a few sweeps: so it comes behind the queuing of those that no vertex slides before.
+  /// Waits for the lines of the run and brings them to the device. False: nothing slides. It takes as long as a few
+  /// sweeps till they are found: so this comes behind the queuing of those that no vertex slides before.
   bool find_lines();
   /// Puts all vertices at their own knots: the run begins once more.
   void restart() { device_.begin(local_); }
@@ -52,37 +55,67 @@ class DeviceSlide {
   template <class T>
   void aim(const DeviceTargets<T>& targets, const Point2<double>* before);
 
-  /// Puts back what the lines do not allow, and lays what is left out for the guard. Calls reverted(vertex, position)
-  /// with the caller's number of each vertex that goes back, and where it would have been stored. `before`: as
-  /// GuardInput. Returns the rounds. `guards`: triangles count, too. The first time of a run where the places are.
+  /// Queues the finding of where everybody is to be stored, and what is to be said of that. `before`: as GuardInput.
+  /// `guards`: triangles count, too.
+  void judge(const Point2<double>* before, bool guards, LineVerdict* verdict);
+  /// Puts back what the lines do not allow, on the host, for the guard to look at. Calls reverted(vertex, position)
+  /// with the caller's number of each vertex that goes back, and where it would have been stored. Returns the rounds.
+  /// `before`: as GuardInput.
   template <class Reverted>
-  std::int64_t settle(bool guards, const Point2<double>* before, const Reverted& reverted) {
-    if (!guard_) {
-      take_over(guards);
+  std::int64_t settle(const Point2<double>* before, const Reverted& reverted) {
+    is_judged_by_host_ = true;
+    return put_back(before, reverted, [](SlideGuard& guard, auto& back) { return guard.settle(back); });
+  }
+  /// The same of triangles without a free vertex: see SlideGuard::settle_triangles().
+  template <class Reverted>
+  std::int64_t settle_triangles(const Point2<double>* before, double threshold_of_others, const Reverted& reverted) {
+    if (local_.held_triangles.empty()) {
+      return 0;
     }
-    std::vector<std::int32_t> back;
-    const std::int64_t rounds = guard_->settle(back);
-    tell(back, reverted);
-    place_for_guard(before);
-    return rounds;
+    return put_back(before, reverted, [threshold_of_others](SlideGuard& guard, auto& back) {
+      return guard.settle_triangles(threshold_of_others, back);
+    });
   }
   /// What the guard on the device has to know.
-  HeldView held() { return {held_after_.data(), fan_of_.data(), device_.view().fans, device_.view().sides}; }
-  /// Notes what that has put back: packed numbers. Calls reverted() as settle() does.
+  HeldView held() { return {held_after_.data(), fan_of_.data(), device_.view().fans, device_.view().sides, nullptr}; }
+  /// Notes what that has put back: packed numbers. Other arguments as those of settle().
   template <class Reverted>
   void note_reverted(std::span<const std::int32_t> held, const Reverted& reverted) {
+    if (held.empty()) {
+      return;
+    }
+    take_over();
     std::vector<std::int32_t> back;
     for (const std::int32_t v : held) {
       back.push_back(put_back(v));
     }
     tell(back, reverted);
   }
-  /// Writes those that are elsewhere to `stored`, adds them to the result and says what became of all.
-  void finish(Point2<double>* stored, SmoothingResult& result);
+  /// Queues the writing of those that are elsewhere: see write_slid().
+  void queue_writing(const Point2<double>* before, Point2<double>* stored, const GuardState* state,
+                     const LineVerdict* verdict) {
+    write_slid(*context_, slid_points(), before, order_->input_index.data(), stored, state, verdict);
+  }
+  /// Adds them to the result, and says what became of all. `verdict`: of judge(), which counts unless somebody has gone
+  /// back since.
+  void report(const LineVerdict& verdict, SmoothingResult& result) const;
 
  private:
-  void take_over(bool guards);
-  void place_for_guard(const Point2<double>* before);
+  /// Has the host know where everybody is, unless it does already. Waits for the device.
+  void take_over();
+  template <class Reverted, class Settle>
+  std::int64_t put_back(const Point2<double>* before, const Reverted& reverted, const Settle& settle) {
+    take_over();
+    std::vector<std::int32_t> back;
+    const std::int64_t rounds = settle(*guard_, back);
+    tell(back, reverted);
+    if (rounds > 0) {
+      place_again(before);
+    }
+    return rounds;
+  }
+  void place_again(const Point2<double>* before);
+  SlidPoints slid_points();
   /// The number in the Slidable of the vertex with that packed number, which goes back.
   std::int32_t put_back(std::int32_t packed);
   template <class Reverted>
@@ -102,8 +135,10 @@ class DeviceSlide {
   DeviceBuffer<Point2<double>> held_after_;  ///< HeldView
   DeviceBuffer<std::int32_t> fan_of_;        ///< likewise
   DeviceBuffer<FanTarget> targets_;
+  DeviceBuffer<Point2<double>> stored_slid_;  ///< SlidPoints
 
   // Of a run:
+  const LocalFrame* device_frame_ = nullptr;
   LocalFrame frame_;
   Storage storage_ = Storage::float64;
   std::vector<Point2<double>> stored_;
@@ -116,6 +151,8 @@ class DeviceSlide {
   std::vector<Point2<double>> after_;
   SlidVertices slid_;
   std::optional<SlideGuard> guard_;
+  bool is_judged_by_host_ = false;  ///< the lines are
+  std::future<SlideChains> found_;  ///< the lines; the last member, as the thread reads others
 };
 
 }  // namespace trismooth::cuda

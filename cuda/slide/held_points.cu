@@ -44,17 +44,6 @@ struct GatherBytes {
   __device__ void operator()(std::uint32_t i) const { gathered[i] = values[numbers[i]]; }
 };
 
-struct Scatter {
-  const Point2<double>* values;
-  const std::int32_t* vertices;
-  Point2<double>* stored;
-
-  __device__ void operator()(std::uint32_t i) const {
-    Point2<double>& point = stored[vertices[i]];
-    point = with_kept_bits(point, values[i]);
-  }
-};
-
 struct NoteFans {
   SlideView view;
   std::int32_t free_count;
@@ -69,7 +58,7 @@ struct NoteFans {
   }
 };
 
-struct PlaceSlid {
+struct PlaceHeld {
   const Point2<double>* slid;
   const std::int32_t* numbers;
   std::int32_t free_count;
@@ -112,24 +101,24 @@ std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* val
   return found;
 }
 
-void scatter_points(const Context& context, const DeviceBuffer<Point2<double>>& values,
-                    const DeviceBuffer<std::int32_t>& vertices, std::size_t count, Point2<double>* stored) {
-  for_each(context, static_cast<std::uint32_t>(count), Scatter{values.data(), vertices.data(), stored});
-}
-
 void find_fans(const Context& context, const SlideView& view, std::int32_t slider_count, std::int32_t free_count,
                std::int32_t* fan_of) {
   for_each(context, static_cast<std::uint32_t>(slider_count), NoteFans{view, free_count, fan_of});
 }
 
-void place_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
-                const DeviceBuffer<Point2<double>>& slid, const DeviceBuffer<std::int32_t>& numbers,
-                Point2<double>* after) {
+void copy_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
+               Point2<double>* after) {
   TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(after, before + free_count,
                                        static_cast<std::size_t>(held_count) * sizeof(Point2<double>),
                                        cudaMemcpyDeviceToDevice, context.stream()));
+}
+
+void place_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
+                const DeviceBuffer<Point2<double>>& slid, const DeviceBuffer<std::int32_t>& numbers,
+                Point2<double>* after) {
+  copy_held(context, before, free_count, held_count, after);
   for_each(context, static_cast<std::uint32_t>(numbers.size()),
-           PlaceSlid{slid.data(), numbers.data(), free_count, after});
+           PlaceHeld{slid.data(), numbers.data(), free_count, after});
 }
 
 }  // namespace trismooth::cuda

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/cuda/guard/held_view.h"
 #include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/smoothing/slide/slide_view.h"
@@ -23,15 +22,14 @@ void gather_points(const Context& context, const Point2<double>* stored, const D
 std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* values,
                                        const DeviceBuffer<std::int32_t>& numbers);
 
-/// Copies values[i] to stored[vertices[i]], for the first `count` of both.
-void scatter_points(const Context& context, const DeviceBuffer<Point2<double>>& values,
-                    const DeviceBuffer<std::int32_t>& vertices, std::size_t count, Point2<double>* stored);
-
 /// Lists the fans of held vertices for the guard: fan_of[v - free_count], -1 where v does not slide.
 void find_fans(const Context& context, const SlideView& view, std::int32_t slider_count, std::int32_t free_count,
                std::int32_t* fan_of);
 
-/// after[i] = before[free_count + i], and after[numbers[i] - free_count] = slid[i] for numbers from free_count on.
+/// after[i] = before[free_count + i].
+void copy_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
+               Point2<double>* after);
+/// The same, and after[numbers[i] - free_count] = slid[i] for numbers from free_count on.
 void place_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
                 const DeviceBuffer<Point2<double>>& slid, const DeviceBuffer<std::int32_t>& numbers,
                 Point2<double>* after);

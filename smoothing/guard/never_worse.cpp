@@ -129,6 +129,7 @@ class Guard {
       outcome.reverted.insert(outcome.reverted.end(), offenders_.begin(), offenders_.end());
     }
     std::ranges::sort(outcome.reverted);
+    outcome.threshold = tree_.total().before;
     return outcome;
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,8 @@ class Workers;
 struct GuardOutcome {
   std::vector<std::int32_t> reverted;  ///< vertices, ascending
   std::int64_t rounds = 0;             ///< rounds that took something back
+  /// T in the end; infinity where nothing is elsewhere.
+  double threshold = std::numeric_limits<double>::infinity();
 };
 
 /// The never-worse guard. `before` and `after` are the coordinates as they were stored and as they would be, both in

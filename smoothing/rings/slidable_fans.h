@@ -34,6 +34,8 @@ class SlidableFans {
     const auto i = static_cast<std::size_t>(vertex);
     return std::span(sides_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
   }
+  /// Of all vertices together.
+  std::size_t side_count() const { return sides_.size(); }
   /// The vertices that may slide, in the order in which they are coloured: see coloured_before().
   std::span<const std::int32_t> colouring_order() const { return colouring_order_; }
   /// The triangles without a free vertex.

@@ -22,6 +22,7 @@ class ChainWriter {
 
   SlideChains run() {
     chains_.curve = slidable_.curve;
+    make_room();
     for (const LinkedRuns& linked : runs_.runs) {
       write_chain(linked.first, linked.others);
     }
@@ -32,6 +33,26 @@ class ChainWriter {
   }
 
  private:
+  /// (Growing takes as long as all the rest.)
+  void make_room() {
+    std::size_t knots = 0;
+    const auto count = [&](const ChainRun& run) { knots += run.vertices.size(); };
+    for (const LinkedRuns& linked : runs_.runs) {
+      count(linked.first);
+      std::ranges::for_each(linked.others, count);
+    }
+    for (const auto room : {&SlideChains::arcs, &SlideChains::lengths, &SlideChains::limits, &SlideChains::allowed}) {
+      (chains_.*room).reserve(knots);
+    }
+    chains_.knots.reserve(knots);
+    chains_.vertices.reserve(knots);
+    chains_.bends.reserve(knots);
+    chains_.places.reserve(knots);
+    chains_.sliders.reserve(knots);
+    chains_.fans.reserve(knots + 1);
+    chains_.sides.reserve(slidable_.fans.side_count());
+  }
+
   Point2<double> point(std::int32_t v) const { return mesh_.points[static_cast<std::size_t>(v)]; }
   double rounding(std::int32_t v) const { return mesh_.roundings[static_cast<std::size_t>(v)]; }
   bool slides(std::int32_t v) const { return runs_.slides[static_cast<std::size_t>(v)] != 0; }

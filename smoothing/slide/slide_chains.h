@@ -78,8 +78,8 @@ struct SlideChains {
   /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
   NumberLists neighbours(std::int32_t first, std::int32_t end) const;
   SlideView view() const {
-    return {chains.data(), knots.data(),   vertices.data(), arcs.data(),  bends.data(),
-            limits.data(), sliders.data(), fans.data(),     sides.data(), curve};
+    return {chains.data(),  knots.data(),   vertices.data(), arcs.data(), bends.data(), limits.data(),
+            allowed.data(), lengths.data(), sliders.data(),  fans.data(), sides.data(), curve};
   }
 };
 

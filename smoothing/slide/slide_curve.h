@@ -57,12 +57,10 @@ class ChainCurve {
     }
     return found;
   }
-  /// The smaller one of the limits of two knots.
-  TRISMOOTH_HOST_DEVICE double limit(std::int32_t i, std::int32_t j) const {
-    const double first = view_.limits[chain_.first + wrap(i)];
-    const double second = view_.limits[chain_.first + wrap(j)];
-    return first < second ? first : second;
-  }
+  /// The smaller one of what SlideView says of two knots: of limits, of allowed and of lengths.
+  TRISMOOTH_HOST_DEVICE double limit(std::int32_t i, std::int32_t j) const { return smaller(view_.limits, i, j); }
+  TRISMOOTH_HOST_DEVICE double allowed(std::int32_t i, std::int32_t j) const { return smaller(view_.allowed, i, j); }
+  TRISMOOTH_HOST_DEVICE double length(std::int32_t i, std::int32_t j) const { return smaller(view_.lengths, i, j); }
 
   /// Where a place is on a copy. On the polyline a coordinate that is the same at both ends of the segment keeps its
   /// bits, and a place at a knot has those of the knot.
@@ -116,6 +114,11 @@ class ChainCurve {
     }
     const std::int32_t rest = i % chain_.count;
     return rest < 0 ? rest + chain_.count : rest;
+  }
+  TRISMOOTH_HOST_DEVICE double smaller(const double* values, std::int32_t i, std::int32_t j) const {
+    const double first = values[chain_.first + wrap(i)];
+    const double second = values[chain_.first + wrap(j)];
+    return first < second ? first : second;
   }
   TRISMOOTH_HOST_DEVICE std::int32_t segment_at(std::int32_t i) const {
     return chain_.is_closed || i < chain_.count - 1 ? i : i - 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/slide/slide_curve.h"
@@ -69,6 +70,54 @@ inline TRISMOOTH_HOST_DEVICE double deviation_share(const ChainCurve& curve, std
   for_deviations(curve, copy, first, start, last, end,
                  [&](double distance, std::int32_t i, std::int32_t j) { largest.add(distance, curve.limit(i, j)); });
   return largest.value;
+}
+
+/// How far the lines of a result are from those of the input.
+struct LineDeviation {
+  double distance = 0;  ///< the largest, in the local frame
+  double relative = 0;  ///< the largest part of the length of the edge nearby
+};
+
+/// What is to be said of an edge of the new line.
+struct JudgedEdge {
+  bool is_good;             ///< its ends are one behind the other, apart, and it is no further off than it may be
+  LineDeviation deviation;  ///< on all copies, where it is good
+};
+
+/// Judges the edge from knot i of a chain's first copy to the next one (on a closed chain the first one follows the
+/// last), as it will be stored. `places`: of the knots of the view; `after(vertex)`: where its vertices would be
+/// stored, in the local frame.
+template <class Points>
+TRISMOOTH_HOST_DEVICE JudgedEdge judge_edge(const ChainCurve& curve, const SlideView& view, const SlidePlace* places,
+                                            std::int32_t i, const Points& after) {
+  const SlideChain& chain = curve.chain();
+  const bool is_seam = i + 1 == chain.count;
+  const std::int32_t first = chain.first + i;
+  const std::int32_t second = is_seam ? chain.first : first + 1;
+  const SlidePlace from = places[first];
+  SlidePlace to = places[second];
+  if (is_seam) {
+    to = {to.arc + chain.length, to.segment + chain.count};
+  }
+  JudgedEdge found{from.arc < to.arc, {}};
+  for (std::int32_t copy = 0; found.is_good && copy < chain.copies; ++copy) {
+    const Point2<double> start = after(view.vertices[first + copy * chain.count]);
+    const Point2<double> end = after(view.vertices[second + copy * chain.count]);
+    LargestShare of_allowed;
+    LargestShare of_length;
+    double largest = 0;
+    for_deviations(curve, copy, from, start, to, end, [&](double distance, std::int32_t j, std::int32_t k) {
+      largest = distance > largest ? distance : largest;
+      of_allowed.add(distance, curve.allowed(j, k));
+      of_length.add(distance, curve.length(j, k));
+    });
+    LineDeviation& deviation = found.deviation;
+    deviation.distance = largest > deviation.distance ? largest : deviation.distance;
+    deviation.relative = of_length.value > deviation.relative ? of_length.value : deviation.relative;
+    // (Two vertices may be stored at the same place, of few digits.)
+    found.is_good = of_allowed.value <= 1 && !(start == end);
+  }
+  return found;
 }
 
 }  // namespace trismooth

@@ -2,22 +2,19 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "trismooth/smoothing/guard/guard_rule.h"
-#include "trismooth/smoothing/slide/slide_deviation.h"
 
 namespace trismooth {
 
 SlideGuard::SlideGuard(const SlideChains& chains, std::span<SlidePlace> places, std::span<const Point2<double>> before,
-                       std::span<Point2<double>> after, bool guards_triangles)
+                       std::span<Point2<double>> after)
     : chains_(chains),
       view_(chains.view()),
       places_(places),
       before_(before),
       after_(after),
-      guards_triangles_(guards_triangles),
       slider_at_(chains.knots.size(), -1) {
   for (std::size_t s = 0; s < chains.sliders.size(); ++s) {
     slider_at_[static_cast<std::size_t>(chains.sliders[s].knot)] = static_cast<std::int32_t>(s);
@@ -51,7 +48,6 @@ std::int64_t SlideGuard::settle(std::vector<std::int32_t>& reverted) {
   for (;;) {
     bool found = settle_links(reverted);
     found = settle_lines(reverted) || found;
-    found = (guards_triangles_ && settle_triangles(reverted)) || found;
     if (!found) {
       return rounds;
     }
@@ -77,46 +73,21 @@ bool SlideGuard::settle_links(std::vector<std::int32_t>& reverted) {
 
 /// Judges the edges of the lines as they are now, between two knots of first copies each.
 bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
-  SlideView by_allowed = view_;
-  by_allowed.limits = chains_.allowed.data();
-  SlideView by_length = view_;
-  by_length.limits = chains_.lengths.data();
   std::vector<std::int32_t> beyond;  // sliders
   deviation_ = {};
+  const auto after = [this](std::int32_t v) { return after_[static_cast<std::size_t>(v)]; };
   for (std::size_t c = 0; c < chains_.chains.size(); ++c) {
     const SlideChain& chain = chains_.chains[c];
-    const ChainCurve curve(by_allowed, static_cast<std::int32_t>(c));
-    const ChainCurve lengths(by_length, static_cast<std::int32_t>(c));
+    const ChainCurve curve(view_, static_cast<std::int32_t>(c));
     const std::int32_t edges = chain.is_closed ? chain.count : chain.count - 1;
     for (std::int32_t i = 0; i < edges; ++i) {
-      const bool is_seam = i + 1 == chain.count;
-      const std::int32_t first = chain.first + i;
-      const std::int32_t second = is_seam ? chain.first : first + 1;
-      const SlidePlace from = places_[static_cast<std::size_t>(first)];
-      SlidePlace to = places_[static_cast<std::size_t>(second)];
-      if (is_seam) {
-        to = {to.arc + chain.length, to.segment + chain.count};
-      }
-      bool is_good = from.arc < to.arc;
-      for (std::int32_t copy = 0; is_good && copy < chain.copies; ++copy) {
-        const auto at = [&](std::int32_t knot) {
-          return after_[static_cast<std::size_t>(chains_.vertices[knot + copy * chain.count])];
-        };
-        LargestShare of_allowed;
-        LargestShare of_length;
-        for_deviations(curve, copy, from, at(first), to, at(second),
-                       [&](double distance, std::int32_t j, std::int32_t k) {
-                         deviation_.distance = std::max(deviation_.distance, distance);
-                         of_allowed.add(distance, curve.limit(j, k));
-                         of_length.add(distance, lengths.limit(j, k));
-                       });
-        deviation_.relative = std::max(deviation_.relative, of_length.value);
-        // (Two vertices may be stored at the same place, of few digits.)
-        is_good = of_allowed.value <= 1 && !(at(first) == at(second));
-      }
-      if (!is_good) {
+      const JudgedEdge edge = judge_edge(curve, view_, places_.data(), i, after);
+      deviation_.distance = std::max(deviation_.distance, edge.deviation.distance);
+      deviation_.relative = std::max(deviation_.relative, edge.deviation.relative);
+      if (!edge.is_good) {
+        const std::int32_t first = chain.first + i;
         beyond.push_back(slider_at_[static_cast<std::size_t>(first)]);
-        beyond.push_back(slider_at_[static_cast<std::size_t>(second)]);
+        beyond.push_back(slider_at_[static_cast<std::size_t>(i + 1 == chain.count ? chain.first : first + 1)]);
       }
     }
   }
@@ -129,7 +100,15 @@ bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
   return found;
 }
 
-bool SlideGuard::settle_triangles(std::vector<std::int32_t>& reverted) {
+std::int64_t SlideGuard::settle_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
+  std::int64_t rounds = 0;
+  while (put_back_triangles(threshold_of_others, reverted)) {
+    ++rounds;
+  }
+  return rounds;
+}
+
+bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
   const auto quotient = [](std::span<const Point2<double>> points, const Triangle& triangle) {
     const auto [a, b, c] = triangle;
     return shape_quotient(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
@@ -138,7 +117,7 @@ bool SlideGuard::settle_triangles(std::vector<std::int32_t>& reverted) {
   const auto has_moved = [this](std::int32_t v) {
     return !(after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)]);
   };
-  double threshold = std::numeric_limits<double>::infinity();
+  double threshold = threshold_of_others;
   for (const Triangle& triangle : chains_.held_triangles) {
     if (std::ranges::any_of(triangle, has_moved)) {
       threshold = std::min(threshold, quotient(before_, triangle));

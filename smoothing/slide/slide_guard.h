@@ -6,28 +6,28 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/slide/slide_chains.h"
+#include "trismooth/smoothing/slide/slide_deviation.h"
 
 namespace trismooth {
 
-/// How far the lines of a result are from those of the input.
-struct LineDeviation {
-  double distance = 0;  ///< the largest, in the local frame
-  double relative = 0;  ///< the largest part of the length of the edge nearby
-};
-
-/// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements,
-/// this is for lines, and for the triangles that no one-ring has. Whoever is linked goes back together.
+/// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements of
+/// one-rings, this is for lines, and for the triangles that no one-ring has. Whoever is linked goes back together.
 class SlideGuard {
  public:
   /// `places`: where the vertices are on their chains, by knot. `before` and `after` are all packed vertices as they
-  /// were stored and as they would be, in the local frame. All outlive it. `guards_triangles`: else lines alone.
+  /// were stored and as they would be, in the local frame. All outlive it.
   SlideGuard(const SlideChains& chains, std::span<SlidePlace> places, std::span<const Point2<double>> before,
-             std::span<Point2<double>> after, bool guards_triangles);
+             std::span<Point2<double>> after);
 
-  /// Puts back in rounds, until nothing is beyond what is allowed. Vertices that somebody else has put back in `after`
-  /// since are taken for what they are. Adds the vertices that went back to `reverted`. Returns the rounds.
-  /// Complexity of a round: linear in the knots.
+  /// Puts back in rounds what is not linked any more or beyond what lines allow, until nothing is. Vertices that
+  /// somebody else has put back in `after` since are taken for what they are. Adds the vertices that went back to
+  /// `reverted`. Returns the rounds. Complexity of a round: linear in the knots.
   std::int64_t settle(std::vector<std::int32_t>& reverted);
+
+  /// The same of triangles that offend (see offends()), of which T is the smaller one of that of the others,
+  /// GuardOutcome::threshold, and the smallest quotient before of those with a vertex that is elsewhere. Where this
+  /// takes rounds, lines and other elements are to be judged again. Complexity of a round: linear in the triangles.
+  std::int64_t settle_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted);
 
   /// What settle() found at last.
   const LineDeviation& deviation() const { return deviation_; }
@@ -39,14 +39,13 @@ class SlideGuard {
   bool put_back(std::int32_t slider, std::vector<std::int32_t>& reverted);
   bool settle_links(std::vector<std::int32_t>& reverted);
   bool settle_lines(std::vector<std::int32_t>& reverted);
-  bool settle_triangles(std::vector<std::int32_t>& reverted);
+  bool put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted);
 
   const SlideChains& chains_;
   SlideView view_;
   std::span<SlidePlace> places_;
   std::span<const Point2<double>> before_;
   std::span<Point2<double>> after_;
-  bool guards_triangles_;
   LineDeviation deviation_;
   std::vector<std::int32_t> slider_at_;  ///< of each knot of the first copies; -1: it is an end
 };

@@ -45,7 +45,9 @@ struct SlideView {
   // By knot of the first copy:
   const double* arcs = nullptr;
   const std::uint8_t* bends = nullptr;  ///< 0 where the polyline is straight to rounding
-  const double* limits = nullptr;       ///< how far the new line may be from it before it is stored, which rounds
+  const double* limits = nullptr;       ///< how far the new line may be from it before it is stored, which rounds...
+  const double* allowed = nullptr;      ///< ...and how far it may be then
+  const double* lengths = nullptr;      ///< of the shorter one of both segments
   // By slider:
   const Slider* sliders = nullptr;
   const std::int32_t* fans = nullptr;  ///< sides[fans[f]] .. sides[fans[f + 1]] are those of fan f

@@ -95,6 +95,30 @@ TEST_CASE("on a side at minus zero the coordinate keeps its sign") {
   }
 }
 
+TEST_CASE("triangles of corners that get worse than they were, but not than the worst was, hold nobody back") {
+  // Without sliding the smallest shape is that of some triangle inside; those at corners are halves of squares.
+  const Mesh mesh = distorted_meshes::displaced(30, 0.3, 7);
+  const auto smallest_shape = [&](const std::vector<double>& xy) {
+    double smallest = 1;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto at = [&xy](std::int32_t v) { return Point{xy[2 * v], xy[2 * v + 1]}; };
+      const Point u{at(b).x - at(a).x, at(b).y - at(a).y};
+      const Point v{at(c).x - at(a).x, at(c).y - at(a).y};
+      const Point w{v.x - u.x, v.y - u.y};
+      const double squares = u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y + w.x * w.x + w.y * w.y;
+      smallest = std::min(smallest, 2 * std::sqrt(3.0) * (u.x * v.y - u.y * v.x) / squares);
+    }
+    return smallest;
+  };
+  Constraints constraints;
+  const Smoothed held = smoothed(mesh, constraints);
+  constraints.slide.along = Slide::straight;
+  const Smoothed found = smoothed(mesh, constraints);
+  CHECK(found.result.sliding->slid > 50);
+  CHECK(found.result.reverted_vertices < 10);
+  CHECK(smallest_shape(found.xy) > smallest_shape(held.xy));
+}
+
 TEST_CASE("without being asked to nothing slides") {
   const Mesh mesh = square_with_uneven_sides(3);
   const Smoothed found = smoothed(mesh, {});

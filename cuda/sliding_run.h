@@ -1,0 +1,184 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "trismooth/cuda/guard/guard.h"
+#include "trismooth/cuda/run_record.h"
+#include "trismooth/cuda/slide/device_slide.h"
+#include "trismooth/cuda/slide/slide_pass.h"
+#include "trismooth/cuda/sweeps/device_stages.h"
+#include "trismooth/cuda/sweeps/sweep_state.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth::cuda {
+
+/// What slides among the sweeps of a run in working precision T, and what comes of it at the end. `Engine`: one of
+/// SweepEngine<T>.
+template <class T>
+class SlidingRun {
+ public:
+  /// `options` outlive it.
+  explicit SlidingRun(const SmoothingOptions& options) : options_(options) {}
+
+  /// Has these slide from the next run on: see DeviceSlide.
+  void allow(Context& context, const VertexOrder& order, Slidable slidable, std::vector<std::uint8_t> reversed) {
+    slide_.emplace(context, order, std::move(slidable), std::move(reversed));
+  }
+
+  /// Begins a run with vertices as they are stored. Waits for the device where something may slide.
+  void begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
+    slides_ = slide_.has_value();
+    if (slides_) {
+      slide_->begin(stored, frame, storage);
+    }
+  }
+  /// Whether something slides in this run, or may as far as is known.
+  bool any() const { return slides_; }
+  /// All sliders go back to where they began: the run is made once more.
+  void restart() {
+    if (slides_) {
+      slide_->restart();
+    }
+  }
+  void begin_stage() { sweeps_of_stage_ = 0; }
+
+  /// As many of the sweeps as there are up to the next one that vertices slide behind.
+  std::int32_t up_to_slide(std::int32_t sweeps) const {
+    if (!slides_) {
+      return sweeps;
+    }
+    std::int32_t count = 1;
+    while (count < sweeps && !slides_behind(sweeps_of_stage_ + count, false, false)) {
+      ++count;
+    }
+    return count;
+  }
+
+  /// Finds what slides, unless that has been done in this run: while the first sweeps are made. `before`: as
+  /// GuardInput.
+  template <class Engine>
+  void find_lines(const Engine& engine, const Point2<double>* before) {
+    if (!slides_ || slide_->has_lines()) {
+      return;
+    }
+    slides_ = slide_->find_lines();
+    if (slides_ && options_.method == Method::mean_ratio) {
+      slide_->aim(engine.targets(), before);
+    }
+  }
+
+  /// Queues the slides behind sweeps that have been queued. `done`: sweeps of the run before them. Returns the number
+  /// of launches.
+  template <class Engine>
+  std::int64_t queue(Engine& engine, const DeviceStages& stages, const LoopRules& loop, std::int64_t done,
+                     RunRecord* record, cudaStream_t stream) {
+    if (!slides_) {
+      return 0;
+    }
+    const bool is_limit = done + loop.sweeps == options_.max_sweeps;
+    const bool due_at_end = slides_behind(sweeps_of_stage_ + loop.sweeps, false, is_limit);
+    const auto [first, second] = engine.output(0);
+    SlideWork<T> work = slide_->template work<T>();
+    work.first = first;
+    work.second = second;
+    work.first_marks = engine.marks(0);
+    work.second_marks = engine.marks(1);
+    work.tolerance = static_cast<T>(options_.tolerance);
+    return launch_slide_pass(MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work,
+                             slide_->batches(), due_at_end ? loop.sweeps : 0, &record->state, record->sums.data(),
+                             stream);
+  }
+
+  /// Has the state say whether the run has settled where vertices slid behind the last sweep of a record.
+  template <class Engine>
+  void note(Engine& engine, const DeviceStages& stages, const LoopRules& loop, std::int64_t done, RunRecord& record) {
+    LoopState& state = record.state;
+    sweeps_of_stage_ += state.sweeps;
+    const bool settled = state.stop != LoopState::running;
+    const bool is_limit = done + state.sweeps == options_.max_sweeps;
+    if (!slides_ || state.sweeps == 0 || !slides_behind(sweeps_of_stage_, settled, is_limit)) {
+      return;
+    }
+    engine.note_slides(state);
+    LoopRules rules = loop;
+    rules.few_moves = stages.few_moves();
+    state.stop = stop_after(record.sums[static_cast<std::size_t>(state.sweeps - 1)], rules);
+  }
+
+  /// The ending of the run. Lines and elements have their say in turn: who goes back for one may spoil the other. When
+  /// nobody has anything to say, all is written to `stored`. Mostly nobody has: so the device judges both at first, and
+  /// the host sees to lines where the device finds something. `host_record`: what `record`, on the device, was read as.
+  /// Waits for the device.
+  template <class Engine>
+  void end(Context& context, Engine& engine, GuardInput<T> input, GuardBuffers& buffers, Point2<double>* stored,
+           DeviceBuffer<RunRecord>& record, RunRecord& host_record, SmoothingResult& result) {
+    const auto rings = engine.rings();
+    GuardState* const state = &record.data()->guard;
+    LineVerdict* const lines = &record.data()->lines;
+    const auto list = [&](std::int32_t vertex, Point2<double> position) {
+      result.reverted.push_back({vertex, position});
+    };
+    const auto reset = [&] {
+      host_record.guard = {};
+      record.upload({&host_record, 1});
+    };
+    const auto guard = [&] {
+      result.kernel_launches += launch_guard(rings, input, buffers, stored, state, context.stream());
+    };
+    input.held = slide_->held();
+    input.held.lines = lines;
+    host_record.lines = {};
+    reset();
+    slide_->judge(input.before, options_.guard, lines);
+    guard();
+    slide_->queue_writing(input.before, stored, state, lines);
+    record.download({&host_record, 1});
+    const LineVerdict verdict = host_record.lines;
+    if (!verdict.is_good(host_record.guard.all.before) || !host_record.guard.nothing_offends()) {
+      input.held.lines = nullptr;
+      bool is_guarded = verdict.has_good_lines();
+      for (bool again = true; again; is_guarded = false) {
+        again = false;
+        if (!is_guarded) {
+          result.guard_rounds += slide_->settle(input.before, list);
+        }
+        if (options_.guard) {
+          if (!is_guarded) {
+            reset();
+            guard();
+            record.download({&host_record, 1});
+          }
+          const DeviceGuardOutcome outcome =
+              finish_guard(context, rings, input, buffers, stored, state, host_record.guard, result.kernel_launches);
+          result.guard_rounds += outcome.rounds;
+          result.reverted.insert(result.reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
+          slide_->note_reverted(outcome.held, list);
+          const std::int64_t rounds = slide_->settle_triangles(input.before, outcome.threshold, list);
+          result.guard_rounds += rounds;
+          again = rounds > 0 || !outcome.held.empty();
+        }
+      }
+      launch_writing(rings, input, stored, state, context.stream());
+      slide_->queue_writing(input.before, stored, nullptr, nullptr);
+      record.download({&host_record, 1});
+    }
+    result.moved_vertices = host_record.guard.moved;
+    slide_->report(verdict, result);
+    // (Nobody goes back twice.)
+    std::ranges::sort(result.reverted, {}, &RevertedVertex::vertex);
+    result.reverted_vertices = std::ssize(result.reverted);
+  }
+
+ private:
+  const SmoothingOptions& options_;
+  std::optional<DeviceSlide> slide_;  ///< what may slide
+  bool slides_ = false;
+  std::int64_t sweeps_of_stage_ = 0;  ///< done
+};
+
+}  // namespace trismooth::cuda
