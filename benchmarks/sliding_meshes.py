@@ -80,12 +80,13 @@ def write_periodic_msh(path: Path, points: np.ndarray, triangles: np.ndarray) ->
 
 
 @contextlib.contextmanager
-def gmsh_model(path: Path, *, random_factor: float = 1e-9) -> Iterator[object]:
+def gmsh_model(path: Path) -> Iterator[object]:
     """A model of the geometry kernel "geo", which is meshed and written when the block ends."""
     gmsh.initialize()
     try:
         gmsh.option.setNumber("General.Verbosity", 2)
-        gmsh.option.setNumber("Mesh.RandomFactor", random_factor)
+        # Version 4 says which nodes are points of the geometry, which stay: here every vertex of an outline is one.
+        gmsh.option.setNumber("Mesh.MshFileVersion", 2.2)
         gmsh.model.add(path.stem)
         yield gmsh.model.geo
         gmsh.model.geo.synchronize()

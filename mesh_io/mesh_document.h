@@ -57,6 +57,9 @@ struct NamedSet {
   bool operator==(const NamedSet&) const = default;
 };
 
+/// The one of MeshDocument::implied_sets that has the nodes of points of the geometry.
+inline constexpr std::string_view points_of_geometry = "gmsh:points";
+
 /// A mesh as its file states it: every point, cell and array in the file's order, nothing interpreted. Readers
 /// guarantee finite coordinates, indices within range and arrays of the right length.
 struct MeshDocument {

@@ -47,8 +47,8 @@ class CpuSmoother final : public PreparedSmoother {
     }
     if (mesh.slidable.is_wanted()) {
       std::vector<std::int32_t> numbers = packed_numbers(mesh.slidable, rings_.input_index);
-      std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
-      slidable_ = PackedSlidable(std::move(mesh.slidable), std::move(reversed), std::move(numbers));
+      const std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
+      slidable_ = PackedSlidable(std::move(mesh.slidable), reversed, std::move(numbers));
     }
     if (options.untangles()) {
       triangles_.assign(triangles.begin(), triangles.end());
@@ -306,7 +306,7 @@ class CpuSmoother final : public PreparedSmoother {
       stored.push_back(points[v]);
     }
     SlideChains chains = slidable_.chains(stored, storage, frame);
-    chains.renumber(slidable_.numbers());
+    chains.renumber(slidable_.numbers(), slidable_.packed_triangles());
     return chains;
   }
 

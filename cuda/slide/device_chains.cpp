@@ -47,50 +47,54 @@ class Pieces {
 
 }  // namespace
 
-DeviceChains::DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers)
+DeviceSlideTriangles::DeviceSlideTriangles(Context& context, const SlideTriangles& packed)
+    : begins(context, packed.begins), sides(context, packed.sides), held(context, packed.held) {}
+
+DeviceChains::DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers,
+                           DeviceSlideTriangles& triangles)
     : context_(&context) {
   Pieces pieces;
   const std::size_t at_chains = pieces.add(chains.chains);
   const std::size_t at_knots = pieces.add(chains.knots);
   const std::size_t at_vertices = pieces.add(chains.vertices);
+  const std::size_t at_fans = pieces.add(chains.fan_at);
   const std::size_t at_arcs = pieces.add(chains.arcs);
   const std::size_t at_bends = pieces.add(chains.bends);
   const std::size_t at_limits = pieces.add(chains.limits);
   const std::size_t at_allowed = pieces.add(chains.allowed);
   const std::size_t at_lengths = pieces.add(chains.lengths);
   const std::size_t at_sliders = pieces.add(chains.sliders);
-  const std::size_t at_fans = pieces.add(chains.fans);
-  const std::size_t at_sides = pieces.add(chains.sides);
   const std::size_t at_places = pieces.add(chains.places);
-  const std::size_t at_triangles = pieces.add(chains.held_triangles);
   pieces.lay_out();
   const auto number = [&](std::int32_t v) { return numbers[static_cast<std::size_t>(v)]; };
   pieces.write(at_chains, chains.chains);
   pieces.write(at_knots, chains.knots);
   pieces.write(at_vertices, chains.vertices, number);
+  pieces.write(at_fans, chains.fan_at);
   pieces.write(at_arcs, chains.arcs);
   pieces.write(at_bends, chains.bends);
   pieces.write(at_limits, chains.limits);
   pieces.write(at_allowed, chains.allowed);
   pieces.write(at_lengths, chains.lengths);
   pieces.write(at_sliders, chains.sliders);
-  pieces.write(at_fans, chains.fans);
-  pieces.write(at_sides, chains.sides, [&](const FanSide& side) {
-    return FanSide{number(side.from), number(side.to), side.from_is_unknown, side.to_is_unknown};
-  });
   pieces.write(at_places, chains.places);
-  pieces.write(at_triangles, chains.held_triangles, [&](const Triangle& t) {
-    return Triangle{number(t[0]), number(t[1]), number(t[2])};
-  });
   memory_ = DeviceBuffer<std::byte>(context, pieces.bytes());
   const auto at = [&]<class T>(std::size_t begin, const std::vector<T>& /*values*/) {
     return reinterpret_cast<T*>(memory_.data() + begin);
   };
-  view_ = {at(at_chains, chains.chains),   at(at_knots, chains.knots),     at(at_vertices, chains.vertices),
-           at(at_arcs, chains.arcs),       at(at_bends, chains.bends),     at(at_limits, chains.limits),
-           at(at_allowed, chains.allowed), at(at_lengths, chains.lengths), at(at_sliders, chains.sliders),
-           at(at_fans, chains.fans),       at(at_sides, chains.sides),     chains.curve};
-  held_triangles_ = at(at_triangles, chains.held_triangles);
+  view_ = {at(at_chains, chains.chains),
+           at(at_knots, chains.knots),
+           at(at_vertices, chains.vertices),
+           at(at_fans, chains.fan_at),
+           at(at_arcs, chains.arcs),
+           at(at_bends, chains.bends),
+           at(at_limits, chains.limits),
+           at(at_allowed, chains.allowed),
+           at(at_lengths, chains.lengths),
+           at(at_sliders, chains.sliders),
+           triangles.begins.data(),
+           triangles.sides.data(),
+           chains.curve};
   places_ = {at(at_places, chains.places)};
 }
 

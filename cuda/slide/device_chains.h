@@ -10,18 +10,26 @@
 
 namespace trismooth::cuda {
 
+/// SlideTriangles in device memory, corners in packed numbers.
+struct DeviceSlideTriangles {
+  DeviceBuffer<std::int32_t> begins;
+  DeviceBuffer<FanSide> sides;
+  DeviceBuffer<Triangle> held;
+
+  DeviceSlideTriangles(Context& context, const SlideTriangles& packed);
+};
+
 /// Chains in device memory, with what a run writes: the places of the knots. One copy brings all of it over.
 class DeviceChains {
  public:
   /// None.
   DeviceChains() = default;
-  /// `numbers`: packed, of the vertices that the chains name; as SlideChains::renumber().
-  DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers);
+  /// `numbers`: packed, of the vertices that the chains name; as SlideChains::renumber(). `triangles` outlive it.
+  DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers,
+               DeviceSlideTriangles& triangles);
 
   const SlideView& view() const { return view_; }
   SlidePlaces places() const { return places_; }
-  /// SlideChains::held_triangles.
-  const Triangle* held_triangles() const { return held_triangles_; }
   /// Waits for the places.
   void download_places(std::span<SlidePlace> places) const;
   /// Puts all vertices at their own knots, as they were when the chains came.
@@ -32,7 +40,6 @@ class DeviceChains {
   DeviceBuffer<std::byte> memory_;
   SlideView view_{};
   SlidePlaces places_{};
-  const Triangle* held_triangles_ = nullptr;
 };
 
 }  // namespace trismooth::cuda

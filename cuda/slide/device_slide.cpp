@@ -22,7 +22,10 @@ DeviceSlide::DeviceSlide(Context& context, const VertexOrder& order, Slidable sl
       fan_of_(context, held_after_.size()) {
   std::vector<std::int32_t> numbers = find_packed_numbers(context, order, slidable.vertices);
   numbers_ = DeviceBuffer<std::int32_t>(context, numbers);
-  slidable_ = PackedSlidable(std::move(slidable), std::move(reversed), std::move(numbers));
+  slidable_ = PackedSlidable(std::move(slidable), reversed, std::move(numbers));
+  triangles_.emplace(context, slidable_.packed_triangles());
+  fan_of_.fill_bytes(0xFF);
+  find_fans(context, numbers_, order.free_count(), fan_of_.data());
 }
 
 void DeviceSlide::begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
@@ -46,10 +49,7 @@ bool DeviceSlide::find_lines() {
   if (!local_.any()) {
     return false;
   }
-  device_ = DeviceChains(*context_, local_, slidable_.numbers());
-  fan_of_.fill_bytes(0xFF);
-  find_fans(*context_, device_.view(), static_cast<std::int32_t>(local_.sliders.size()), order_->free_count(),
-            fan_of_.data());
+  device_ = DeviceChains(*context_, local_, slidable_.numbers(), *triangles_);
   return true;
 }
 
@@ -78,8 +78,8 @@ void DeviceSlide::judge(const Point2<double>* before, bool guards, LineVerdict* 
   }
   const SlidPoints slid = slid_points();
   place_slid(*context_, slid, before, static_cast<std::int32_t>(held_after_.size()), device_frame_, storage_, verdict);
-  judge_lines(*context_, slid, device_.held_triangles(),
-              guards ? static_cast<std::int32_t>(local_.held_triangles.size()) : 0, before, verdict);
+  judge_lines(*context_, slid, triangles_->held.data(), guards ? static_cast<std::int32_t>(triangles_->held.size()) : 0,
+              before, verdict);
 }
 
 void DeviceSlide::take_over() {

@@ -69,7 +69,7 @@ class DeviceSlide {
   /// The same of triangles without a free vertex: see SlideGuard::settle_triangles().
   template <class Reverted>
   std::int64_t settle_triangles(const Point2<double>* before, double threshold_of_others, const Reverted& reverted) {
-    if (local_.held_triangles.empty()) {
+    if (local_.held_triangles().empty()) {
       return 0;
     }
     return put_back(before, reverted, [threshold_of_others](SlideGuard& guard, auto& back) {
@@ -128,8 +128,9 @@ class DeviceSlide {
   Context* context_;
   const VertexOrder* order_;
   PackedSlidable slidable_;
-  DeviceBuffer<std::int32_t> vertices_;      ///< of the Slidable: their numbers in the mesh
-  DeviceBuffer<std::int32_t> numbers_;       ///< likewise: packed
+  std::optional<DeviceSlideTriangles> triangles_;  ///< always there, from the constructor on
+  DeviceBuffer<std::int32_t> vertices_;            ///< of the Slidable: their numbers in the mesh
+  DeviceBuffer<std::int32_t> numbers_;             ///< likewise: packed
   std::vector<std::int32_t> by_packed_;      ///< their numbers in it, ascending by packed number; found when needed
   DeviceBuffer<Point2<double>> points_;      ///< one for each of them
   DeviceBuffer<Point2<double>> held_after_;  ///< HeldView

@@ -45,15 +45,13 @@ struct GatherBytes {
 };
 
 struct NoteFans {
-  SlideView view;
+  const std::int32_t* numbers;
   std::int32_t free_count;
   std::int32_t* fan_of;
 
-  __device__ void operator()(std::uint32_t s) const {
-    const Slider slider = view.sliders[s];
-    const SlideChain chain = view.chains[slider.chain];
-    for (std::int32_t copy = 0; copy < chain.copies; ++copy) {
-      fan_of[view.vertices[slider.knot + copy * chain.count] - free_count] = slider.fan + copy;
+  __device__ void operator()(std::uint32_t i) const {
+    if (numbers[i] >= free_count) {
+      fan_of[numbers[i] - free_count] = static_cast<std::int32_t>(i);
     }
   }
 };
@@ -101,9 +99,9 @@ std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* val
   return found;
 }
 
-void find_fans(const Context& context, const SlideView& view, std::int32_t slider_count, std::int32_t free_count,
+void find_fans(const Context& context, const DeviceBuffer<std::int32_t>& numbers, std::int32_t free_count,
                std::int32_t* fan_of) {
-  for_each(context, static_cast<std::uint32_t>(slider_count), NoteFans{view, free_count, fan_of});
+  for_each(context, static_cast<std::uint32_t>(numbers.size()), NoteFans{numbers.data(), free_count, fan_of});
 }
 
 void copy_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,

@@ -7,7 +7,6 @@
 #include "trismooth/base/point2.h"
 #include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
-#include "trismooth/smoothing/slide/slide_view.h"
 
 namespace trismooth::cuda {
 
@@ -22,8 +21,8 @@ void gather_points(const Context& context, const Point2<double>* stored, const D
 std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* values,
                                        const DeviceBuffer<std::int32_t>& numbers);
 
-/// Lists the fans of held vertices for the guard: fan_of[v - free_count], -1 where v does not slide.
-void find_fans(const Context& context, const SlideView& view, std::int32_t slider_count, std::int32_t free_count,
+/// Lists the fans of held vertices for the guard: fan_of[numbers[i] - free_count] = i. Others are left as they are.
+void find_fans(const Context& context, const DeviceBuffer<std::int32_t>& numbers, std::int32_t free_count,
                std::int32_t* fan_of);
 
 /// after[i] = before[free_count + i].

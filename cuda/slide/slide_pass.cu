@@ -13,12 +13,9 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// Threads of a team, which look at the triangles of a slider, one each: what counts is how soon one slider is done.
-/// That is soonest where a warp has but one, and sliders do not wait for each other's branches; where sliders are many,
-/// others wait for the warp.
-constexpr int small_team = 8;
-constexpr int whole_warp = 32;
-constexpr std::int32_t many_sliders = 16384;
+/// Threads of a team, which look at the triangles of a slider, one each. What counts is how soon one slider is done: so
+/// it has a warp of its own, and does not wait for the branches of others.
+constexpr int team_size = 32;
 /// Few in a block: a line has few vertices, and each takes long.
 constexpr unsigned slide_threads = 64;
 
@@ -34,14 +31,14 @@ struct WidePoints {
 };
 
 /// What another thread of the team has. All threads of the team call it.
-template <int team_size, class Value>
-__device__ Value from_lane(unsigned team, const Value& own, int lane) {
+template <class Value>
+__device__ Value from_lane(const Value& own, int lane) {
   static_assert(std::is_trivially_copyable_v<Value>);
   constexpr std::size_t count = (sizeof(Value) + sizeof(unsigned) - 1) / sizeof(unsigned);
   unsigned words[count] = {};
   memcpy(words, &own, sizeof(Value));
   for (unsigned& word : words) {
-    word = __shfl_sync(team, word, lane, team_size);
+    word = __shfl_sync(0xFFFFFFFFU, word, lane);
   }
   Value found;
   memcpy(&found, words, sizeof(Value));
@@ -49,15 +46,9 @@ __device__ Value from_lane(unsigned team, const Value& own, int lane) {
 }
 
 /// See SlideAlone.
-template <int team_size>
 struct SlideTeam {
-  unsigned threads;  ///< of the warp
-  int lane;          ///< of the thread in the team
+  int lane = static_cast<int>(threadIdx.x % team_size);  ///< of the thread
 
-  static __device__ SlideTeam own() {
-    const unsigned first = threadIdx.x % 32 / team_size * team_size;
-    return {0xFFFFFFFFU >> (32 - team_size) << first, static_cast<int>(threadIdx.x % team_size)};
-  }
   __device__ bool is_first() const { return lane == 0; }
 
   template <class Find, class Take>
@@ -66,15 +57,15 @@ struct SlideTeam {
       const int count = min(team_size, end - first);
       const auto mine = find(first + min(lane, count - 1));
       for (int k = 0; k < count; ++k) {
-        take(from_lane<team_size>(threads, mine, k));
+        take(from_lane(mine, k));
       }
     }
   }
 };
 
 /// Writes down where a slider is now, and marks who is to look at it.
-template <class T, int team_size>
-__device__ void settle(const SlideWork<T>& work, const SlideTeam<team_size>& team, bool is_first, const Slider& slider,
+template <class T>
+__device__ void settle(const SlideWork<T>& work, const SlideTeam& team, bool is_first, const Slider& slider,
                        const ChainCurve& curve, const SlidePlace& place) {
   const SlideChain& chain = curve.chain();
   std::uint32_t* const marks = is_first ? work.first_marks : work.second_marks;
@@ -90,7 +81,7 @@ __device__ void settle(const SlideWork<T>& work, const SlideTeam<team_size>& tea
       work.first.store(v, point);
       work.second.store(v, point);
     }
-    const std::int32_t fan = slider.fan + copy;
+    const std::int32_t fan = work.view.fan_at[slider.knot + copy * chain.count];
     for (std::int32_t i = work.view.fans[fan] + team.lane; i < work.view.fans[fan + 1]; i += team_size) {
       mark_free(work.view.sides[i].from);
       mark_free(work.view.sides[i].to);
@@ -101,7 +92,7 @@ __device__ void settle(const SlideWork<T>& work, const SlideTeam<team_size>& tea
   }
 }
 
-template <int team_size, class Update, class T>
+template <class Update, class T>
 __global__ void __launch_bounds__(slide_threads)
     slide_batch(Update method, SlideWork<T> work, std::int32_t begin, std::int32_t end, std::int32_t due_after,
                 const LoopState* state, SweepSums* sums) {
@@ -112,7 +103,7 @@ __global__ void __launch_bounds__(slide_threads)
   }
   __shared__ SweepSums shared;
   SweepTally<T> tally;
-  const auto team = SlideTeam<team_size>::own();
+  const SlideTeam team;
   const std::int64_t s = begin + thread_index() / team_size;
   if (s < end) {
     const bool is_first = state->current == 0;
@@ -121,7 +112,7 @@ __global__ void __launch_bounds__(slide_threads)
     const SlidingVertex vertex(work.view, work.places, slider, points, team);
     const SlideMove move = slide(method, vertex, work.targets == nullptr ? FanTarget{} : work.targets[s]);
     // (No thread of the team has anything left to read that others write.)
-    __syncwarp(team.threads);
+    __syncwarp();
     if (move.moved) {
       settle(work, team, is_first, slider, vertex.curve(), move.place);
     }
@@ -170,19 +161,12 @@ template <class T>
 std::int64_t launch_slide_pass(const MethodInUse<T>& method, const SlideWork<T>& work,
                                std::span<const std::int32_t> batches, std::int32_t due_after, const LoopState* state,
                                SweepSums* sums, cudaStream_t stream) {
-  const auto launch = [&]<int team_size, class Update>(const Update& update, std::integral_constant<int, team_size>) {
-    DependentLaunch kernel(&slide_batch<team_size, Update, T>, stream);
+  visit_method(method, [&]<class Update>(const Update& update) {
+    DependentLaunch kernel(&slide_batch<Update, T>, stream);
     for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
       const std::int64_t threads = std::int64_t{team_size} * (batches[batch + 1] - batches[batch]);
       kernel(blocks_for(threads, slide_threads), slide_threads, update, work, batches[batch], batches[batch + 1],
              due_after, state, sums);
-    }
-  };
-  visit_method(method, [&](const auto& update) {
-    if (batches.back() < many_sliders) {
-      launch(update, std::integral_constant<int, whole_warp>{});
-    } else {
-      launch(update, std::integral_constant<int, small_team>{});
     }
   });
   return std::ssize(batches) - 1;

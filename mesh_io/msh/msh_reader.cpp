@@ -291,13 +291,13 @@ class MshReader {
 
   /// A file whose nodes are all of points and curves says nothing by that.
   void add_implied_sets() {
-    const auto add = [this](const char* name, std::vector<std::int32_t>& members) {
+    const auto add = [this](std::string_view name, std::vector<std::int32_t>& members) {
       if (!members.empty()) {
-        document_.implied_sets.push_back({name, std::move(members)});
+        document_.implied_sets.push_back({std::string(name), std::move(members)});
       }
     };
     if (nodes_.any_on_surfaces) {
-      add("gmsh:points", nodes_.on_points);
+      add(points_of_geometry, nodes_.on_points);
       add("gmsh:curves", nodes_.on_curves);
     }
     std::ranges::sort(periodic_);

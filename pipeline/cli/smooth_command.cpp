@@ -88,18 +88,22 @@ void add_slide_options(CLI::App& command, Sliding& slide) {
   add_parsed_option(command, "--corner-angle", "DEGREES",
                     "A vertex where a line turns by more is a corner, which stays [30]",
                     [&slide](const std::string& text) { slide.corner_angle = parse_finite(text); })
+      ->needs("--slide")
       ->group(group);
   add_parsed_option(
       command, "--deviation", "X",
-      "With curves: how far a line may get from where it was, in edge lengths; checked in the result [1e-3]",
+      "With curves: how far a line may get from where it was, in edge lengths, 0 to 1; checked in the result [1e-3]",
       [&slide](const std::string& text) { slide.deviation = parse_finite(text); })
+      ->needs("--slide")
       ->group(group);
   add_enum_option(command, "--curve", slide.curve,
                   "With curves: slide on the edges as they are, or on a smooth curve through their vertices")
+      ->needs("--slide")
       ->group(group);
   command
       .add_flag("--slide-coincident", slide.coincident,
                 "Vertices in the same place, as on the faces of a crack, slide together; else they stay")
+      ->needs("--slide")
       ->group(group);
 }
 

@@ -86,8 +86,9 @@ class InnerNeighbours {
 
 class SetFinder {
  public:
-  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions)
-      : document_(document) {
+  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions,
+            bool slides)
+      : document_(document), slides_(slides) {
     std::vector<std::uint8_t> in_set(document.point_count(), 0);
     for (const auto& sets : {std::span(document.point_sets), std::span(document.implied_sets)}) {
       for (const NamedSet& set : sets) {
@@ -175,6 +176,10 @@ class SetFinder {
       }
     }
     for (std::size_t s = document_.point_sets.size(); s < members_.size(); ++s) {
+      // (Who slides may be held by nothing else. On curves and at periodic sides they slide.)
+      if (slides_ && document_.implied_sets[s - document_.point_sets.size()].name == points_of_geometry) {
+        continue;
+      }
       std::erase_if(members_[s],
                     [&](std::int32_t v) { return neighbours[v].empty() || is_held[static_cast<std::size_t>(v)] != 0; });
     }
@@ -234,6 +239,7 @@ class SetFinder {
   }
 
   const MeshDocument& document_;
+  bool slides_;
   /// Of each set of the document, then of each implied one, each once.
   std::vector<std::vector<std::int32_t>> members_;
   HeldSets found_;
@@ -242,7 +248,7 @@ class SetFinder {
 }  // namespace
 
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names, std::span<const std::int32_t> regions) {
+                        std::span<const std::string> names, std::span<const std::int32_t> regions, bool slides) {
   const bool holds_none = std::ranges::find(names, no_sets) != names.end();
   if (holds_none && names.size() > 1) {
     throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
@@ -250,7 +256,7 @@ HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> 
   if (document.point_sets.empty() && document.implied_sets.empty() && (names.empty() || holds_none)) {
     return {};
   }
-  SetFinder finder(document, triangles, regions);
+  SetFinder finder(document, triangles, regions, slides);
   if (holds_none) {
     return finder.by_names({});
   }

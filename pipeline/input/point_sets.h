@@ -29,12 +29,14 @@ inline constexpr std::string_view no_sets = "none";
 ///
 /// The document's implied sets are sets of those of their points that are inside the mesh, of no line or point cell
 /// and of one of `regions` alone (a number a triangle; empty: no one has told them);
-/// what else they have is held anyway. They are never of an area, and there are none without such points.
+/// what else they have is held anyway, unless vertices slide: then that of points of the geometry has all of its
+/// points. They are never of an area, and there are none without points.
 ///
 /// `triangles`: of the document. Throws std::invalid_argument for a name that no set has, with those there are.
 /// Complexity: n log n in the members of all sets and the triangles around them.
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names = {}, std::span<const std::int32_t> regions = {});
+                        std::span<const std::string> names = {}, std::span<const std::int32_t> regions = {},
+                        bool slides = false);
 
 /// The document's cell sets. Complexity: n log n in their members.
 std::vector<FileCellSet> summarise_cell_sets(const MeshDocument& document);

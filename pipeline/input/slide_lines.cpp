@@ -14,16 +14,20 @@ bool is_straight_line(std::uint8_t type) {
   return type == cell_type::line || type == cell_type::poly_line;
 }
 
-bool tells_lines_apart(const DataArray& array, std::span<const RegionArray> regions) {
-  if (array.components != 1) {
-    return false;
-  }
-  const bool names_lines =
-      array.description != nullptr && std::ranges::any_of(array.description->value_names, [](const ValueName& name) {
-        return name.dimension == cell_type::dimension(cell_type::line);
-      });
-  return names_lines || is_region_name(array.name) ||
-         std::ranges::any_of(regions, [&](const RegionArray& region) { return region.name == array.name; });
+bool names_lines(const DataArray& array) {
+  return array.description != nullptr && std::ranges::any_of(array.description->value_names, [](const ValueName& name) {
+           return name.dimension == cell_type::dimension(cell_type::line);
+         });
+}
+
+/// Whether the values of an array tell lines apart: of regions, or of a name under which programs write them, or names
+/// of lines. Else whole numbers do, for there are more names than anybody could list, unless they are as many as if
+/// they numbered the lines: better a vertex too many stays.
+bool tells_lines_apart(const DataArray& array, std::span<const RegionArray> regions,
+                       std::span<const std::int32_t> line_cells, const ValueNumbers& numbers) {
+  return names_lines(array) || is_region_name(array.name) ||
+         std::ranges::any_of(regions, [&](const RegionArray& region) { return region.name == array.name; }) ||
+         (2 * std::int64_t{numbers.count()} <= std::ssize(line_cells) && are_whole(array, line_cells, numbers));
 }
 
 }  // namespace
@@ -58,8 +62,12 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
     ValueNumbers tags;
     tags.of_item.assign(line_cells.size(), 0);
     for (const DataArray& array : document.cell_arrays) {
-      if (tells_lines_apart(array, regions)) {
-        tags = number_pairs(tags, number_values(array, line_cells));
+      if (array.components != 1) {
+        continue;
+      }
+      const ValueNumbers numbers = number_values(array, line_cells);
+      if (tells_lines_apart(array, regions, line_cells, numbers)) {
+        tags = number_pairs(tags, numbers);
       }
     }
     for (std::size_t i = 0; i < line_cells.size(); ++i) {

@@ -19,8 +19,9 @@ struct SlideLines {
   std::vector<std::uint8_t> in_other_cell;  ///< one flag a point: of a cell that is neither triangle nor straight line
 };
 
-/// Groups are the cell arrays of `regions`, those of names under which programs write regions, and those with names of
-/// values for lines: physical groups, entities, references, markers. Complexity: linear, and n log n in the lines.
+/// Groups are the cell arrays of `regions`, those of names under which programs write regions, those with names of
+/// values for lines (physical groups, entities, references, markers), and others of whole numbers that do not number
+/// the lines. Complexity: linear, and n log n in the lines.
 SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh, std::span<const RegionArray> regions);
 
 }  // namespace trismooth

@@ -192,7 +192,8 @@ void connect_mesh(RunState& run) {
   run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");
   result.notes.insert(result.notes.begin(), run.regions.notes.begin(), run.regions.notes.end());
   const FixedArray named = find_fixed_array(document, options.fixed_array);
-  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, run.regions.of_triangle);
+  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, run.regions.of_triangle,
+                                 options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
   std::vector<std::int32_t> ids =

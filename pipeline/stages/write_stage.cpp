@@ -28,9 +28,17 @@ void note_old_annotations(RunState& run) {
   }
 }
 
-/// What holds each vertex. A middle is held where its side's ends are.
+/// What holds each vertex. Nothing holds what has slid, and a middle is held where its side's ends are.
 std::vector<std::uint8_t> holds_of(const RunState& run) {
   std::vector<std::uint8_t> holds = run.found.fixed;
+  if (run.slide != Slide::off) {
+    for (std::size_t v = 0; v < holds.size(); ++v) {
+      const bool has_slid = !std::equal(run.input_points.begin() + 3 * static_cast<std::ptrdiff_t>(v),
+                                        run.input_points.begin() + 3 * static_cast<std::ptrdiff_t>(v + 1),
+                                        run.document.points.begin() + 3 * static_cast<std::ptrdiff_t>(v));
+      holds[v] = has_slid ? std::uint8_t{0} : holds[v];
+    }
+  }
   for (const MiddleNode& middle : run.mesh.middles) {
     const bool follows =
         std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[static_cast<std::size_t>(end)] == 0; });

@@ -14,7 +14,6 @@ namespace trismooth {
 /// Where the vertices of a Slidable are.
 struct SlideMesh {
   std::span<const Point2<double>> points;  ///< of its vertices, in the local frame
-  std::span<const std::uint8_t> reversed;  ///< one flag a triangle of the Slidable, as MeshRings::reversed
   std::span<const double> roundings;  ///< how far rounding may have brought each point from where it was meant to be
 };
 

@@ -19,20 +19,23 @@ class PackedSlidable {
   PackedSlidable() = default;
 
   /// `reversed`: as MeshRings::reversed, of the Slidable's triangles; `numbers`: packed, of its vertices.
-  PackedSlidable(Slidable slidable, std::vector<std::uint8_t> reversed, std::vector<std::int32_t> numbers);
+  PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed, std::vector<std::int32_t> numbers);
 
   bool any() const { return slidable_.any(); }
   const Slidable& slidable() const { return slidable_; }
   std::span<const std::int32_t> numbers() const { return numbers_; }
+  /// Around those that may slide, corners in packed numbers.
+  const SlideTriangles& packed_triangles() const { return packed_triangles_; }
 
-  /// The chains, with the vertices' numbers in the Slidable: see find_slide_chains(). `stored`: these vertices, in the
-  /// caller's coordinates.
+  /// The chains, with the vertices' numbers in the Slidable: see find_slide_chains(). They view what this owns.
+  /// `stored`: these vertices, in the caller's coordinates.
   SlideChains chains(std::span<const Point2<double>> stored, Storage storage, const LocalFrame& frame) const;
 
  private:
   Slidable slidable_;
-  std::vector<std::uint8_t> reversed_;  ///< of the triangles of slidable_
+  SlideTriangles triangles_;
   std::vector<std::int32_t> numbers_;
+  SlideTriangles packed_triangles_;
 };
 
 /// The packed numbers of a Slidable's vertices. `input_index`: the number in the mesh of each packed vertex.

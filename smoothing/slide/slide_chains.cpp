@@ -17,17 +17,17 @@ namespace {
 /// Writes runs down as chains.
 class ChainWriter {
  public:
-  ChainWriter(const Slidable& slidable, const SlideMesh& mesh, const ChainRuns& runs)
-      : slidable_(slidable), mesh_(mesh), runs_(runs) {}
+  ChainWriter(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh, const ChainRuns& runs)
+      : slidable_(slidable), triangles_(triangles), mesh_(mesh), runs_(runs) {}
 
   SlideChains run() {
     chains_.curve = slidable_.curve;
+    chains_.triangles = &triangles_;
     make_room();
     for (const LinkedRuns& linked : runs_.runs) {
       write_chain(linked.first, linked.others);
     }
-    find_fans();
-    find_held_triangles();
+    chains_.fan_at = chains_.vertices;
     order_by_colour();
     return std::move(chains_);
   }
@@ -49,8 +49,6 @@ class ChainWriter {
     chains_.bends.reserve(knots);
     chains_.places.reserve(knots);
     chains_.sliders.reserve(knots);
-    chains_.fans.reserve(knots + 1);
-    chains_.sides.reserve(slidable_.fans.side_count());
   }
 
   Point2<double> point(std::int32_t v) const { return mesh_.points[static_cast<std::size_t>(v)]; }
@@ -82,7 +80,7 @@ class ChainWriter {
       chains_.places.push_back({chain.length, run.is_closed || i < segments ? i : i - 1});
       chain.length += i < segments ? length(i) : 0;
       if (run.is_closed || (i > 0 && i < segments)) {
-        chains_.sliders.push_back({number, chain.first + i, 0});
+        chains_.sliders.push_back({number, chain.first + i});
       }
     }
     chains_.arcs.resize(chains_.knots.size());
@@ -148,34 +146,6 @@ class ChainWriter {
     }
   }
 
-  /// The triangles around each slider.
-  void find_fans() {
-    std::int32_t fan = 0;
-    for (Slider& slider : chains_.sliders) {
-      slider.fan = fan;
-      chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
-        for (const ListedSide& side : slidable_.fans.around(v)) {
-          if (is_reversed(side.triangle)) {
-            chains_.sides.push_back({side.second, side.first, side.second_is_unknown, side.first_is_unknown});
-          } else {
-            chains_.sides.push_back({side.first, side.second, side.first_is_unknown, side.second_is_unknown});
-          }
-        }
-        chains_.fans.push_back(static_cast<std::int32_t>(chains_.sides.size()));
-        ++fan;
-      });
-    }
-  }
-
-  void find_held_triangles() {
-    for (const std::int32_t t : slidable_.fans.held_triangles()) {
-      chains_.held_triangles.push_back(
-          canonical_corners(slidable_.triangles[static_cast<std::size_t>(t)], is_reversed(t)));
-    }
-  }
-
-  bool is_reversed(std::int32_t t) const { return mesh_.reversed[static_cast<std::size_t>(t)] != 0; }
-
   /// Colours sliders that share an edge, through any of their copies, differently: greedily, in the order of
   /// splitmix64(number in the mesh) of the first copy.
   void order_by_colour() {
@@ -227,6 +197,7 @@ class ChainWriter {
   }
 
   const Slidable& slidable_;
+  const SlideTriangles& triangles_;
   const SlideMesh& mesh_;
   const ChainRuns& runs_;
   SlideChains chains_;
@@ -242,16 +213,11 @@ std::int64_t SlideChains::vertex_count() const {
   return count;
 }
 
-void SlideChains::renumber(std::span<const std::int32_t> numbers) {
-  const auto give = [&](std::int32_t& v) { v = numbers[static_cast<std::size_t>(v)]; };
-  std::ranges::for_each(vertices, give);
-  for (FanSide& side : sides) {
-    give(side.from);
-    give(side.to);
+void SlideChains::renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered) {
+  for (std::int32_t& v : vertices) {
+    v = numbers[static_cast<std::size_t>(v)];
   }
-  for (Triangle& triangle : held_triangles) {
-    std::ranges::for_each(triangle, give);
-  }
+  triangles = &renumbered;
 }
 
 NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const {
@@ -265,8 +231,8 @@ NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const 
   return {first, end, pairs};
 }
 
-SlideChains find_slide_chains(const Slidable& slidable, const SlideMesh& mesh) {
-  return ChainWriter(slidable, mesh, find_chain_runs(slidable, mesh)).run();
+SlideChains find_slide_chains(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh) {
+  return ChainWriter(slidable, triangles, mesh, find_chain_runs(slidable, mesh)).run();
 }
 
 }  // namespace trismooth

@@ -11,17 +11,19 @@
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/rings/slidable.h"
 #include "trismooth/smoothing/slide/chain_runs.h"
+#include "trismooth/smoothing/slide/slide_triangles.h"
 #include "trismooth/smoothing/slide/slide_update.h"
 #include "trismooth/smoothing/slide/slide_view.h"
 
 namespace trismooth {
 
-/// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views. Vertices have the
-/// numbers of the Slidable, or after renumber() others.
+/// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views, but for the
+/// triangles. Vertices have the numbers of the Slidable, or after renumber() others.
 struct SlideChains {
   std::vector<SlideChain> chains;
   std::vector<Point2<double>> knots;
   std::vector<std::int32_t> vertices;
+  std::vector<std::int32_t> fan_at;      ///< likewise: the number in the Slidable
   std::vector<double> arcs;              ///< one a knot of all copies; those of the first copy count
   std::vector<std::uint8_t> bends;       ///< likewise: 0 where the polyline is straight to rounding
   std::vector<double> lengths;           ///< likewise: of the shorter one of both segments
@@ -29,12 +31,8 @@ struct SlideChains {
   std::vector<double> allowed;           ///< ...and how far it may be then: rounding, of what is stored, is between
   std::vector<Slider> sliders;           ///< by colour: those of one may be updated at the same time
   std::vector<std::int32_t> batches{0};  ///< colour c has sliders batches[c] .. batches[c + 1]
-  std::vector<std::int32_t> fans{0};
-  std::vector<FanSide> sides;
-  std::vector<SlidePlace> places;  ///< of the knots themselves
-  /// The triangles with a vertex that may slide, as far as connectivity says it, and none that is free: no one-ring has
-  /// them. Canonical corners.
-  std::vector<Triangle> held_triangles;
+  std::vector<SlidePlace> places;        ///< of the knots themselves
+  const SlideTriangles* triangles = nullptr;  ///< of others; corners have the numbers that vertices have here
   SlideCurve curve = SlideCurve::polyline;
 
   bool any() const { return !sliders.empty(); }
@@ -49,43 +47,59 @@ struct SlideChains {
   /// Calls visit(vertex, side) for the triangles of the vertices that slide with a slider.
   template <class Visit>
   void for_sides(const Slider& slider, const Visit& visit) const {
+    const std::int32_t count = chains[slider.chain].count;
     for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
-      const std::int32_t fan = slider.fan + copy;
-      for (std::int32_t i = fans[fan]; i < fans[fan + 1]; ++i) {
-        visit(v, sides[i]);
+      for (const FanSide& side : triangles->around(fan_at[slider.knot + copy * count])) {
+        visit(v, side);
       }
     });
   }
   /// How many vertices slide, those of all copies.
   std::int64_t vertex_count() const;
-  /// The smallest shape quotient of held_triangles, and how many of them are inverted or degenerate. `points`: of all
-  /// vertices by the numbers that they have here.
+  /// The triangles that no one-ring has.
+  std::span<const Triangle> held_triangles() const {
+    return triangles == nullptr ? std::span<const Triangle>() : triangles->held;
+  }
+  /// The smallest shape quotient of these, and how many of them are inverted or degenerate. `points`: of all vertices
+  /// by the numbers that they have here.
   template <class T>
   T smallest_quotient(std::span<const Point2<T>> points) const {
     T smallest = std::numeric_limits<T>::infinity();
-    for (const auto& [a, b, c] : held_triangles) {
+    for (const auto& [a, b, c] : held_triangles()) {
       smallest = std::min(smallest, shape_quotient(points[a], points[b], points[c]));
     }
     return smallest;
   }
   std::int64_t inverted(std::span<const Point2<double>> points) const {
-    return std::ranges::count_if(held_triangles, [&](const Triangle& corners) {
+    return std::ranges::count_if(held_triangles(), [&](const Triangle& corners) {
       return !(shape_quotient(points[corners[0]], points[corners[1]], points[corners[2]]) > 0);
     });
   }
-  /// Gives vertex v the number numbers[v], wherever it is named.
-  void renumber(std::span<const std::int32_t> numbers);
+  /// Gives vertex v the number numbers[v]. `renumbered`: the triangles, with the same numbers; they outlive the chains.
+  void renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered);
   /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
   NumberLists neighbours(std::int32_t first, std::int32_t end) const;
   SlideView view() const {
-    return {chains.data(),  knots.data(),   vertices.data(), arcs.data(), bends.data(), limits.data(),
-            allowed.data(), lengths.data(), sliders.data(),  fans.data(), sides.data(), curve};
+    return {chains.data(),
+            knots.data(),
+            vertices.data(),
+            fan_at.data(),
+            arcs.data(),
+            bends.data(),
+            limits.data(),
+            allowed.data(),
+            lengths.data(),
+            sliders.data(),
+            triangles == nullptr ? nullptr : triangles->begins.data(),
+            triangles == nullptr ? nullptr : triangles->sides.data(),
+            curve};
   }
 };
 
 /// Finds the chains: which vertices turn too much to slide on them, which lie in the same place as others, which are
 /// linked; in what order they are visited (greedy colouring, as colour_free_vertices() does it). Vertices have the
-/// numbers of `slidable`. Complexity: n log n in the vertices that may slide.
-SlideChains find_slide_chains(const Slidable& slidable, const SlideMesh& mesh);
+/// numbers of `slidable`; so have the corners of `triangles`, which outlive the chains. Complexity: n log n in the
+/// vertices that may slide.
+SlideChains find_slide_chains(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh);
 
 }  // namespace trismooth

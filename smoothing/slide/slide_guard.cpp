@@ -118,13 +118,13 @@ bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std:
     return !(after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)]);
   };
   double threshold = threshold_of_others;
-  for (const Triangle& triangle : chains_.held_triangles) {
+  for (const Triangle& triangle : chains_.held_triangles()) {
     if (std::ranges::any_of(triangle, has_moved)) {
       threshold = std::min(threshold, quotient(before_, triangle));
     }
   }
   std::vector<std::int32_t> offending;
-  for (const Triangle& triangle : chains_.held_triangles) {
+  for (const Triangle& triangle : chains_.held_triangles()) {
     if (std::ranges::any_of(triangle, has_moved) &&
         offends(quotient(before_, triangle), quotient(after_, triangle), threshold)) {
       std::ranges::copy_if(triangle, std::back_inserter(offending), has_moved);

@@ -126,7 +126,7 @@ class SlidingVertex {
   TRISMOOTH_HOST_DEVICE void for_sides(const SlidePlace& place, const Find& find, const Take& take) const {
     for (std::int32_t copy = 0; copy < copies(); ++copy) {
       const Point2<double> position = curve_.position(place, copy);
-      const std::int32_t fan = slider_.fan + copy;
+      const std::int32_t fan = view_.fan_at[slider_.knot + copy * curve_.chain().count];
       team_.for_each(
           view_.fans[fan], view_.fans[fan + 1], [&](std::int32_t i) { return find(copy, position, view_.sides[i]); },
           take);

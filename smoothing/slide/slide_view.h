@@ -25,7 +25,6 @@ struct SlideChain {
 struct Slider {
   std::int32_t chain;
   std::int32_t knot;  ///< in the first copy
-  std::int32_t fan;   ///< that of copy c is fan + c
 };
 
 /// A triangle around a sliding vertex: the other two corners, counter-clockwise. Packed numbers.
@@ -42,13 +41,13 @@ struct SlideView {
   // By knot, of all copies:
   const Point2<double>* knots = nullptr;
   const std::int32_t* vertices = nullptr;  ///< packed numbers
+  const std::int32_t* fan_at = nullptr;    ///< the fan of the vertex
   // By knot of the first copy:
   const double* arcs = nullptr;
   const std::uint8_t* bends = nullptr;  ///< 0 where the polyline is straight to rounding
   const double* limits = nullptr;       ///< how far the new line may be from it before it is stored, which rounds...
   const double* allowed = nullptr;      ///< ...and how far it may be then
   const double* lengths = nullptr;      ///< of the shorter one of both segments
-  // By slider:
   const Slider* sliders = nullptr;
   const std::int32_t* fans = nullptr;  ///< sides[fans[f]] .. sides[fans[f + 1]] are those of fan f
   const FanSide* sides = nullptr;

@@ -116,6 +116,88 @@ TEST_CASE("lines of a file are slid on, its groups end them, points stay, and pe
   CHECK(std::abs(found.result.areas[0].relative_change()) < 1e-15);
 }
 
+TEST_CASE("annotations show those that slid as not held") {
+  using namespace sliding_test;
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.slide.along = Slide::straight;
+  options.annotate = true;
+  const Smoothed found = smoothed(folder, options);
+  const auto fixed = std::ranges::find(found.after.point_arrays, "trismooth:fixed", &trismooth::DataArray::name);
+  REQUIRE(fixed != found.after.point_arrays.end());
+  int slid = 0;
+  for (int v = 0; v < side * side; ++v) {
+    if (found.moved(v)) {
+      CHECK(fixed->value(static_cast<std::size_t>(v)) == 0);
+      slid += v < side ? 1 : 0;
+    }
+  }
+  CHECK(slid > 0);
+  CHECK(fixed->value(0) == 1);
+}
+
+TEST_CASE("nodes of points of Gmsh's geometry stay on a side that slides") {
+  using namespace sliding_test;
+  // Two rows of nodes, uneven on both sides; node 4 is on a point of the geometry, the others on its surface.
+  const ScratchFolder folder;
+  std::ofstream(folder / "strip.msh") << R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Nodes
+2 10 1 10
+0 1 0 1
+4
+0.9 0 0
+2 1 0 9
+1
+2
+3
+5
+6
+7
+8
+9
+10
+0 0 0
+0.1 0 0
+0.8 0 0
+2 0 0
+0 1 0
+0.5 1 0
+1 1 0
+1.9 1 0
+2 1 0
+$EndNodes
+$Elements
+1 8 1 8
+2 1 2 8
+1 1 2 6
+2 2 7 6
+3 2 3 7
+4 3 8 7
+5 3 4 8
+6 4 9 8
+7 4 5 9
+8 5 10 9
+$EndElements
+)";
+  PipelineOptions options;
+  options.input = folder / "strip.msh";
+  options.output = folder / "smoothed.msh";
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  options.slide.along = Slide::straight;
+  const auto x_of = [&](int node) {
+    return trismooth::read_mesh(*options.output).points[3 * static_cast<std::size_t>(node)];
+  };
+  trismooth::run_pipeline(options);
+  const MeshDocument before = trismooth::read_mesh(options.input);
+  const auto point = static_cast<int>(std::ranges::find(before.points, 0.9) - before.points.begin()) / 3;
+  CHECK(x_of(point) == 0.9);
+  options.fixed_sets = {"none"};
+  trismooth::run_pipeline(options);
+  CHECK(x_of(point) != 0.9);
+}
+
 TEST_CASE("without --slide lines of a file hold their vertices") {
   using namespace sliding_test;
   const ScratchFolder folder;

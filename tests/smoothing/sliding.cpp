@@ -106,7 +106,7 @@ TEST_CASE("triangles of corners that get worse than they were, but not than the 
       const Point v{at(c).x - at(a).x, at(c).y - at(a).y};
       const Point w{v.x - u.x, v.y - u.y};
       const double squares = u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y + w.x * w.x + w.y * w.y;
-      smallest = std::min(smallest, 2 * std::sqrt(3.0) * (u.x * v.y - u.y * v.x) / squares);
+      smallest = std::min(smallest, 2 * std::numbers::sqrt3 * (u.x * v.y - u.y * v.x) / squares);
     }
     return smallest;
   };
