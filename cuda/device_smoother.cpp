@@ -84,6 +84,27 @@ class SweepDriver final : public DeviceSmoother {
 
   SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                          double fixed_quotient) override {
+    SmoothingResult result = smoothed(stored, frame, storage, fixed_quotient, true);
+    if (result.sliding && result.sliding->given_up) {
+      const SlidingResult given_up = *result.sliding;
+      result = smoothed(stored, frame, storage, fixed_quotient, false);
+      result.sliding = given_up;
+    }
+    return result;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// What comes behind the last sweep: the guard, and the writing to `stored`.
+  struct Ending {
+    GuardInput<T> input;
+    Point2<double>* stored;
+  };
+
+  /// `slides`: unless nothing is to. Where that is given up the coordinates are as they were.
+  SmoothingResult smoothed(Point2<double>* stored, const LocalFrame* frame, Storage storage, double fixed_quotient,
+                           bool slides) {
     SmoothingResult result;
     result.backend = "cuda";
     result.device = device_;
@@ -96,7 +117,7 @@ class SweepDriver final : public DeviceSmoother {
     }
     timeline_.rewind();
     timeline_.mark();
-    slides_.begin(stored, frame, storage);
+    slides_.begin(stored, frame, storage, slides);
     Ending ending{{order_.input_index.data(), before_.data(), {}, {}, &record_.data()->state, false, frame, storage},
                   stored};
     enter(ending, result);
@@ -107,15 +128,6 @@ class SweepDriver final : public DeviceSmoother {
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
   }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  /// What comes behind the last sweep: the guard, and the writing to `stored`.
-  struct Ending {
-    GuardInput<T> input;
-    Point2<double>* stored;
-  };
 
   /// Calls body(engine) with the engine as it is.
   template <class Body>
@@ -353,7 +365,8 @@ class SweepDriver final : public DeviceSmoother {
       const auto [first, second] = engine.output(host_record_.state.current);
       ending.input.first = first;
       ending.input.second = second;
-      slides_.end(context_, engine, ending.input, guard_buffers_, ending.stored, record_, host_record_, result);
+      slides_.end(context_, engine, order_.free_count(), ending.input, guard_buffers_, ending.stored, record_,
+                  host_record_, result);
     });
     timeline_.mark();
   }

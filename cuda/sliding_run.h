@@ -30,9 +30,10 @@ class SlidingRun {
     slide_.emplace(context, order, std::move(slidable), std::move(reversed));
   }
 
-  /// Begins a run with vertices as they are stored. Waits for the device where something may slide.
-  void begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage) {
-    slides_ = slide_.has_value();
+  /// Begins a run with vertices as they are stored; `slides`: unless nothing is to. Waits for the device where
+  /// something may slide.
+  void begin(const Point2<double>* stored, const LocalFrame* frame, Storage storage, bool slides) {
+    slides_ = slides && slide_.has_value();
     if (slides_) {
       slide_->begin(stored, frame, storage);
     }
@@ -112,11 +113,12 @@ class SlidingRun {
 
   /// The ending of the run. Lines and elements have their say in turn: who goes back for one may spoil the other. When
   /// nobody has anything to say, all is written to `stored`. Mostly nobody has: so the device judges both at first, and
-  /// the host sees to lines where the device finds something. `host_record`: what `record`, on the device, was read as.
-  /// Waits for the device.
+  /// the host sees to lines where the device finds something. Where that gives sliding up, as the result says, nothing
+  /// is written. `free_count`: of vertices; `host_record`: what `record`, on the device, was read as. Waits for the
+  /// device.
   template <class Engine>
-  void end(Context& context, Engine& engine, GuardInput<T> input, GuardBuffers& buffers, Point2<double>* stored,
-           DeviceBuffer<RunRecord>& record, RunRecord& host_record, SmoothingResult& result) {
+  void end(Context& context, Engine& engine, std::int64_t free_count, GuardInput<T> input, GuardBuffers& buffers,
+           Point2<double>* stored, DeviceBuffer<RunRecord>& record, RunRecord& host_record, SmoothingResult& result) {
     const auto rings = engine.rings();
     GuardState* const state = &record.data()->guard;
     LineVerdict* const lines = &record.data()->lines;
@@ -162,6 +164,11 @@ class SlidingRun {
           result.guard_rounds += rounds;
           again = rounds > 0 || !outcome.held.empty();
         }
+      }
+      if (ran_to_its_end(result.stop_reason) &&
+          is_spoilt_by_sliding(std::ssize(result.reverted), free_count + slide_->vertex_count())) {
+        result.sliding = slide_->given_up();
+        return;
       }
       launch_writing(rings, input, stored, state, context.stream());
       slide_->queue_writing(input.before, stored, nullptr, nullptr);

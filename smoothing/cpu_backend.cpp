@@ -61,16 +61,11 @@ class CpuSmoother final : public PreparedSmoother {
                          const std::optional<LocalFrame>& known_frame) override {
     inverse_sizes_ = inverse_sizes(options_, fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
-    SmoothingResult result;
-    result.backend = "cpu";
-    result.device = processor_name();
-    result.threads = workers_.count();
-    result.free_vertices = rings_.free_count();
-    result.colours = rings_.colours;
-    if (options_.precision == Precision::double_precision) {
-      smooth_in<double>(points, storage, frame, result);
-    } else {
-      smooth_in<float>(points, storage, frame, result);
+    SmoothingResult result = smoothed(points, storage, frame, true);
+    if (result.sliding && result.sliding->given_up) {
+      const SlidingResult given_up = *result.sliding;
+      result = smoothed(points, storage, frame, false);
+      result.sliding = given_up;
     }
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
@@ -92,6 +87,7 @@ class CpuSmoother final : public PreparedSmoother {
     std::span<Point2<double>> points;
     Storage storage;
     const LocalFrame& frame;
+    bool slides;  ///< what may slide does
     SmoothingResult& result;
     BulkVector<Point2<double>> before;
     BulkVector<Point2<T>> working;
@@ -103,10 +99,27 @@ class CpuSmoother final : public PreparedSmoother {
     SlidVertices slid;
   };
 
+  /// `slides`: unless nothing is to. Where that is given up the points are as they were.
+  SmoothingResult smoothed(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, bool slides) {
+    SmoothingResult result;
+    result.backend = "cpu";
+    result.device = processor_name();
+    result.threads = workers_.count();
+    result.free_vertices = rings_.free_count();
+    result.colours = rings_.colours;
+    if (options_.precision == Precision::double_precision) {
+      smooth_in<double>(points, storage, frame, slides, result);
+    } else {
+      smooth_in<float>(points, storage, frame, slides, result);
+    }
+    return result;
+  }
+
   template <class T>
-  void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, SmoothingResult& result) {
+  void smooth_in(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame, bool slides,
+                 SmoothingResult& result) {
     Stopwatch watch;
-    Run<T> run{points, storage, frame, result, {}, {}, {}, {}, {}, {}, {}, {}};
+    Run<T> run{points, storage, frame, slides, result, {}, {}, {}, {}, {}, {}, {}, {}};
     enter(run);
     if (options_.untangles()) {
       result.timings.smooth = watch.lap();
@@ -120,7 +133,9 @@ class CpuSmoother final : public PreparedSmoother {
     result.timings.smooth += watch.lap();
     lay_out(run);
     guard(run);
-    store(run);
+    if (!(result.sliding && result.sliding->given_up)) {
+      store(run);
+    }
     result.timings.commit = watch.lap();
   }
 
@@ -148,7 +163,7 @@ class CpuSmoother final : public PreparedSmoother {
       // (Where components are turned over, so is what is on which side of their lines.)
       run.chains = chains_at(run.points, run.storage, run.frame);
     }
-    if (run.chains.any()) {
+    if (run.chains.any() && run.slides) {
       run.slide.emplace(run.chains, workers_);
     }
     double fixed_quotient =
@@ -242,6 +257,7 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   void guard_with_lines(Run<T>& run, const NumberLists& held) {
     SlideGuard lines(run.chains, run.slide->places(), run.before, run.after);
+    std::int64_t put_back = 0;
     bool again = true;
     while (again) {
       std::vector<std::int32_t> reverted;
@@ -250,15 +266,22 @@ class CpuSmoother final : public PreparedSmoother {
       if (options_.guard) {
         const GuardOutcome outcome = keep_never_worse(rings_.view(), run.before, run.after, workers_, held);
         again = list(run, outcome);
+        put_back += std::ssize(outcome.reverted);
         const std::int64_t rounds = lines.settle_triangles(outcome.threshold, reverted);
         run.result.guard_rounds += rounds;
         again = again || rounds > 0;
       }
       list(run, std::span<const std::int32_t>(reverted));
+      put_back += std::ssize(reverted);
+    }
+    const std::int64_t vertices = run.chains.vertex_count();
+    if (ran_to_its_end(run.result.stop_reason) && is_spoilt_by_sliding(put_back, rings_.free_count() + vertices)) {
+      run.result.sliding = {.chains = std::ssize(run.chains.chains), .vertices = vertices, .given_up = true};
+      return;
     }
     const LineDeviation deviation = lines.deviation();
     run.result.sliding = {.chains = std::ssize(run.chains.chains),
-                          .vertices = run.chains.vertex_count(),
+                          .vertices = vertices,
                           .slid = lines.slid_vertices(),
                           .largest_deviation = std::ldexp(deviation.distance, run.frame.exponent),
                           .relative_deviation = deviation.relative};

@@ -75,6 +75,11 @@ struct UntanglingResult {
   std::vector<std::uint8_t> turned{};  ///< one byte a triangle, 1 where it is of these components; empty: there is none
 };
 
+/// Whether nobody stopped it: no caller, no clock.
+constexpr bool ran_to_its_end(StopReason reason) {
+  return reason != StopReason::cancelled && reason != StopReason::time_limit;
+}
+
 /// What became of vertices that may slide along boundaries and interfaces.
 struct SlidingResult {
   std::int64_t chains = 0;        ///< those linked with each other count once
@@ -82,6 +87,9 @@ struct SlidingResult {
   std::int64_t slid = 0;          ///< that did
   double largest_deviation = 0;   ///< between the old lines and the new ones, in the units of the coordinates
   double relative_deviation = 0;  ///< the largest, as a part of the length of the edge nearby: see Sliding::deviation
+  /// So many vertices would have gone back for what slid that all was smoothed once more without sliding: this is what
+  /// came of that.
+  bool given_up = false;
 };
 
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.

@@ -163,7 +163,7 @@ void guard_quadratics(FollowedMesh& mesh, const QuadraticLists& lists, const Con
         mesh, before, GuardedElements(lists.corners, lists.quadratics, found.reversed, turned));
   };
   if (options.guard) {
-    const std::vector<Point2<double>> unguarded = mesh.now();
+    const std::vector<Point2<double>> unguarded(mesh.now().begin(), mesh.now().end());
     const GuardOutcome outcome =
         guard_turned(static_cast<std::int32_t>(mesh.now().size()), lists.corners, result.untangling, mesh_of, workers);
     result.guard_rounds += outcome.rounds;

@@ -216,7 +216,8 @@ Json sliding_json(const std::optional<SlidingResult>& sliding) {
           {"vertices", sliding->vertices},
           {"slid", sliding->slid},
           {"largest_deviation", number_json(sliding->largest_deviation)},
-          {"relative_deviation", number_json(sliding->relative_deviation)}};
+          {"relative_deviation", number_json(sliding->relative_deviation)},
+          {"given_up", sliding->given_up}};
 }
 
 Json areas_json(const PipelineResult& result) {

@@ -237,6 +237,9 @@ std::string sliding_text(const PipelineResult& result) {
   if (sliding.vertices == 0) {
     return "no vertex of a boundary or an interface can slide";
   }
+  if (sliding.given_up) {
+    return "given up: so many vertices would have gone back for it that nothing slides";
+  }
   std::string text =
       fmt::format("{} of {} on {} slid", count_text(sliding.slid), counted(sliding.vertices, "vertex", "vertices"),
                   counted(sliding.chains, "line", "lines"));

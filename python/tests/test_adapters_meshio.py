@@ -151,12 +151,18 @@ def test_line_cells_are_lines_where_vertices_slide() -> None:
     assert has_moved[1:4].any() and has_moved[4] and not has_moved[8]
     assert np.array_equal(result.mesh.points[G.middle_column, 0], np.full(11, 0.5))
     assert result.sliding.slid == expected.sliding.slid > 0
-    # Data of regions tell them apart, others do not.
-    for name, lines in (("gmsh:physical", expected.sliding.lines + 1), ("u", expected.sliding.lines)):
-        mesh.cell_data = {name: [np.full(4, 3), np.ones(200), np.full(6, 4), np.array([0])]}
+    # Data of regions and whole numbers tell them apart, unless these number them; others do not.
+    def tagged_by(name, first, second):
+        mesh.cell_data = {name: [first, np.ones(200), second, np.array([0])]}
         tagged = trismooth.smooth(mesh, slide="straight")
-        assert tagged.sliding.lines == lines
-        assert moved(mesh, tagged.mesh)[G.vertex(5, 4)] == (name == "u")
+        has_slid = moved(mesh, tagged.mesh)[G.vertex(5, 4)]
+        assert tagged.sliding.lines == expected.sliding.lines + (0 if has_slid else 1)
+        return not has_slid
+
+    assert tagged_by("gmsh:physical", np.full(4, 3), np.full(6, 4))
+    assert tagged_by("marker_of_sides", np.full(4, 3), np.full(6, 4))
+    assert not tagged_by("number", np.arange(4), np.arange(4, 10))
+    assert not tagged_by("u", np.full(4, 3.5), np.full(6, 4.5))
     assert not moved(mesh, trismooth.smooth(mesh, slide="straight", regions="u").mesh)[G.vertex(5, 4)]
     mesh.cell_data = {}
     mesh.cell_sets = {"below": [np.arange(4), None, np.array([], dtype=int), None]}

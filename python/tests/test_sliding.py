@@ -262,7 +262,7 @@ def test_a_file_tells_of_sliding_and_areas(msh):
     path, *_ = msh
     result = trismooth.read(path).smooth(slide="straight")
     told = result.report["smoothing"]["sliding"]
-    for name in ("lines", "vertices", "slid", "largest_deviation", "relative_deviation"):
+    for name in ("lines", "vertices", "slid", "largest_deviation", "relative_deviation", "given_up"):
         assert told[name] == getattr(result.sliding, name)
     assert [a["after"] for a in result.report["areas"]] == pytest.approx([a["before"] for a in result.report["areas"]], rel=1e-12)
     assert result.report["options"]["slide"] == "straight"

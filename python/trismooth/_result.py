@@ -23,7 +23,7 @@ def free_moved(result: Result) -> int:
 def sliding_text(sliding: SlidingResult) -> str:
     """What became of vertices that may slide, in the words of the program's report."""
     where = where_lines_are(sliding)
-    if sliding.vertices == 0:
+    if sliding.vertices == 0 or sliding.given_up:
         return where
     text = (
         f"{sliding.slid:,} of {sliding.vertices:,} vert{'ex' if sliding.vertices == 1 else 'ices'} on "
@@ -36,6 +36,8 @@ def where_lines_are(sliding: SlidingResult) -> str:
     """How far the new lines are from the old ones; empty where nothing slid."""
     if sliding.vertices == 0:
         return "no vertex of a boundary or an interface can slide"
+    if sliding.given_up:
+        return "given up: so many vertices would have gone back for it that nothing slides"
     if sliding.slid == 0:
         return ""
     if sliding.largest_deviation == 0:

@@ -10,6 +10,13 @@
 
 namespace trismooth {
 
+/// Whether sliding did harm: where it takes elements to about where T is all over the mesh, as on a regular grid, the
+/// guard puts back one after the other, what had nothing to do with lines as well. `put_back`: vertices that went back;
+/// `movable`: those that may move, free or on lines.
+constexpr bool is_spoilt_by_sliding(std::int64_t put_back, std::int64_t movable) {
+  return 4 * put_back > movable;
+}
+
 /// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements of
 /// one-rings, this is for lines, and for the triangles that no one-ring has. Whoever is linked goes back together.
 class SlideGuard {

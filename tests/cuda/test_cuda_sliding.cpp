@@ -38,8 +38,8 @@ std::string difference_of_sliding(const Run& found, const Run& expected) {
   }
   const SlidingResult& here = *found.result.sliding;
   const SlidingResult& there = *expected.result.sliding;
-  const bool same = here.chains == there.chains && here.vertices == there.vertices && here.slid == there.slid &&
-                    here.largest_deviation == there.largest_deviation &&
+  const bool same = here.given_up == there.given_up && here.chains == there.chains && here.vertices == there.vertices &&
+                    here.slid == there.slid && here.largest_deviation == there.largest_deviation &&
                     here.relative_deviation == there.relative_deviation;
   return same ? std::string()
               : fmt::format("{} of {} slid by {} ({}), not {} of {} by {} ({})", here.slid, here.vertices,
@@ -51,8 +51,8 @@ std::string difference_of_sliding(const Run& found, const Run& expected) {
 RandomMesh annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) {
   RandomMesh mesh;
   mesh.mesh = sliding_meshes::uneven_annulus(around, rings, seed);
-  const auto half = static_cast<std::size_t>(2 * around * (rings / 2));
-  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+  const std::int32_t half = 2 * around * (rings / 2);
+  for (std::int32_t t = 0; t < std::ssize(mesh.mesh.triangles); ++t) {
     mesh.regions.push_back(t < half ? 1 : 2);
   }
   return mesh;
@@ -143,6 +143,21 @@ TEST_CASE("linked sides stay equal to the bit on the device") {
   const Run found = run(mesh, options);
   for (std::int32_t i = 0; i < side; ++i) {
     CHECK(same_bits(found.xy[2 * (i * side) + 1], found.xy[2 * (i * side + side - 1) + 1]));
+  }
+}
+
+TEST_CASE("the device gives sliding up where the CPU does") {
+  for (const std::int32_t side : {41, 200}) {
+    RandomMesh mesh;
+    mesh.mesh = sliding_meshes::regular_grid(side, 3);
+    mesh.slide.along = Slide::straight;
+    SmoothingOptions options;
+    options.method = Method::mean_ratio;
+    const Run expected = run(mesh, options);
+    options.backend = &cuda::backend();
+    const Run found = run(mesh, options);
+    CHECK(expected.result.sliding->given_up);
+    CHECK(difference_of_sliding(found, expected).empty());
   }
 }
 

@@ -119,6 +119,23 @@ TEST_CASE("triangles of corners that get worse than they were, but not than the 
   CHECK(smallest_shape(found.xy) > smallest_shape(held.xy));
 }
 
+TEST_CASE("where sliding would have nearly all of a regular grid go back, it comes out as without sliding") {
+  const Mesh mesh = regular_grid(41, 3);
+  Constraints constraints;
+  const Smoothed held = smoothed(mesh, constraints);
+  REQUIRE(held.result.moved_vertices > 100);
+  constraints.slide.along = Slide::straight;
+  const Smoothed found = smoothed(mesh, constraints);
+  CHECK(found.result.sliding->given_up);
+  CHECK(found.result.sliding->vertices == 4 * 39);
+  CHECK(found.result.sliding->slid == 0);
+  CHECK(found.result.moved_vertices == held.result.moved_vertices);
+  CHECK(found.result.sweeps == held.result.sweeps);
+  for (std::size_t i = 0; i < found.xy.size(); ++i) {
+    CHECK(same_bits(found.xy[i], held.xy[i]));
+  }
+}
+
 TEST_CASE("without being asked to nothing slides") {
   const Mesh mesh = square_with_uneven_sides(3);
   const Smoothed found = smoothed(mesh, {});

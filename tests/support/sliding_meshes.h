@@ -27,6 +27,17 @@ inline Mesh uneven_square(std::int32_t side, double part, std::uint64_t seed) {
   });
 }
 
+/// A grid of cells twice as long as high, all halved alike, of which one inner vertex in ten is off its place: where it
+/// slides, it shears as a whole, and nearly all of it would have to go back.
+inline Mesh regular_grid(std::int32_t side, std::uint64_t seed) {
+  test_meshes::Random random(seed);
+  return distorted_meshes::grid(side, [&](Point p) {
+    const bool is_off = random.below(10) == 0 && distorted_meshes::is_inside(p);
+    const double most = is_off ? 0.1 / (side - 1) : 0;
+    return Point{2 * p.x + random.between(-most, most), p.y + random.between(-most, most)};
+  });
+}
+
 /// Rings of `around` vertices from radius 0.3 to 1, those of each circle unevenly spaced on it. Ring r has the vertices
 /// from r * around on.
 inline Mesh uneven_annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) {

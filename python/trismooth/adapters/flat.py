@@ -234,7 +234,7 @@ def tags_of_lines(
     names: Iterable[str], regions: Any, values: Callable[[str], Optional[np.ndarray]]
 ) -> Optional[np.ndarray]:
     """Return numbers that differ where cell arrays tell lines apart: those that give regions, by their names or because
-    the user says so.
+    the user says so, and others of whole numbers that do not just number the lines.
 
     Parameters
     ----------
@@ -250,8 +250,19 @@ def tags_of_lines(
     ndarray of int64, shape (K,), or None
     """
     chosen = as_names(regions) or []
-    arrays = [values(name) for name in names if is_region_name(name) or name in chosen]
-    return combine_labels([array for array in arrays if array is not None and array.ndim == 1])
+    found = []
+    for name in names:
+        array = values(name)
+        if array is not None and array.ndim == 1 and (is_region_name(name) or name in chosen or _groups(array)):
+            found.append(array)
+    return combine_labels(found)
+
+
+def _groups(values: np.ndarray) -> bool:
+    """Whether these are whole numbers, and not so many as if they numbered what they are of."""
+    if not np.issubdtype(values.dtype, np.number) or not bool((values == np.floor(values)).all()):
+        return False
+    return 2 * len(np.unique(values)) <= len(values)
 
 
 def as_names(value: Any) -> Optional[list[str]]:

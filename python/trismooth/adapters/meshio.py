@@ -43,7 +43,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         sets. A name or names: of cell data or cell sets. An array: a label for each triangle, or for each cell of all
         blocks in their order.
     fixed : None, False, str, list of str or array_like
-        None: the point data ``fixed``, if there are such. A name or names: of point data, where vertices are held whose
+        None: the point data ``fixed``, if there are such; with ``lines`` points of Gmsh's geometry as well. A name or names: of point data, where vertices are held whose
         value is not zero, or of point sets. An array: a mask, or vertex numbers.
     lines : bool
         Whether blocks ``line`` are lines for vertices to slide on. They differ where cell data that give regions or
@@ -89,7 +89,7 @@ class _Flattener:
                 ),
                 cell_count=int(self._first_cell[-1]),
             ),
-            fixed=choose_fixed(fixed, count, default=self._default_fixed, named=self._named_fixed),
+            fixed=choose_fixed(fixed, count, default=lambda: self._default_fixed(lines), named=self._named_fixed),
             other_cells=vertices_of((nodes for block in others for nodes in _nodes_of(block.data)), count),
             lines=np.concatenate([mesh.cells[b].data for b in of_lines]) if of_lines else None,
             line_tags=self._line_tags(of_lines, regions) if of_lines else None,
@@ -155,8 +155,21 @@ class _Flattener:
             return labels_of_sets([self._members(name, blocks)], self._cell_count(blocks))
         raise no_such_name("regions", name, "cell data or cell set", [*self._mesh.cell_data, *self._set_names()])
 
-    def _default_fixed(self) -> Optional[np.ndarray]:
-        return self._named_fixed("fixed") if "fixed" in self._mesh.point_data else None
+    def _default_fixed(self, lines: bool) -> Optional[np.ndarray]:
+        named = self._named_fixed("fixed") if "fixed" in self._mesh.point_data else None
+        on_points = self._on_points_of_geometry() if lines else None
+        if named is None or on_points is None:
+            return on_points if named is None else named
+        either: np.ndarray = np.logical_or(named, on_points)
+        return either
+
+    def _on_points_of_geometry(self) -> Optional[np.ndarray]:
+        """Nodes that a file of Gmsh says are points of its geometry. It says nothing if none is of a surface."""
+        entities = self._mesh.point_data.get("gmsh:dim_tags")
+        if entities is None or not (np.asarray(entities)[:, 0] > 1).any():
+            return None
+        is_point: np.ndarray = np.asarray(entities)[:, 0] == 0
+        return is_point
 
     def _named_fixed(self, name: str) -> np.ndarray:
         mesh = self._mesh
