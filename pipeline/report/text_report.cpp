@@ -252,7 +252,9 @@ std::string sliding_text(const PipelineResult& result) {
     for (const RegionArea& area : result.areas) {
       change = std::max(change, std::abs(area.relative_change()));
     }
-    text += fmt::format("; areas{} changed by {:.2g} at most", result.areas.size() > 1 ? " of regions" : "", change);
+    text += change == 0 ? std::string("; areas are what they were")
+                        : fmt::format("; areas{} changed by {:.2g} % at most",
+                                      result.areas.size() > 1 ? " of regions" : "", 100 * change);
   }
   return text;
 }

@@ -10,6 +10,7 @@
 
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/report/text_report.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"
@@ -114,6 +115,31 @@ TEST_CASE("lines of a file are slid on, its groups end them, points stay, and pe
   REQUIRE(found.result.areas.size() == 1);
   CHECK(found.result.areas[0].before == Approx(1));
   CHECK(std::abs(found.result.areas[0].relative_change()) < 1e-15);
+}
+
+TEST_CASE("the report says how many slid, how far lines are off, and what became of areas") {
+  PipelineResult result;
+  result.smoothing.emplace();
+  trismooth::SlidingResult& sliding = result.smoothing->sliding.emplace();
+  CHECK(trismooth::sliding_text(result) == "no vertex of a boundary or an interface can slide");
+  sliding.chains = 3;
+  sliding.vertices = 20;
+  sliding.given_up = true;
+  CHECK(trismooth::sliding_text(result) ==
+        "given up: so many vertices would have gone back for it that nothing slides");
+  sliding.given_up = false;
+  CHECK(trismooth::sliding_text(result) == "0 of 20 vertices on 3 lines slid");
+  sliding.slid = 17;
+  result.areas = {{2, 2}, {4, 4}};
+  CHECK(trismooth::sliding_text(result) ==
+        "17 of 20 vertices on 3 lines slid; lines are where they were; areas are what they were");
+  sliding.largest_deviation = 0.25;
+  sliding.relative_deviation = 0.01;
+  result.areas[1].after = 4.0008;
+  CHECK(
+      trismooth::sliding_text(result) ==
+      "17 of 20 vertices on 3 lines slid; lines are up to 0.25 from where they were, 0.01 of an edge; areas of regions "
+      "changed by 0.02 % at most");
 }
 
 TEST_CASE("annotations show those that slid as not held") {
