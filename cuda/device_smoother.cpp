@@ -84,13 +84,8 @@ class SweepDriver final : public DeviceSmoother {
 
   SmoothingResult smooth(Point2<double>* stored, const LocalFrame* frame, Storage storage,
                          double fixed_quotient) override {
-    SmoothingResult result = smoothed(stored, frame, storage, fixed_quotient, true);
-    if (result.sliding && result.sliding->given_up) {
-      const SlidingResult given_up = *result.sliding;
-      result = smoothed(stored, frame, storage, fixed_quotient, false);
-      result.sliding = given_up;
-    }
-    return result;
+    return with_sliding_unless_given_up(
+        [&](bool slides) { return smoothed(stored, frame, storage, fixed_quotient, slides); });
   }
 
  private:

@@ -61,12 +61,8 @@ class CpuSmoother final : public PreparedSmoother {
                          const std::optional<LocalFrame>& known_frame) override {
     inverse_sizes_ = inverse_sizes(options_, fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
-    SmoothingResult result = smoothed(points, storage, frame, true);
-    if (result.sliding && result.sliding->given_up) {
-      const SlidingResult given_up = *result.sliding;
-      result = smoothed(points, storage, frame, false);
-      result.sliding = given_up;
-    }
+    SmoothingResult result =
+        with_sliding_unless_given_up([&](bool slides) { return smoothed(points, storage, frame, slides); });
     result.timings.prepare = std::exchange(prepare_ms_, 0);
     return result;
   }

@@ -86,12 +86,13 @@ def smooth(
         ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``precision`` "double" or "single";
         ``max_sweeps`` 1000 (0: no limit); ``tolerance`` 1e-6; ``time_limit`` None (seconds); ``target_quality`` None
         (stop at this smallest shape); ``threads`` 0 (all); ``size_weight`` 1, ``power`` None (1 to 8) and ``target``
-        "uniform" or "input-shape" of "mean-ratio"; with ``slide`` ``corner_angle`` None (30 degrees: a line that turns by
-        more has a corner there, which stays), ``deviation`` None (1e-3: how far "curves" may take a line from where it
-        was, in edge lengths), ``curve`` "polyline" or "spline" and ``slide_coincident`` False; ``record_min_shape`` False; ``topology`` "auto", "host", "halfedge"
-        or "device"; ``evaluation`` "changed" or "all"; and of the paper's versions on CUDA ``layout`` "aos" or "soa",
-        ``execution`` "resident", "single-block" or "cdp", ``order`` "colour" or "unordered". ``stream``: the CUDA
-        stream of arrays on a device, else that of their library.
+        "uniform" or "input-shape" of "mean-ratio"; with ``slide`` ``corner_angle`` None (30 degrees: a line that turns
+        by more has a corner there, which stays), ``deviation`` None (1e-3: how far "curves" may take a line from where
+        it was, in edge lengths), ``curve`` "polyline" or "spline" and ``slide_coincident`` False; ``record_min_shape``
+        False; ``topology`` "auto", "host", "halfedge" or "device"; ``evaluation`` "changed" or "all"; and of the
+        paper's versions on CUDA ``layout`` "aos" or "soa", ``execution`` "resident", "single-block" or "cdp",
+        ``order`` "colour" or "unordered". ``stream``: the CUDA stream of arrays on a device, else that of their
+        library.
 
     Returns
     -------

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/slide/slide_chains.h"
 #include "trismooth/smoothing/slide/slide_deviation.h"
 
@@ -15,6 +16,19 @@ namespace trismooth {
 /// `movable`: those that may move, free or on lines.
 constexpr bool is_spoilt_by_sliding(std::int64_t put_back, std::int64_t movable) {
   return 4 * put_back > movable;
+}
+
+/// What comes of smoothed(true), with sliding; where that says that it is given up, of smoothed(false), and that it
+/// was.
+template <class Smoothed>
+SmoothingResult with_sliding_unless_given_up(const Smoothed& smoothed) {
+  SmoothingResult result = smoothed(true);
+  if (result.sliding && result.sliding->given_up) {
+    const SlidingResult given_up = *result.sliding;
+    result = smoothed(false);
+    result.sliding = given_up;
+  }
+  return result;
 }
 
 /// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements of

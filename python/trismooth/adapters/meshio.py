@@ -43,8 +43,9 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         sets. A name or names: of cell data or cell sets. An array: a label for each triangle, or for each cell of all
         blocks in their order.
     fixed : None, False, str, list of str or array_like
-        None: the point data ``fixed``, if there are such; with ``lines`` points of Gmsh's geometry as well. A name or names: of point data, where vertices are held whose
-        value is not zero, or of point sets. An array: a mask, or vertex numbers.
+        None: the point data ``fixed``, if there are such; with ``lines`` points of Gmsh's geometry as well. A name or
+        names: of point data, where vertices are held whose value is not zero, or of point sets. An array: a mask, or
+        vertex numbers.
     lines : bool
         Whether blocks ``line`` are lines for vertices to slide on. They differ where cell data that give regions or
         cell sets do. Vertices that a file of Gmsh calls periodic are linked.
