@@ -19,4 +19,9 @@ constexpr TRISMOOTH_HOST_DEVICE bool coloured_before(std::int32_t a, std::int32_
   return splitmix64(static_cast<std::uint64_t>(a)) < splitmix64(static_cast<std::uint64_t>(b));
 }
 
+/// The same of ids that are numbers of a mesh in parts, from 0.
+constexpr TRISMOOTH_HOST_DEVICE bool coloured_before(std::int64_t a, std::int64_t b) {
+  return splitmix64(static_cast<std::uint64_t>(a)) < splitmix64(static_cast<std::uint64_t>(b));
+}
+
 }  // namespace trismooth

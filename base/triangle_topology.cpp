@@ -42,6 +42,20 @@ void find_corners(std::span<const Triangle> triangles, MatchedSides& sides, Work
   }
 }
 
+/// Takes edges between two ghosts for edges of many triangles: it is not known how many there are.
+void part_at_ghosts(std::span<const Triangle> triangles, std::span<const std::uint8_t> ghosts, MatchedSides& sides,
+                    Workers& workers) {
+  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t) {
+      for (std::int32_t i = 0; i < 3; ++i) {
+        if (ghosts[triangles[t][i]] != 0 && ghosts[triangles[t][(i + 1) % 3]] != 0) {
+          sides.twins[3 * t + i] = MatchedSides::many_twins;
+        }
+      }
+    }
+  });
+}
+
 /// Marks isolated vertices and those of boundary and non-manifold edges.
 void mark_held(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
   workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -250,7 +264,8 @@ Uniform uniform(std::span<const std::uint8_t> flags, Workers& workers) {
   return {!has_one, !has_zero};
 }
 
-MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
+MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
+                         std::span<const std::uint8_t> ghosts) {
   check_mesh_size(vertex_count, std::ssize(triangles));
   MatchedSides sides;
   sides.vertex_count = vertex_count;
@@ -258,14 +273,18 @@ MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> tr
   find_corners(triangles, sides, workers);
   sides.twins.resize(3 * triangles.size());
   match_edges(triangles, sides.corner, sides.twins, workers);
+  if (!ghosts.empty()) {
+    part_at_ghosts(triangles, ghosts, sides, workers);
+  }
   sides.hold.resize(static_cast<std::size_t>(vertex_count));
   mark_held(triangles, sides, workers);
   find_components(triangles, sides, workers);
   return sides;
 }
 
-TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers) {
-  TriangleTopology topology{match_sides(vertex_count, triangles, workers), {}};
+TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
+                                   std::span<const std::uint8_t> ghosts) {
+  TriangleTopology topology{match_sides(vertex_count, triangles, workers, ghosts), {}};
   find_fans(triangles, topology, workers);
   return topology;
 }

@@ -54,10 +54,16 @@ void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triang
 /// Matches the sides of triangles over vertices 0 .. vertex_count - 1. Throws MeshError for a negative count, an index
 /// out of range, a triangle that repeats a vertex and a component that cannot be oriented (a Moebius band). Complexity:
 /// linear.
-MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
+///
+/// `ghosts`: one flag a vertex, where the triangles are a part of a mesh that has all those of vertices without it, and
+/// maybe not all of the others. What is said of ghosts means nothing then, and triangles are not taken for connected
+/// through an edge between two of them.
+MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
+                         std::span<const std::uint8_t> ghosts = {});
 
 /// Connects the triangles around each vertex as well. Arguments, errors and complexity are those of match_sides().
-TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers);
+TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
+                                   std::span<const std::uint8_t> ghosts = {});
 
 /// The corner of the same vertex on the other side of the halfedge `across` of the corner's triangle, or a negative
 /// value where there is none. A corner is named by the halfedge that starts there.

@@ -5,7 +5,7 @@
 include(CMakePackageConfigHelpers)
 set(trismooth_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/trismooth")
 
-foreach(module IN ITEMS base quality smoothing cuda mesh_io halfedge pipeline)
+foreach(module IN ITEMS base quality smoothing cuda mpi mesh_io halfedge pipeline)
   if(TARGET trismooth_${module})
     install(TARGETS trismooth_${module} EXPORT trismooth_${module}
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"

@@ -202,6 +202,9 @@ class CudaBackend final : public Backend {
                                                  std::span<const Point2<double>> local,
                                                  const SmoothingOptions& options) const override {
     options.validate();
+    if (mesh.part != nullptr) {
+      throw std::invalid_argument("a mesh in parts is smoothed by the CPU alone");
+    }
     require_device();
     if (mesh.slidable.is_wanted()) {
       require_sliding(options);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/corner_points.h"
@@ -14,21 +13,8 @@ namespace {
 
 constexpr std::int64_t orientation_grain = 4096;
 
-/// What the triangles of a component say of its orientation. Sums and a minimum: their order does not matter.
-struct Votes {
-  static constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::max();
-
-  std::int64_t positive = 0;
-  std::int64_t negative = 0;
-  std::int64_t first = nobody;  ///< 2 t for the lowest-numbered triangle t that has a sign, + 1 where it is negative
-  std::int64_t triangles = 0;
-  std::int64_t against = 0;
-
-  bool flip() const { return negative != positive ? negative > positive : first != nobody && first % 2 != 0; }
-};
-
 /// Adds to votes that others add to as well.
-void add(const Votes& some, Votes& all) {
+void add(const OrientationVotes& some, OrientationVotes& all) {
   const auto sum = [](std::int64_t value, std::int64_t& total) {
     std::atomic_ref(total).fetch_add(value, std::memory_order_relaxed);
   };
@@ -44,24 +30,28 @@ void add(const Votes& some, Votes& all) {
 
 }  // namespace
 
-Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
-                   std::span<const Point2<double>> points, Workers& workers) {
-  std::vector<Votes> votes(static_cast<std::size_t>(components.components));
+std::vector<OrientationVotes> orientation_votes(const TriangleComponents& components,
+                                                std::span<const Triangle> triangles,
+                                                std::span<const Point2<double>> points,
+                                                std::span<const std::uint8_t> left_out, Workers& workers) {
+  std::vector<OrientationVotes> votes(static_cast<std::size_t>(components.components));
   const TriangleView listed{points, triangles, components.parity};
   workers.for_blocks(std::ssize(triangles), orientation_grain, [&](std::int64_t begin, std::int64_t end) {
-    Votes some;  // of triangles that follow each other in one component
+    OrientationVotes some;  // of triangles that follow each other in one component
     const auto vote = [&](std::int64_t t, const CornerPoints& corners) {
-      // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes first:
-      // the sign that counts is that of its quality in every report and in the guard.
-      const auto& [a, b, c] = corners;
-      const double quotient = shape_quotient(a, b, c);
-      some.positive += quotient > 0 ? 1 : 0;
-      some.negative += quotient < 0 ? 1 : 0;
-      if (some.first == Votes::nobody && quotient != 0) {
-        some.first = 2 * t + (quotient > 0 ? 0 : 1);
+      if (left_out.empty() || left_out[t] == 0) {
+        // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes
+        // first: the sign that counts is that of its quality in every report and in the guard.
+        const auto& [a, b, c] = corners;
+        const double quotient = shape_quotient(a, b, c);
+        some.positive += quotient > 0 ? 1 : 0;
+        some.negative += quotient < 0 ? 1 : 0;
+        if (some.first == OrientationVotes::nobody && quotient != 0) {
+          some.first = 2 * t + (quotient > 0 ? 0 : 1);
+        }
+        ++some.triangles;
+        some.against += components.parity[t];
       }
-      ++some.triangles;
-      some.against += components.parity[t];
       if (t + 1 == end || components.component[t + 1] != components.component[t]) {
         add(some, votes[components.component[t]]);
         some = {};
@@ -74,9 +64,15 @@ Orientation orient(const TriangleComponents& components, std::span<const Triangl
                   }
                 });
   });
+  return votes;
+}
+
+Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
+                   std::span<const Point2<double>> points, Workers& workers) {
+  const std::vector<OrientationVotes> votes = orientation_votes(components, triangles, points, {}, workers);
   Orientation orientation;
-  for (const Votes& all : votes) {
-    orientation.reoriented_triangles += std::min(all.against, all.triangles - all.against);
+  for (const OrientationVotes& all : votes) {
+    orientation.reoriented_triangles += all.reoriented_triangles();
   }
   orientation.reversed.resize(triangles.size());
   workers.for_blocks(std::ssize(triangles), orientation_grain, [&](std::int64_t begin, std::int64_t end) {

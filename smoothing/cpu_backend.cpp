@@ -15,7 +15,9 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/guard/never_worse.h"
+#include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/slide/packed_slidable.h"
@@ -34,16 +36,25 @@ namespace {
 constexpr std::int64_t vertex_grain = 8192;
 constexpr std::int32_t vertices_ahead = 32;
 
+constexpr const char* untangling_over_parts =
+    "the mesh has inverted triangles, and those of a mesh in parts cannot be untangled: untangle it as a whole first, "
+    "or "
+    "set untangle to off";
+
 class CpuSmoother final : public PreparedSmoother {
  public:
   CpuSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
               const SmoothingOptions& options)
-      : options_(options), workers_(options.threads), fixed_(std::move(mesh.fixed)) {
+      : options_(options), workers_(options.threads), fixed_(std::move(mesh.fixed)), part_(std::move(mesh.part)) {
     const Stopwatch watch;
-    rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_);
+    rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_, part_.get());
+    if (part_ != nullptr) {
+      halo_.emplace(*part_, rings_);
+    }
     if (options.measures_shape() || options.untangles()) {
       // Those of vertices that may slide are in the chains.
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_);
+      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_,
+                                        part_ != nullptr ? part_->ghosts : std::span<const std::uint8_t>());
     }
     if (mesh.slidable.is_wanted()) {
       std::vector<std::int32_t> numbers = packed_numbers(mesh.slidable, rings_.input_index);
@@ -59,7 +70,7 @@ class CpuSmoother final : public PreparedSmoother {
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& known_frame) override {
-    inverse_sizes_ = inverse_sizes(options_, fixed_);
+    inverse_sizes_ = inverse_sizes(options_, fixed_, halo());
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     SmoothingResult result =
         with_sliding_unless_given_up([&](bool slides) { return smoothed(points, storage, frame, slides); });
@@ -101,7 +112,7 @@ class CpuSmoother final : public PreparedSmoother {
     result.backend = "cpu";
     result.device = processor_name();
     result.threads = workers_.count();
-    result.free_vertices = rings_.free_count();
+    result.free_vertices = part_ == nullptr ? rings_.free_count() : part_->free_vertices;
     result.colours = rings_.colours;
     if (options_.precision == Precision::double_precision) {
       smooth_in<double>(points, storage, frame, slides, result);
@@ -162,13 +173,13 @@ class CpuSmoother final : public PreparedSmoother {
     if (run.chains.any() && run.slides) {
       run.slide.emplace(run.chains, workers_);
     }
-    double fixed_quotient =
-        fixed_triangles.smallest_quotient([&](std::int32_t v) { return run.frame.enter(run.points[v]); });
+    double fixed_quotient = least_of_parts(
+        halo(), fixed_triangles.smallest_quotient([&](std::int32_t v) { return run.frame.enter(run.points[v]); }));
     if (!run.slide) {
       fixed_quotient =
           std::min(fixed_quotient, run.chains.smallest_quotient(std::span<const Point2<double>>(run.before)));
     }
-    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr)
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr, halo())
         .run(run.working, fixed_quotient, run.result);
   }
 
@@ -195,6 +206,9 @@ class CpuSmoother final : public PreparedSmoother {
     for_vertices(rings_.vertex_count(), [&](std::int32_t v) {
       run.after[v] = v < rings_.free_count() ? entered_from(run, run.working, v) : run.before[v];
     });
+    if (halo() != nullptr) {
+      halo()->update(std::span<Point2<double>>(run.after));
+    }
     if (run.slide) {
       run.slid = SlidVertices(run.chains, run.slide->places(), run.frame, run.storage);
     }
@@ -224,6 +238,12 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   void guard(Run<T>& run) {
     const PackedRings& rings = run.turned ? run.turned->rings : rings_;
+    if (halo() != nullptr) {
+      if (options_.guard) {
+        list(run, keep_never_worse(rings.view(), run.before, run.after, workers_, halo()->around_ghosts(), halo()));
+      }
+      return;
+    }
     const NumberLists held =
         run.slide ? run.chains.neighbours(rings_.free_count(), rings_.vertex_count()) : NumberLists();
     if (options_.guard && !run.start.empty()) {
@@ -311,7 +331,7 @@ class CpuSmoother final : public PreparedSmoother {
         ++moved;
       }
     }
-    run.result.moved_vertices = moved;
+    run.result.moved_vertices = sum_of_parts(halo(), moved);
     name_reverted(run.result, run.points);
   }
 
@@ -345,10 +365,12 @@ class CpuSmoother final : public PreparedSmoother {
   void count_inverted(const TurnedComponents& turned, std::span<const Point2<double>> after, const Input& input,
                       UntanglingResult& result) {
     // The guard lets nothing that was valid become inverted.
-    result.inverted_after = options_.guard && result.inverted_before == 0
-                                ? 0
+    result.inverted_after = options_.guard && result.inverted_before == 0 ? 0
+                            : halo() != nullptr
+                                ? sum_of_parts(halo(), inverted_triangles_of_part(rings_, after))
                                 : inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
-    result.inverted_fixed = (turned.any() ? fixed_triangles(turned) : fixed_triangles_).inverted(input);
+    result.inverted_fixed =
+        sum_of_parts(halo(), (turned.any() ? fixed_triangles(turned) : fixed_triangles_).inverted(input));
     result.turned_components = turned.count;
     result.turned = turned.triangles;
   }
@@ -358,8 +380,11 @@ class CpuSmoother final : public PreparedSmoother {
   std::optional<Turned> untangle_into(BulkVector<Point2<T>>& working, const BulkVector<Point2<double>>& before,
                                       SmoothingResult& result) {
     result.untangling.emplace();
-    if (inverted_triangles(rings_.view(), before, workers_) == 0) {
+    if (!any_part(halo(), inverted_triangles(rings_.view(), before, workers_) > 0)) {
       return std::nullopt;
+    }
+    if (halo() != nullptr) {
+      throw PartsError(untangling_over_parts);
     }
     BulkVector<Point2<double>> untangled = before;
     MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
@@ -373,6 +398,9 @@ class CpuSmoother final : public PreparedSmoother {
     return {static_cast<T>(point.x), static_cast<T>(point.y)};
   }
 
+  /// Null: the mesh is no part of another one.
+  Halo* halo() { return halo_ ? &*halo_ : nullptr; }
+
   template <class Body>
   void for_vertices(std::int32_t count, const Body& body) {
     workers_.for_blocks(count, vertex_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -385,7 +413,9 @@ class CpuSmoother final : public PreparedSmoother {
   SmoothingOptions options_;
   Workers workers_;
   std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
+  std::shared_ptr<const MeshPart> part_;
   PackedRings rings_;
+  std::optional<Halo> halo_;
   PackedSlidable slidable_;
   FixedTriangles fixed_triangles_;      ///< where they are asked for
   std::vector<Triangle> triangles_;     ///< of the mesh, where it may have to be untangled

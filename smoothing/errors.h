@@ -11,4 +11,9 @@ struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What all parts of a mesh throw at the same time: see MeshPart.
+struct PartsError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 }  // namespace trismooth

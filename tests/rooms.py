@@ -12,17 +12,20 @@ import sys
 FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "options", "result", "sliding")},
          "cuda/device_constraints.h": "cuda faces"}
 
-SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/sweeps",
-             "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
+SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/rings",
+             "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
     "smoothing faces": ["base"],
     "smoothing/methods": ["base", "quality", "smoothing faces"],
-    "smoothing/rings": ["base", "quality", "smoothing faces"],
-    "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings"],
+    "smoothing/parts": [],
+    "smoothing/rings": ["base", "quality", "smoothing faces", "smoothing/parts"],
+    "smoothing/halo": ["base", "smoothing/parts", "smoothing/rings"],
+    "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/halo"],
     "smoothing/slide": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
-    "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/slide"],
+    "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/rings",
+                         "smoothing/halo", "smoothing/slide"],
     "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
     "mesh_io": ["base"],
@@ -36,6 +39,7 @@ for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", 
     MAY_USE[f"cuda/{own}"] = list(below)
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below
+MAY_USE["mpi"] = list(SMOOTHING)
 MAY_USE["pipeline"] = list(MAY_USE)
 MAY_USE["python"] = list(MAY_USE)
 

@@ -14,6 +14,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/element_lanes.h"
 #include "trismooth/smoothing/guard/guard_tree.h"
+#include "trismooth/smoothing/halo/halo.h"
 
 namespace trismooth {
 
@@ -101,15 +102,24 @@ class ElementGatherer {
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
-        Workers& workers, const NumberLists& held)
+        Workers& workers, const NumberLists& held, Halo* halo)
       : rings_(rings),
         before_(before),
         after_(after),
         workers_(workers),
         held_(held),
+        halo_(halo),
         has_gaps_(has_gaps(rings, workers)),
         block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
-        tree_(static_cast<std::size_t>(block_count_)) {}
+        tree_(static_cast<std::size_t>(block_count_)) {
+    if (halo != nullptr) {
+      for (auto v = rings.size(); v < static_cast<std::int32_t>(before.size()); ++v) {
+        if (has_moved(v)) {
+          moved_ghosts_.push_back(v);
+        }
+      }
+    }
+  }
 
   GuardOutcome run() {
     GuardOutcome outcome;
@@ -118,9 +128,10 @@ class Guard {
     });
     tree_.update();
     for (;;) {
+      threshold_ = least_of_parts(halo_, tree_.total().before);
       blocks_.clear();
-      tree_.find_below(tree_.total().before, blocks_);
-      if (blocks_.empty()) {
+      tree_.find_below(threshold_, blocks_);
+      if (!any_part(halo_, !blocks_.empty())) {
         break;
       }
       ++outcome.rounds;
@@ -129,7 +140,7 @@ class Guard {
       outcome.reverted.insert(outcome.reverted.end(), offenders_.begin(), offenders_.end());
     }
     std::ranges::sort(outcome.reverted);
-    outcome.threshold = tree_.total().before;
+    outcome.threshold = threshold_;
     return outcome;
   }
 
@@ -194,7 +205,7 @@ class Guard {
 
   /// The moved corners of the offending elements in blocks_, each once.
   void find_offenders() {
-    const double threshold = tree_.total().before;
+    const double threshold = threshold_;
     listed_.resize(before_.size(), 0);
     offenders_.clear();
     std::mutex joining;
@@ -204,7 +215,7 @@ class Guard {
         for (std::size_t lane = 0; lane < count; ++lane) {
           if (lanes.worsened[lane] < threshold) {
             std::ranges::copy_if(elements[lane], std::back_inserter(found),
-                                 [&](std::int32_t v) { return has_moved(v) && list(v); });
+                                 [&](std::int32_t v) { return has_moved(v) && goes_back_here(v) && list(v); });
           }
         }
       };
@@ -216,6 +227,9 @@ class Guard {
       offenders_.insert(offenders_.end(), found.begin(), found.end());
     });
   }
+
+  /// Of a ghost its owner says so, who sees the same elements.
+  bool goes_back_here(std::int32_t vertex) const { return halo_ == nullptr || vertex < rings_.size(); }
 
   /// True for the first who lists the vertex.
   bool list(std::int32_t vertex) {
@@ -240,6 +254,17 @@ class Guard {
         }
       }
     }
+    if (halo_ != nullptr) {
+      halo_->update(after_);
+      for (const std::int32_t ghost : moved_ghosts_) {
+        if (!has_moved(ghost)) {
+          for (const std::int32_t neighbour : held_[ghost]) {
+            measure_again(neighbour);
+          }
+        }
+      }
+      std::erase_if(moved_ghosts_, [this](std::int32_t ghost) { return !has_moved(ghost); });
+    }
     std::ranges::sort(blocks_);
     blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
     workers_.for_blocks(std::ssize(blocks_), block_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -260,6 +285,9 @@ class Guard {
   std::span<Point2<double>> after_;
   Workers& workers_;
   const NumberLists& held_;
+  Halo* halo_;
+  std::vector<std::int32_t> moved_ghosts_;
+  double threshold_ = 0;
   bool has_gaps_;
   std::int64_t block_count_;
   GuardTree tree_;
@@ -271,8 +299,8 @@ class Guard {
 }  // namespace
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held) {
-  return Guard(rings, before, after, workers, held).run();
+                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held, Halo* halo) {
+  return Guard(rings, before, after, workers, held, halo).run();
 }
 
 void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {

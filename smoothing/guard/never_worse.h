@@ -13,6 +13,7 @@
 
 namespace trismooth {
 
+class Halo;
 class Workers;
 
 /// What the guard took back.
@@ -35,8 +36,12 @@ struct GuardOutcome {
 ///
 /// `held`: of vertices that may have moved without having a ring. They are judged as corners of the elements of others,
 /// and go back as these do.
+///
+/// `halo`: of a part of a mesh; null: it is the whole. The parts make the rounds together. `held` are those of its
+/// ghosts then, and what went back are vertices of the part.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {});
+                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {},
+                              Halo* halo = nullptr);
 
 /// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
 /// the first found it; who is there again, at `points`, is not.

@@ -167,6 +167,16 @@ void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours) {
   }
 }
 
+void colour_ready(const RingView& rings, std::span<const std::int64_t> ids, std::span<const std::uint8_t> is_free,
+                  std::span<std::int32_t> colours, std::vector<std::int32_t>& waiting) {
+  std::erase_if(waiting, [&](std::int32_t v) {
+    colours[v] = colour_of(v, rings, colours, [&](std::int32_t neighbour, std::int32_t vertex) {
+                   return is_free[neighbour] != 0 && coloured_before(ids[neighbour], ids[vertex]);
+                 }).colour;
+    return colours[v] != uncoloured;
+  });
+}
+
 Colouring colour_free_vertices(const RingView& rings, Workers& workers) {
   Colouring colouring;
   BulkVector<std::int32_t>& colours = colouring.colours;

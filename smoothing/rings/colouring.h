@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -27,5 +28,12 @@ Colouring colour_free_vertices(const RingView& rings, Workers& workers);
 /// index). One colour a vertex of the view; those that come before an uncoloured neighbour have theirs already.
 /// Complexity: a scan of `colours`, and n log n in the vertices that are left and their neighbours.
 void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours);
+
+/// A round of the algorithm where a mesh is in parts: colours those of `waiting` whose neighbours before them, in the
+/// order of splitmix64(id), have colours, and takes them out of it. `rings`: of all that the part colours itself, in
+/// its own numbering; `ids`, `is_free` and `colours` are of these vertices and of the ghosts, which may get their
+/// colours between two rounds; -1: none. `waiting` is in that order. Complexity: linear in what is waiting.
+void colour_ready(const RingView& rings, std::span<const std::int64_t> ids, std::span<const std::uint8_t> is_free,
+                  std::span<std::int32_t> colours, std::vector<std::int32_t>& waiting);
 
 }  // namespace trismooth

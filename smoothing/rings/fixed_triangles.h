@@ -21,16 +21,18 @@ class FixedTriangles {
   FixedTriangles() = default;
 
   /// Those of a mesh. `reversed`: one flag a triangle, as Orientation::reversed; `fixed`: one byte a vertex, 0 is free.
-  /// Complexity: linear.
+  /// `ghosts`: as MeshPart::ghosts, where it is a part of another mesh: then those whose first vertex it owns, so that
+  /// each is in one part. Complexity: linear.
   FixedTriangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                 std::span<const std::uint8_t> fixed, Workers& workers) {
+                 std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {}) {
     // Memory that is never touched costs nothing.
     corners_.resize(triangles.size());
     const std::int64_t count = for_each_numbered(
         std::ssize(triangles),
         [&](std::int64_t t) {
           const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
-          return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0;
+          return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0 &&
+                 (ghosts.empty() || ghosts[std::min({a, b, c})] == 0);
         },
         [&](std::int64_t number, std::int64_t t) {
           corners_[static_cast<std::size_t>(number)] =

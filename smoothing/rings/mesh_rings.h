@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 namespace trismooth {
 
 class Workers;
+struct MeshPart;
 
 /// All that is to be known of a mesh's connectivity, whoever found it (the host or a device: the same in every number).
 struct MeshRings {
@@ -24,6 +26,7 @@ struct MeshRings {
   std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
   OneRings rings;                         ///< of the free vertices
   Slidable slidable;                      ///< the fixed vertices that may slide
+  std::shared_ptr<const MeshPart> part;   ///< where the mesh is a part of another one; null: it is not
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 

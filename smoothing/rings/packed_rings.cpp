@@ -10,6 +10,7 @@
 #include "trismooth/base/prefetch.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/parts/mesh_part.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
 
@@ -107,13 +108,43 @@ void sort_windows_by_ring_size(const RingView& rings, std::span<const std::int32
   }
 }
 
+/// The colours of a part as its batches: those of its vertices that are ghosts elsewhere are even, the others odd.
+Colouring batches_of_part(const MeshPart& part, const RingView& rings, Form form) {
+  std::vector<std::uint8_t> is_awaited(part.ghosts.size(), 0);
+  for (const MeshPart::Neighbour& neighbour : part.neighbours) {
+    for (const std::int32_t v : neighbour.sends) {
+      is_awaited[v] = 1;
+    }
+  }
+  Colouring colouring;
+  colouring.count = form == Form::in_place ? 2 * part.colour_count : 2;
+  colouring.colours.resize(static_cast<std::size_t>(rings.size()));
+  for (std::int32_t v = 0; v < rings.size(); ++v) {
+    const std::int32_t input = rings.input(v);
+    const std::int32_t colour = form == Form::in_place ? part.colours[input] : 0;
+    colouring.colours[v] = 2 * colour + (is_awaited[input] != 0 ? 0 : 1);
+  }
+  return colouring;
+}
+
+/// Puts ghosts that are free first among vertices without a ring; how many they are.
+std::int32_t put_free_ghosts_first(const MeshPart& part, std::span<std::int32_t> ringless) {
+  const auto rest =
+      std::ranges::stable_partition(ringless, [&](std::int32_t v) { return part.colours[v] >= 0; }).begin();
+  return static_cast<std::int32_t>(rest - ringless.begin());
+}
+
 }  // namespace
 
-PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers) {
+PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers,
+                       const MeshPart* part) {
   BulkVector<std::int32_t> order = hilbert_order(points, rings, workers);
   const auto free_end =
       std::partition_point(order.begin(), order.end(), [&](std::int32_t v) { return rings.is_free(v); });
   const auto free_count = static_cast<std::int32_t>(free_end - order.begin());
+  const std::int32_t free_ghosts =
+      part == nullptr ? 0
+                      : put_free_ghosts_first(*part, std::span(order).subspan(static_cast<std::size_t>(free_count)));
   // Everything that walks over neighbours does so along the curve: that pays for renumbering twice.
   const PackedRings along_curve = renumbered(rings.view(), order, free_count, workers);
   const std::int32_t vertex_count = rings.vertex_count();
@@ -121,7 +152,11 @@ PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, F
 
   std::vector<std::int32_t> batches{0, free_count};
   std::int32_t colours = 0;
-  if (form == Form::in_place) {
+  if (part != nullptr) {
+    const Colouring colouring = batches_of_part(*part, along_curve.view(), form);
+    colours = form == Form::in_place ? part->colour_count : 0;
+    order = grouped_by_colour(colouring, vertex_count, batches, workers);
+  } else if (form == Form::in_place) {
     const Colouring colouring = colour_free_vertices(along_curve.view(), workers);
     colours = colouring.count;
     order = grouped_by_colour(colouring, vertex_count, batches, workers);
@@ -132,6 +167,7 @@ PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, F
   PackedRings packed = renumbered(along_curve.view(), order, free_count, workers);
   packed.batches = std::move(batches);
   packed.colours = colours;
+  packed.free_ghosts = free_ghosts;
   return packed;
 }
 

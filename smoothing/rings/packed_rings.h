@@ -11,24 +11,33 @@
 namespace trismooth {
 
 class Workers;
+struct MeshPart;
 
 /// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
 /// windows of the curve vertices are sorted by ring size, so that the loops over rings are predictable.
+///
+/// Those of a part of a mesh (MeshPart) have two batches in place of one: the vertices that other parts have as ghosts,
+/// then the others.
 struct PackedRings {
   BulkVector<std::int32_t> input_index;  ///< the caller's number of each packed vertex
   BulkVector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
   BulkVector<std::int32_t> neighbours;   ///< packed numbers, in ring order
   std::vector<std::int32_t> batches{0};  ///< batch b holds packed vertices batches[b] .. batches[b + 1]
   std::int32_t colours = 0;              ///< 0 for Form A
+  std::int32_t free_ghosts = 0;          ///< vertices behind the free ones that other parts of the mesh move
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(input_index.size()); }
   std::int32_t free_count() const { return batches.back(); }
+  /// Vertices from here on are fixed.
+  std::int32_t first_fixed() const { return free_count() + free_ghosts; }
   RingView view() const { return {offsets, neighbours, input_index}; }
 };
 
 /// `rings`: released on the way, so move them here where they are not needed any more. `points`: the caller's vertices
-/// in the local frame; used for the order alone. Complexity: linear.
-PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers);
+/// in the local frame; used for the order alone. `part`: where they are those of a part of a mesh; its ghosts have no
+/// rings. Complexity: linear.
+PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, Form form, Workers& workers,
+                       const MeshPart* part = nullptr);
 
 }  // namespace trismooth

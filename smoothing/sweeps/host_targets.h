@@ -1,12 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
@@ -22,10 +26,10 @@ class HostTargets {
   HostTargets() = default;
 
   /// For smoothing from `points` (packed, local frame, working precision). `inverse_sizes`: of relative_sizes.h, by
-  /// input number; empty: sizes are those that the mesh has.
+  /// input number; empty: sizes are those that the mesh has. `halo`: of a part of a mesh; null: it is the whole.
   HostTargets(std::span<const Point2<T>> points, const PackedRings& rings, const MeanRatioOptions& options,
-              Workers& workers, std::span<const double> inverse_sizes = {})
-      : inverse_areas_(points.size()), largest_shares_(static_cast<std::size_t>(rings.free_count())) {
+              Workers& workers, std::span<const double> inverse_sizes = {}, Halo* halo = nullptr)
+      : halo_(halo), inverse_areas_(points.size()), largest_shares_(static_cast<std::size_t>(rings.free_count())) {
     if (inverse_sizes.empty()) {
       aim_at_input(points, rings, options, workers);
     } else {
@@ -35,9 +39,11 @@ class HostTargets {
       std::vector<EdgeTensor<T>> around(points.size());
       for_rings(points, rings, workers,
                 [&](std::int32_t v, const auto& ring) { around[v] = edges_around(points[v], ring); });
+      update_ghosts(around);
       edges_.resize(points.size());
       for_rings(points, rings, workers,
                 [&](std::int32_t v, const auto& ring) { edges_[v] = edges_nearby(v, around.data(), ring); });
+      update_ghosts(edges_);
     }
   }
 
@@ -53,28 +59,50 @@ class HostTargets {
 
   void aim_at_input(std::span<const Point2<T>> points, const PackedRings& rings, const MeanRatioOptions& options,
                     Workers& workers) {
-    const std::int32_t free_count = rings.free_count();
-    std::vector<FixedVertexArea> fixed(points.size() - static_cast<std::size_t>(free_count));
+    const std::int32_t first_fixed = rings.first_fixed();
+    std::vector<FixedVertexArea> fixed(points.size() - static_cast<std::size_t>(first_fixed));
     const MeanRatioSums sums =
         measure(points, rings, workers, [&](std::int32_t v, const auto& ring, MeanRatioSums& /*own*/) {
-          for_fixed_corners(points[v], ring, free_count, [&](std::int32_t u, double area, std::uint64_t /*times*/) {
-            raise(fixed[u - free_count].largest, std::bit_cast<std::uint64_t>(area));
+          for_fixed_corners(points[v], ring, first_fixed, [&](std::int32_t u, double area, std::uint64_t /*times*/) {
+            raise(fixed[u - first_fixed].largest, std::bit_cast<std::uint64_t>(area));
           });
         });
+    join_fixed(fixed, [](FixedVertexArea& own, const FixedVertexArea& other) {
+      own.largest = std::max(own.largest, other.largest);
+    });
     const MeanRatioMesh& mesh = mesh_ = MeanRatioMesh::of(sums, options.size_weight, options.power);
     scales_ = scales_of<T>(mesh);
     for_rings(points, rings, workers, [&](std::int32_t v, const auto& ring) {
-      for_fixed_corners(points[v], ring, free_count, [&](std::int32_t u, double area, std::uint64_t times) {
-        FixedVertexArea& around = fixed[u - free_count];
+      for_fixed_corners(points[v], ring, first_fixed, [&](std::int32_t u, double area, std::uint64_t times) {
+        FixedVertexArea& around = fixed[u - first_fixed];
         add(around.sum, times * static_cast<std::uint64_t>(area * around.units()));
         add(around.count, times);
       });
       largest_shares_[v] = growth_bound(largest_shares_[v], inverse_areas_[v], mesh);
       inverse_areas_[v] = inverse_target_area(inverse_areas_[v], mesh);
     });
+    join_fixed(fixed, [](FixedVertexArea& own, const FixedVertexArea& other) {
+      own.sum += other.sum;
+      own.count += other.count;
+    });
     for (std::size_t i = 0; i < fixed.size(); ++i) {
-      inverse_areas_[static_cast<std::size_t>(free_count) + i] =
+      inverse_areas_[static_cast<std::size_t>(first_fixed) + i] =
           inverse_target_area(static_cast<T>(fixed[i].mean()), mesh);
+    }
+    update_ghosts(inverse_areas_);
+  }
+
+  /// Ghosts get what their owners have.
+  template <class V>
+  void update_ghosts(std::vector<V>& values) {
+    if (halo_ != nullptr) {
+      halo_->update(std::span<V>(values));
+    }
+  }
+  template <class Join>
+  void join_fixed(std::vector<FixedVertexArea>& values, const Join& join) {
+    if (halo_ != nullptr) {
+      halo_->join_fixed(std::span<FixedVertexArea>(values), join);
     }
   }
 
@@ -151,9 +179,29 @@ class HostTargets {
       add(sums.count, own.count);
       raise(sums.worst_quotient, own.worst_quotient);
     });
+    return halo_ == nullptr ? sums : of_all_parts(sums);
+  }
+
+  MeanRatioSums of_all_parts(MeanRatioSums sums) const {
+    PartSums joined;
+    const std::array<std::uint64_t*, 8> places{&sums.areas.parts[0], &sums.areas.parts[1], &sums.areas.parts[2],
+                                               &sums.sizes.parts[0], &sums.sizes.parts[1], &sums.sizes.parts[2],
+                                               &sums.quotients,      &sums.count};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      joined.sums[i] = static_cast<std::int64_t>(*places[i]);
+    }
+    // A key of 0 is none; keys of doubles that are not negative fall as these grow.
+    const double nothing = -std::numeric_limits<double>::infinity();
+    joined.largest = {sums.worst_quotient == 0 ? nothing : -sums.least_quotient(), nothing};
+    halo_->links().join(joined);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      *places[i] = static_cast<std::uint64_t>(joined.sums[i]);
+    }
+    sums.worst_quotient = joined.largest[0] == nothing ? 0 : MeanRatioSums::key_of(-joined.largest[0]);
     return sums;
   }
 
+  Halo* halo_ = nullptr;
   std::vector<T> inverse_areas_;   ///< one a vertex
   std::vector<T> largest_shares_;  ///< one a free vertex
   MeanRatioScales<T> scales_;

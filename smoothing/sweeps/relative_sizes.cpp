@@ -7,20 +7,23 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_frame.h"
+#include "trismooth/smoothing/halo/halo.h"
 
 namespace trismooth {
 
-std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed) {
+std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed,
+                                  const Halo* halo) {
   const std::span<const double> lengths = options.mean_ratio.target_lengths;
   if (!options.aims_at_sizes()) {
     return {};
   }
-  if (lengths.size() != fixed.size()) {
+  // (Of a part without a vertex there is one too many, so that it aims at sizes with the others.)
+  if (halo == nullptr && lengths.size() != fixed.size()) {
     throw std::invalid_argument("MeanRatioOptions::target_lengths has " + std::to_string(lengths.size()) +
                                 " entries, expected " + std::to_string(fixed.size()) + " or none");
   }
   double largest = 0;
-  for (std::size_t v = 0; v < lengths.size(); ++v) {
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
     if ((fixed[v] & hold::isolated) != 0) {
       continue;
     }
@@ -30,11 +33,12 @@ std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<con
     }
     largest = std::max(largest, lengths[v]);
   }
+  largest = -least_of_parts(halo, -largest);
   std::vector<double> inverses(lengths.size(), 1);
   if (largest > 0) {
     constexpr double smallest = 0x1p-20;
     const int unit = local_frame_details::exponent_of(largest);
-    for (std::size_t v = 0; v < lengths.size(); ++v) {
+    for (std::size_t v = 0; v < fixed.size(); ++v) {
       if ((fixed[v] & hold::isolated) == 0) {
         const double length = std::max(smallest, local_frame_details::scaled(lengths[v], -unit));
         inverses[v] = 1 / (length * length);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
@@ -37,15 +39,17 @@ namespace trismooth {
 template <class T>
 class SweepDriver {
  public:
-  /// `inverse_sizes`: see HostTargets. `slide`: what slides, where slides_behind() says so; null: nothing.
+  /// `inverse_sizes`: see HostTargets. `slide`: what slides, where slides_behind() says so; null: nothing. `halo`: of a
+  /// part of a mesh, whose other parts run sweeps at the same time; null: it is the whole.
   SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers,
-              std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr)
+              std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr, Halo* halo = nullptr)
       : rings_(rings),
         view_(rings.view()),
         options_(options),
         workers_(workers),
         inverse_sizes_(inverse_sizes),
-        slide_(slide) {}
+        slide_(slide),
+        halo_(halo) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -65,13 +69,14 @@ class SweepDriver {
       result.stop_reason = StopReason::quality_target;
       return;
     }
-    const HostTargets<T> targets = options_.method == Method::mean_ratio
-                                       ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_)
-                                       : HostTargets<T>();
+    const HostTargets<T> targets =
+        options_.method == Method::mean_ratio
+            ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_, halo_)
+            : HostTargets<T>();
     if (slide_ != nullptr && options_.method == Method::mean_ratio) {
       slide_->aim(points, targets.view(), targets.mesh(), !inverse_sizes_.empty());
     }
-    Stages stages(options_, rings_.free_count());
+    Stages stages(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices);
     std::optional<StopReason> reason;
     for (;;) {
       visit_method(MethodInUse<T>{options_.method, targets.view(), stages.step<T>()}, [&](const auto& method) {
@@ -98,6 +103,11 @@ class SweepDriver {
         points.swap(other_points_);
         marked_.swap(other_marked_);
       }
+      double seconds = 0;
+      if (halo_ != nullptr) {
+        seconds = watch.seconds();
+        join_parts(tally, seconds);
+      }
       const auto settled = [&] { return settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves()); };
       if (slide_ != nullptr &&
           slides_behind(sweep_of_stage, settled().has_value(), result.sweeps + 1 == options_.max_sweeps)) {
@@ -111,7 +121,8 @@ class SweepDriver {
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
-      const auto reason = reason_to_stop(stages.is_last() ? settled() : std::nullopt, record, watch);
+      const auto reason = reason_to_stop(stages.is_last() ? settled() : std::nullopt, record,
+                                         halo_ == nullptr ? watch.seconds() : seconds);
       if (reason) {
         return reason;
       }
@@ -123,8 +134,11 @@ class SweepDriver {
   }
 
   std::optional<StopReason> reason_to_stop(std::optional<StopReason> settled, const SweepRecord& record,
-                                           const Stopwatch& watch) const {
-    const bool stopped = options_.progress && options_.progress(record) == Progress::stop;
+                                           double seconds) const {
+    bool stopped = options_.progress && options_.progress(record) == Progress::stop;
+    if (halo_ != nullptr && halo_->part().has_progress) {
+      stopped = any_part(halo_, stopped);
+    }
     if (settled) {
       return settled;
     }
@@ -137,7 +151,7 @@ class SweepDriver {
     if (record.sweep == options_.max_sweeps) {
       return StopReason::sweep_limit;
     }
-    if (watch.seconds() >= options_.time_limit_seconds) {
+    if (seconds >= options_.time_limit_seconds) {
       return StopReason::time_limit;
     }
     return std::nullopt;
@@ -157,8 +171,42 @@ class SweepDriver {
         const std::lock_guard lock(joining);
         total.join(tally);
       });
+      if (halo_ != nullptr) {
+        exchange(static_cast<std::int32_t>(batch), from, to, marked_next);
+      }
     }
     return total;
+  }
+
+  /// Of two batches the first is what other parts wait for: it is on its way to them while the second one is done.
+  void exchange(std::int32_t batch, std::span<const Point2<T>> from, std::span<Point2<T>> to,
+                std::span<std::uint8_t> marked_next) {
+    const std::int32_t colour = batch / 2;
+    if (batch % 2 == 0) {
+      halo_->start(colour, std::span<const Point2<T>>(to));
+      return;
+    }
+    halo_->finish<Point2<T>>(colour, [&](std::int32_t ghost, const Point2<T>& place) {
+      const Point2<T> last = from[ghost];
+      to[ghost] = place;
+      if (std::memcmp(&last, &place, sizeof(place)) != 0) {
+        for (const std::int32_t v : halo_->around_ghosts()[ghost]) {
+          marked_next[v] = 1;
+        }
+      }
+    });
+  }
+
+  void join_parts(SweepTally<T>& tally, double& seconds) const {
+    PartSums sums;
+    sums.sums = {tally.evaluated, tally.moved, tally.within_tolerance ? 0 : 1};
+    sums.largest = {static_cast<double>(tally.max_relative_squared), seconds};
+    halo_->links().join(sums);
+    tally.evaluated = sums.sums[0];
+    tally.moved = sums.sums[1];
+    tally.within_tolerance = sums.sums[2] == 0;
+    tally.max_relative_squared = static_cast<T>(sums.largest[0]);
+    seconds = sums.largest[1];
   }
 
   /// Everything in it is inlined, by force: left alone, GCC calls what works on a few numbers in registers.
@@ -220,7 +268,7 @@ class SweepDriver {
     if (slide_ != nullptr) {
       smallest = std::min(smallest, slide_->smallest_quotient(points));
     }
-    return min_shape_of(static_cast<double>(smallest), fixed_quotient);
+    return min_shape_of(least_of_parts(halo_, static_cast<double>(smallest)), fixed_quotient);
   }
 
   const PackedRings& rings_;
@@ -229,6 +277,7 @@ class SweepDriver {
   Workers& workers_;
   std::span<const double> inverse_sizes_;
   SlidePass<T>* slide_;
+  Halo* halo_;
   BulkVector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;

@@ -432,6 +432,27 @@ std::int64_t inverted_triangles(const RingView& rings, std::span<const Point2<do
   return total;
 }
 
+std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<const Point2<double>> points) {
+  std::int64_t inverted = 0;
+  for (std::int32_t v = 0; v < rings.free_count(); ++v) {
+    const std::span<const std::int32_t> ring = rings.view()[v];
+    const auto comes_first = [&](std::int32_t other) {
+      return other < rings.first_fixed() && rings.input_index[other] < rings.input_index[v];
+    };
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::int32_t a = ring[i];
+      const std::int32_t b = ring[i + 1 == ring.size() ? 0 : i + 1];
+      if (!comes_first(a) && !comes_first(b)) {
+        inverted += canonical_quotient(points[v], points[a], points[b], rings.input_index[v], rings.input_index[a],
+                                       rings.input_index[b]) > 0
+                        ? 0
+                        : 1;
+      }
+    }
+  }
+  return inverted;
+}
+
 UntangleOutcome untangle(const RingView& rings, std::span<Point2<double>> points, Workers& workers) {
   if (inverted_triangles(rings, points, workers) == 0) {
     return {};

@@ -1,0 +1,202 @@
+#include "trismooth/mpi/communicator.h"
+
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "trismooth/smoothing/errors.h"
+
+namespace trismooth::mpi {
+
+namespace {
+
+constexpr int exchange_tag = 7301;
+
+void check(int code, const char* call) {
+  if (code == MPI_SUCCESS) {
+    return;
+  }
+  std::string text(MPI_MAX_ERROR_STRING, '\0');
+  int length = 0;
+  MPI_Error_string(code, text.data(), &length);
+  text.resize(static_cast<std::size_t>(length));
+  throw std::runtime_error(std::string(call) + ": " + text);
+}
+
+void join_sums(void* in, void* inout, int* count, MPI_Datatype* /*type*/) {
+  for (int i = 0; i < *count; ++i) {
+    static_cast<PartSums*>(inout)[i].join(static_cast<const PartSums*>(in)[i]);
+  }
+}
+
+/// What kind of error goes to the other ranks.
+enum class ErrorKind : int { invalid_argument, mesh, device, out_of_memory, other };
+
+struct Failure {
+  ErrorKind kind = ErrorKind::other;
+  std::string message;
+};
+
+Failure failure_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::invalid_argument& e) {
+    return {ErrorKind::invalid_argument, e.what()};
+  } catch (const MeshError& e) {
+    return {ErrorKind::mesh, e.what()};
+  } catch (const DeviceError& e) {
+    return {ErrorKind::device, e.what()};
+  } catch (const std::bad_alloc&) {
+    return {ErrorKind::out_of_memory, "out of memory"};
+  } catch (const std::exception& e) {
+    return {ErrorKind::other, e.what()};
+  } catch (...) {
+    return {ErrorKind::other, "an exception that is no std::exception"};
+  }
+}
+
+std::exception_ptr error_of(const Failure& failure) {
+  switch (failure.kind) {
+    case ErrorKind::invalid_argument:
+      return std::make_exception_ptr(std::invalid_argument(failure.message));
+    case ErrorKind::mesh:
+      return std::make_exception_ptr(MeshError(failure.message));
+    case ErrorKind::device:
+      return std::make_exception_ptr(DeviceError(failure.message));
+    case ErrorKind::out_of_memory:
+    case ErrorKind::other:
+      break;
+  }
+  return std::make_exception_ptr(std::runtime_error(failure.message));
+}
+
+int narrow(std::int64_t count) {
+  if (count > std::numeric_limits<int>::max()) {
+    throw std::length_error("more than MPI can send in one message");
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+Communicator::Communicator(MPI_Comm caller) {
+  int is_initialised = 0;
+  int is_finalised = 0;
+  MPI_Initialized(&is_initialised);
+  MPI_Finalized(&is_finalised);
+  if (is_initialised == 0 || is_finalised != 0) {
+    throw std::logic_error("MPI has to be initialised before a mesh in parts is smoothed, and not finalised");
+  }
+  check(MPI_Comm_dup(caller, &communicator_), "MPI_Comm_dup");
+  // Who misses a message would wait for it.
+  check(MPI_Comm_set_errhandler(communicator_, MPI_ERRORS_ARE_FATAL), "MPI_Comm_set_errhandler");
+  check(MPI_Comm_rank(communicator_, &rank_), "MPI_Comm_rank");
+  check(MPI_Comm_size(communicator_, &size_), "MPI_Comm_size");
+  MPI_Comm machine = MPI_COMM_NULL;
+  check(MPI_Comm_split_type(communicator_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine),
+        "MPI_Comm_split_type");
+  check(MPI_Comm_size(machine, &ranks_of_machine_), "MPI_Comm_size");
+  MPI_Comm_free(&machine);
+  check(MPI_Type_contiguous(static_cast<int>(sizeof(PartSums)), MPI_BYTE, &sums_type_), "MPI_Type_contiguous");
+  check(MPI_Type_commit(&sums_type_), "MPI_Type_commit");
+  check(MPI_Op_create(&join_sums, 1, &join_), "MPI_Op_create");
+}
+
+Communicator::~Communicator() {
+  int is_finalised = 0;
+  MPI_Finalized(&is_finalised);
+  if (is_finalised != 0) {
+    return;
+  }
+  MPI_Op_free(&join_);
+  MPI_Type_free(&sums_type_);
+  MPI_Comm_free(&communicator_);
+}
+
+PartSums Communicator::joined(PartSums own) const {
+  check(MPI_Allreduce(MPI_IN_PLACE, &own, 1, sums_type_, join_, communicator_), "MPI_Allreduce");
+  return own;
+}
+
+std::int64_t Communicator::sum(std::int64_t own) const {
+  check(MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT64_T, MPI_SUM, communicator_), "MPI_Allreduce");
+  return own;
+}
+
+std::int64_t Communicator::sum_before(std::int64_t own) const {
+  std::int64_t before = 0;
+  check(MPI_Exscan(&own, &before, 1, MPI_INT64_T, MPI_SUM, communicator_), "MPI_Exscan");
+  return rank_ == 0 ? 0 : before;
+}
+
+void Communicator::on_all(const std::function<void()>& work) const {
+  std::exception_ptr error;
+  try {
+    work();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  int failed = error ? rank_ : size_;
+  check(MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, communicator_), "MPI_Allreduce");
+  if (failed == size_) {
+    return;
+  }
+  Failure failure;
+  if (failed == rank_) {
+    failure = failure_of(error);
+    if (size_ > 1) {
+      failure.message = "rank " + std::to_string(rank_) + ": " + failure.message;
+    }
+  }
+  int kind = static_cast<int>(failure.kind);
+  check(MPI_Bcast(&kind, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
+  int length = static_cast<int>(failure.message.size());
+  check(MPI_Bcast(&length, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
+  failure.kind = static_cast<ErrorKind>(kind);
+  failure.message.resize(static_cast<std::size_t>(length));
+  check(MPI_Bcast(failure.message.data(), length, MPI_CHAR, failed, communicator_), "MPI_Bcast");
+  throw KnownToAll{error_of(failure)};
+}
+
+std::vector<std::int64_t> Communicator::exchanged_counts(std::span<const std::int64_t> counts) const {
+  std::vector<std::int64_t> received(counts.size());
+  check(MPI_Alltoall(counts.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator_), "MPI_Alltoall");
+  return received;
+}
+
+void Communicator::exchange(std::span<const Buffer> sends, std::span<const Buffer> receives,
+                            std::size_t item_size) const {
+  MPI_Datatype item = MPI_DATATYPE_NULL;
+  check(MPI_Type_contiguous(static_cast<int>(item_size), MPI_BYTE, &item), "MPI_Type_contiguous");
+  check(MPI_Type_commit(&item), "MPI_Type_commit");
+  std::vector<MPI_Request> requests;
+  const auto for_filled = [&](std::span<const Buffer> buffers, const auto& begin) {
+    for (std::size_t r = 0; r < buffers.size(); ++r) {
+      if (buffers[r].count > 0) {
+        requests.emplace_back();
+        begin(buffers[r], static_cast<int>(r));
+      }
+    }
+  };
+  for_filled(receives, [&](const Buffer& buffer, int rank) {
+    check(MPI_Irecv(buffer.first, narrow(buffer.count), item, rank, exchange_tag, communicator_, &requests.back()),
+          "MPI_Irecv");
+  });
+  for_filled(sends, [&](const Buffer& buffer, int rank) {
+    check(MPI_Isend(buffer.first, narrow(buffer.count), item, rank, exchange_tag, communicator_, &requests.back()),
+          "MPI_Isend");
+  });
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+  MPI_Type_free(&item);
+}
+
+void Communicator::abandon(const char* message) const {
+  std::cerr << "trismooth: rank " << rank_ << ": " << message << std::endl;
+  MPI_Abort(communicator_, 1);
+  std::terminate();
+}
+
+}  // namespace trismooth::mpi

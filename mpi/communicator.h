@@ -1,0 +1,111 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "trismooth/smoothing/parts/part_links.h"
+
+namespace trismooth::mpi {
+
+/// One list for each rank: what goes there, or has come from there.
+template <class V>
+using ByRank = std::vector<std::vector<V>>;
+
+/// An error that all ranks know of. Any other that leaves a collective function would leave the others waiting.
+struct KnownToAll {
+  std::exception_ptr error;
+};
+
+/// The ranks that work together, on a communicator of their own: a copy of the caller's, whose messages nobody else
+/// receives. All functions but rank() and size() are collective.
+class Communicator {
+ public:
+  /// Throws std::logic_error where MPI has not been initialised, or is finished.
+  explicit Communicator(MPI_Comm caller);
+  Communicator(const Communicator&) = delete;
+  Communicator& operator=(const Communicator&) = delete;
+  ~Communicator();
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  /// How many ranks share this rank's machine, itself included.
+  int ranks_of_machine() const { return ranks_of_machine_; }
+  MPI_Comm handle() const { return communicator_; }
+
+  PartSums joined(PartSums own) const;
+  std::int64_t sum(std::int64_t own) const;
+  bool any(bool own) const { return sum(own ? 1 : 0) > 0; }
+  /// The sum over the ranks before this one.
+  std::int64_t sum_before(std::int64_t own) const;
+
+  /// Calls `work` on every rank, which is to do nothing collective. If it throws anywhere, this throws KnownToAll
+  /// everywhere: the error of the lowest of these ranks, which it names.
+  void on_all(const std::function<void()>& work) const;
+
+  /// Sends to every rank what is for it. Complexity: what is sent and received, and linear in the ranks.
+  template <class V>
+  ByRank<V> exchanged(const ByRank<V>& to) const {
+    static_assert(std::is_trivially_copyable_v<V>);
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(size_));
+    for (std::size_t r = 0; r < to.size(); ++r) {
+      counts[r] = std::ssize(to[r]);
+    }
+    const std::vector<std::int64_t> received = exchanged_counts(counts);
+    ByRank<V> from(static_cast<std::size_t>(size_));
+    std::vector<Buffer> sends;
+    std::vector<Buffer> receives;
+    for (std::size_t r = 0; r < from.size(); ++r) {
+      from[r].resize(static_cast<std::size_t>(received[r]));
+      // Nobody writes to what is sent.
+      sends.push_back({const_cast<V*>(to[r].data()), counts[r]});
+      receives.push_back({from[r].data(), received[r]});
+    }
+    exchange(sends, receives, sizeof(V));
+    return from;
+  }
+
+  /// Calls a collective function, and throws what it throws as KnownToAll. Anything else cannot be told to the others any
+  /// more, and ends them all, with a message, by MPI_Abort().
+  template <class Function>
+  auto together(const Function& function) const {
+    try {
+      return function();
+    } catch (const KnownToAll& known) {
+      std::rethrow_exception(known.error);
+    } catch (const std::exception& e) {
+      abandon(e.what());
+    }
+  }
+
+ private:
+  struct Buffer {
+    void* first;
+    std::int64_t count;
+  };
+
+  [[noreturn]] void abandon(const char* message) const;
+  std::vector<std::int64_t> exchanged_counts(std::span<const std::int64_t> counts) const;
+  void exchange(std::span<const Buffer> sends, std::span<const Buffer> receives, std::size_t item_size) const;
+
+  MPI_Comm communicator_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+  int ranks_of_machine_ = 1;
+  MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
+  MPI_Op join_ = MPI_OP_NULL;
+};
+
+/// Lists for as many ranks, with nothing in them.
+template <class V>
+ByRank<V> lists_by_rank(const Communicator& communicator) {
+  return ByRank<V>(static_cast<std::size_t>(communicator.size()));
+}
+
+}  // namespace trismooth::mpi

@@ -1,0 +1,180 @@
+#include "trismooth/mpi/component_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+
+#include "trismooth/mpi/directory.h"
+#include "trismooth/quality/orientation.h"
+
+namespace trismooth::mpi {
+
+namespace {
+
+/// A component here and one on another rank that have a triangle in common.
+struct Link {
+  std::int32_t own;
+  std::int32_t other;
+  std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
+
+  /// The same on both sides.
+  auto key(bool own_first) const { return own_first ? std::tuple(own, other, parity) : std::tuple(other, own, parity); }
+};
+
+/// A component as the other rank hears of it.
+struct Named {
+  std::int32_t component;
+  std::uint8_t parity;
+};
+
+/// The links with every rank, in an order that both sides have.
+std::vector<std::vector<Link>> find_links(const Overlap& overlap, const TriangleComponents& components,
+                                          const Communicator& ranks) {
+  // A triangle is known to those who own its vertices.
+  auto named = lists_by_rank<Named>(ranks);
+  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
+    std::array<std::int32_t, 3> owners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      owners[i] = overlap.owners[static_cast<std::size_t>(overlap.triangles[t][i])];
+    }
+    std::ranges::sort(owners);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (owners[i] != ranks.rank() && (i == 0 || owners[i] != owners[i - 1])) {
+        named[static_cast<std::size_t>(owners[i])].push_back({components.component[t], components.parity[t]});
+      }
+    }
+  }
+  const ByRank<Named> others = ranks.exchanged(named);
+  std::vector<std::vector<Link>> links(named.size());
+  for (std::size_t r = 0; r < named.size(); ++r) {
+    std::vector<Link>& with = links[r];
+    for (std::size_t i = 0; i < named[r].size(); ++i) {
+      with.push_back({named[r][i].component, others[r][i].component,
+                      static_cast<std::uint8_t>(named[r][i].parity ^ others[r][i].parity)});
+    }
+    const bool own_first = ranks.rank() < static_cast<int>(r);
+    const auto key = [own_first](const Link& link) { return link.key(own_first); };
+    std::ranges::sort(with, {}, key);
+    with.erase(std::unique(with.begin(), with.end(), [&](const Link& a, const Link& b) { return key(a) == key(b); }),
+               with.end());
+  }
+  return links;
+}
+
+/// What a rank's triangles of one component say, on the way to the rank that adds it up.
+struct SentVotes {
+  std::int64_t label;
+  OrientationVotes votes;
+};
+
+/// Votes against the lowest triangle here, turned into votes against that of the label.
+OrientationVotes against_label(OrientationVotes votes, std::uint8_t parity, std::span<const std::int64_t> ids) {
+  if (votes.first != OrientationVotes::nobody) {
+    const auto triangle = static_cast<std::size_t>(votes.first / 2);
+    votes.first = 2 * ids[triangle] + (votes.first % 2);
+  }
+  if (parity != 0) {
+    std::swap(votes.positive, votes.negative);
+    votes.against = votes.triangles - votes.against;
+    votes.first = votes.first == OrientationVotes::nobody ? votes.first : votes.first ^ 1;
+  }
+  return votes;
+}
+
+void add(OrientationVotes& all, const OrientationVotes& some) {
+  all.positive += some.positive;
+  all.negative += some.negative;
+  all.triangles += some.triangles;
+  all.against += some.against;
+  all.first = std::min(all.first, some.first);
+}
+
+}  // namespace
+
+ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponents& components,
+                                 const Communicator& ranks)
+    : labels_(static_cast<std::size_t>(components.components), {std::numeric_limits<std::int64_t>::max(), 0}) {
+  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
+    Label& label = labels_[static_cast<std::size_t>(components.component[t])];
+    label.triangle = std::min(label.triangle, overlap.triangle_ids[t]);
+  }
+  const std::vector<std::vector<Link>> links = find_links(overlap, components, ranks);
+  bool is_contradicted = false;
+  for (bool has_changed = true; ranks.any(has_changed);) {
+    has_changed = false;
+    auto told = lists_by_rank<Label>(ranks);
+    for (std::size_t r = 0; r < links.size(); ++r) {
+      for (const Link& link : links[r]) {
+        told[r].push_back(labels_[static_cast<std::size_t>(link.own)]);
+      }
+    }
+    const ByRank<Label> heard = ranks.exchanged(told);
+    for (std::size_t r = 0; r < links.size(); ++r) {
+      for (std::size_t i = 0; i < links[r].size(); ++i) {
+        Label& own = labels_[static_cast<std::size_t>(links[r][i].own)];
+        const Label other{heard[r][i].triangle, static_cast<std::uint8_t>(heard[r][i].parity ^ links[r][i].parity)};
+        if (other.triangle < own.triangle) {
+          own = other;
+          has_changed = true;
+        } else if (other.triangle == own.triangle && other.parity != own.parity) {
+          is_contradicted = true;
+        }
+      }
+    }
+  }
+  ranks.on_all([&] {
+    if (is_contradicted) {
+      throw MeshError(
+          "triangles that are connected across ranks cannot be oriented consistently (a one-sided surface)");
+    }
+  });
+}
+
+std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, const TriangleComponents& components,
+                                                    std::span<const Point2<double>> points, const Communicator& ranks,
+                                                    Workers& workers) const {
+  // Every triangle has its say on one rank: that of its lowest vertex.
+  std::vector<std::uint8_t> left_out(overlap.triangles.size());
+  for (std::size_t t = 0; t < left_out.size(); ++t) {
+    const auto& [a, b, c] = overlap.triangles[t];
+    left_out[t] = overlap.is_own(std::min({a, b, c})) ? 0 : 1;
+  }
+  const std::vector<OrientationVotes> votes =
+      orientation_votes(components, overlap.triangles, points, left_out, workers);
+  auto sent = lists_by_rank<SentVotes>(ranks);
+  for (std::size_t c = 0; c < labels_.size(); ++c) {
+    sent[static_cast<std::size_t>(home_of(labels_[c].triangle, ranks))].push_back(
+        {labels_[c].triangle, against_label(votes[c], labels_[c].parity, overlap.triangle_ids)});
+  }
+  const ByRank<SentVotes> received = ranks.exchanged(sent);
+  std::unordered_map<std::int64_t, OrientationVotes> totals;
+  for (const auto& of_rank : received) {
+    for (const SentVotes& some : of_rank) {
+      add(totals[some.label], some.votes);
+    }
+  }
+  auto answers = lists_by_rank<std::uint8_t>(ranks);
+  for (std::size_t r = 0; r < received.size(); ++r) {
+    for (const SentVotes& some : received[r]) {
+      answers[r].push_back(totals.at(some.label).flip() ? 1 : 0);
+    }
+  }
+  const ByRank<std::uint8_t> told = ranks.exchanged(answers);
+  std::vector<std::size_t> next(told.size(), 0);
+  std::vector<std::uint8_t> flips(labels_.size());
+  for (std::size_t c = 0; c < labels_.size(); ++c) {
+    const auto home = static_cast<std::size_t>(home_of(labels_[c].triangle, ranks));
+    flips[c] = static_cast<std::uint8_t>(told[home][next[home]++] ^ labels_[c].parity);
+  }
+  std::vector<std::uint8_t> reversed(overlap.triangles.size());
+  for (std::size_t t = 0; t < reversed.size(); ++t) {
+    reversed[t] =
+        static_cast<std::uint8_t>(components.parity[t] ^ flips[static_cast<std::size_t>(components.component[t])]);
+  }
+  return reversed;
+}
+
+}  // namespace trismooth::mpi

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/mpi/local_mesh.h"
+#include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/parts/mesh_part.h"
+
+namespace trismooth::mpi {
+
+/// The vertices that a rank owns, with all of their triangles and these triangles' other vertices, its ghosts: one
+/// layer, which is what updates of own vertices need. Vertices are numbered in the order of their ids, triangles in that
+/// of theirs; so all that depends on the order of numbers in the whole mesh is found from those here.
+struct Overlap {
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> owners;  ///< ranks
+  std::vector<Triangle> triangles;
+  std::vector<std::int64_t> triangle_ids;
+  std::vector<std::int32_t> regions;  ///< one a triangle; empty: nobody has any
+  /// One a vertex, bits hold::named and hold::other_cell; of ghosts 0.
+  std::vector<std::uint8_t> named;
+  MeshPart part;  ///< but for what colours are
+
+  ByRank<std::int32_t> to_owners;     ///< local vertices of the caller, by the rank that owns them
+  ByRank<std::int32_t> from_callers;  ///< own vertices, by the rank that has them, in the order of its list
+
+  bool is_own(std::int32_t v) const { return part.ghosts[static_cast<std::size_t>(v)] == 0; }
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(ids.size()); }
+};
+
+/// Builds it from what all ranks have. `triangles`: those of `mesh`. Collective. Throws MeshError and
+/// std::invalid_argument on all ranks, for what is wrong on one of them or between them: as SmoothingPlan does, and for
+/// ids that are negative or there twice, owners that are no ranks or that ranks disagree about, and triangles that two
+/// ranks have and none calls a ghost. Complexity: n log n in what the rank has.
+Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
+                      std::shared_ptr<const Communicator> communicator);
+
+}  // namespace trismooth::mpi

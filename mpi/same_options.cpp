@@ -1,0 +1,52 @@
+#include "trismooth/mpi/same_options.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace trismooth::mpi {
+
+void require_same_options(const SmoothingOptions& options, const Communicator& communicator) {
+  const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
+  const std::array<std::pair<const char*, std::int64_t>, 18> values{{
+      {"method", static_cast<std::int64_t>(options.method)},
+      {"form", static_cast<std::int64_t>(options.form)},
+      {"layout", static_cast<std::int64_t>(options.layout)},
+      {"execution", static_cast<std::int64_t>(options.execution)},
+      {"order", static_cast<std::int64_t>(options.order)},
+      {"precision", static_cast<std::int64_t>(options.precision)},
+      {"evaluation", static_cast<std::int64_t>(options.evaluation)},
+      {"size_weight", bits(options.mean_ratio.size_weight)},
+      {"power", options.mean_ratio.power},
+      {"target", static_cast<std::int64_t>(options.mean_ratio.target)},
+      {"guard", options.guard ? 1 : 0},
+      {"untangle", static_cast<std::int64_t>(options.untangle)},
+      {"max_sweeps", options.max_sweeps},
+      {"tolerance", bits(options.tolerance)},
+      {"time_limit_seconds", bits(options.time_limit_seconds)},
+      {"target_quality", bits(options.target_quality.value_or(std::numeric_limits<double>::infinity()))},
+      {"record_min_shape", options.record_min_shape ? 1 : 0},
+      {"backend", options.backend == nullptr ? 0 : 1},
+  }};
+  auto to_first = lists_by_rank<std::int64_t>(communicator);
+  for (const auto& [name, value] : values) {
+    to_first[0].push_back(value);
+  }
+  const ByRank<std::int64_t> all = communicator.exchanged(to_first);
+  communicator.on_all([&] {
+    for (std::size_t i = 0; i < values.size() && communicator.rank() == 0; ++i) {
+      for (std::size_t r = 1; r < all.size(); ++r) {
+        if (all[r][i] != all[0][i]) {
+          throw std::invalid_argument(std::string("the option ") + values[i].first + " is not the same on rank " +
+                                      std::to_string(r));
+        }
+      }
+    }
+  });
+}
+
+}  // namespace trismooth::mpi

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/smoothing/options.h"
+
+namespace trismooth::mpi {
+
+/// Throws std::invalid_argument on all ranks, naming the first option that is not the same on all of them. Threads, target
+/// lengths and progress may differ.
+void require_same_options(const SmoothingOptions& options, const Communicator& communicator);
+
+}  // namespace trismooth::mpi

@@ -1,0 +1,27 @@
+// The main of the test program, which runs on several ranks: all run the same tests, and the first one reports.
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <mpi.h>
+
+#include "catch.h"
+#include "mpi/watchdog.h"
+
+int run_catch(int argc, char** argv);
+
+int main(int argc, char** argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const mpi_tests::Watchdog watchdog(200);
+  // What a rank alone finds is on standard error.
+  if (rank != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) {
+    std::perror("/dev/null");
+  }
+  int failed = run_catch(argc, argv);
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

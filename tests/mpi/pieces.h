@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "trismooth/mpi/plan.h"
+
+#include "support/random_meshes.h"
+
+/// A mesh cut into pieces, one a rank; every rank knows the whole and takes its own.
+namespace mpi_tests {
+
+using random_meshes::RandomMesh;
+
+int rank();
+int ranks();
+
+/// How a mesh is cut.
+enum class Cut : std::uint8_t {
+  scattered,    ///< every triangle to a rank drawn for it, owners drawn among all ranks
+  in_strips,    ///< along x, as partitioners do; owners as the library chooses them
+  one_has_all,  ///< one rank has all, the others nothing
+  one_owns_all  ///< triangles are on all ranks, and one of these owns all vertices
+};
+inline constexpr int cuts = 4;
+
+/// What one rank has. Vertices and triangles are in an order of its own.
+struct Piece {
+  std::vector<trismooth::Triangle> triangles;
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> owners;  ///< empty: not said
+  std::vector<std::uint8_t> ghosts;
+  std::vector<std::int64_t> triangle_ids;
+  std::vector<std::int32_t> global;  ///< of every local vertex, its number in the whole mesh
+  std::vector<std::uint8_t> fixed;
+  std::vector<std::int32_t> fixed_ids;
+  std::vector<std::uint8_t> other_cells;
+  std::vector<std::int32_t> regions;
+  std::vector<double> xy;
+
+  trismooth::mpi::LocalMesh mesh() const { return {triangles, ids, owners, ghosts, triangle_ids}; }
+  trismooth::Constraints constraints() const { return {fixed, fixed_ids, other_cells, regions}; }
+  /// What one number for each vertex of the whole mesh is here.
+  template <class T>
+  std::vector<T> local(const std::vector<T>& values) const {
+    std::vector<T> found;
+    for (const std::int32_t v : global) {
+      found.push_back(values[static_cast<std::size_t>(v)]);
+    }
+    return found;
+  }
+};
+
+/// This rank's piece.
+Piece piece_of(const RandomMesh& mesh, Cut cut, std::uint64_t seed);
+
+/// What the lowest rank says that says something; empty where none does. Collective.
+std::string said_by_any(const std::string& own);
+
+}  // namespace mpi_tests
