@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "trismooth/smoothing/parts/part_links.h"
@@ -69,6 +70,20 @@ class Communicator {
     }
     exchange(sends, receives, sizeof(V));
     return from;
+  }
+
+  /// Gives all ranks what rank 0 has.
+  template <class V>
+  void broadcast(std::vector<V>& values) const {
+    static_assert(std::is_trivially_copyable_v<V>);
+    auto to = ByRank<V>(static_cast<std::size_t>(size_));
+    for (int r = 1; r < size_ && rank_ == 0; ++r) {
+      to[static_cast<std::size_t>(r)] = values;
+    }
+    ByRank<V> from = exchanged(to);
+    if (rank_ != 0) {
+      values = std::move(from[0]);
+    }
   }
 
   /// Calls a collective function, and throws what it throws as KnownToAll. Anything else cannot be told to the others any

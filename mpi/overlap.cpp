@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "trismooth/base/hold.h"
@@ -58,10 +60,11 @@ void check_ids(std::span<const std::int64_t> ids) {
 class OverlapBuilder {
  public:
   OverlapBuilder(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                 std::shared_ptr<const Communicator> communicator)
+                 bool is_gathered, std::shared_ptr<const Communicator> communicator)
       : mesh_(mesh),
         triangles_(triangles),
         constraints_(constraints),
+        is_gathered_(is_gathered),
         ranks_(*communicator),
         links_(std::make_shared<Links>(std::move(communicator))) {}
 
@@ -69,12 +72,18 @@ class OverlapBuilder {
     ranks_.on_all([&] { check(); });
     require_agreement();
     owners_ = owners_of(mesh_.vertex_ids, mesh_.owners, ranks_);
+    if (is_gathered_) {
+      std::ranges::fill(owners_, 0);
+    }
     send_vertices();
     receive_triangles();
     overlap_.part.links = links_;
     number();
     ranks_.on_all([&] { check_repeated(); });
     meet_neighbours();
+    if (is_gathered_) {
+      gather_lines();
+    }
     return std::move(overlap_);
   }
 
@@ -128,6 +137,11 @@ class OverlapBuilder {
     }
     for (const std::int32_t v : constraints_.fixed_ids) {
       named[static_cast<std::size_t>(v)] |= hold::named;
+    }
+    for (const auto& vertices : {constraints_.slide.lines, constraints_.slide.links}) {
+      for (const std::int32_t v : vertices) {
+        named[static_cast<std::size_t>(v)] |= hold::line;
+      }
     }
     overlap_.to_owners = lists_by_rank<std::int32_t>(ranks_);
     auto sent = lists_by_rank<SentVertex>(ranks_);
@@ -285,9 +299,48 @@ class OverlapBuilder {
     }
   }
 
+  /// Brings the lines and links of all ranks to the one that owns all vertices.
+  void gather_lines() {
+    struct Line {
+      std::int64_t a;
+      std::int64_t b;
+      std::int32_t tag;
+    };
+    const Sliding& slide = constraints_.slide;
+    const bool has_tags = ranks_.any(!slide.line_tags.empty());
+    const auto gathered = [&](std::span<const std::int32_t> pairs, bool are_lines) {
+      auto sent = lists_by_rank<Line>(ranks_);
+      for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+        sent[0].push_back({mesh_.vertex_ids[static_cast<std::size_t>(pairs[i])],
+                           mesh_.vertex_ids[static_cast<std::size_t>(pairs[i + 1])],
+                           are_lines && !slide.line_tags.empty() ? slide.line_tags[i / 2] : 0});
+      }
+      return ranks_.exchanged(sent);
+    };
+    // Ranks that have the same edge may both have the line on it.
+    std::set<std::tuple<std::int64_t, std::int64_t, std::int32_t>> known;
+    for (const auto& of_rank : gathered(slide.lines, true)) {
+      for (const Line& line : of_rank) {
+        if (!known.emplace(std::min(line.a, line.b), std::max(line.a, line.b), line.tag).second) {
+          continue;
+        }
+        overlap_.lines.insert(overlap_.lines.end(), {number_of(line.a), number_of(line.b)});
+        if (has_tags) {
+          overlap_.line_tags.push_back(line.tag);
+        }
+      }
+    }
+    for (const auto& of_rank : gathered(slide.links, false)) {
+      for (const Line& link : of_rank) {
+        overlap_.links.insert(overlap_.links.end(), {number_of(link.a), number_of(link.b)});
+      }
+    }
+  }
+
   const LocalMesh& mesh_;
   std::span<const Triangle> triangles_;
   const Constraints& constraints_;
+  bool is_gathered_;
   const Communicator& ranks_;
   std::shared_ptr<Links> links_;
   bool has_triangle_ids_ = false;
@@ -303,8 +356,8 @@ class OverlapBuilder {
 }  // namespace
 
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                      std::shared_ptr<const Communicator> communicator) {
-  return OverlapBuilder(mesh, triangles, constraints, std::move(communicator)).run();
+                      bool is_gathered, std::shared_ptr<const Communicator> communicator) {
+  return OverlapBuilder(mesh, triangles, constraints, is_gathered, std::move(communicator)).run();
 }
 
 }  // namespace trismooth::mpi

@@ -26,6 +26,11 @@ struct Overlap {
   std::vector<std::uint8_t> named;
   MeshPart part;  ///< but for what colours are
 
+  // Of constraints.slide, on the rank that owns all vertices.
+  std::vector<std::int32_t> lines;
+  std::vector<std::int32_t> line_tags;
+  std::vector<std::int32_t> links;
+
   ByRank<std::int32_t> to_owners;     ///< local vertices of the caller, by the rank that owns them
   ByRank<std::int32_t> from_callers;  ///< own vertices, by the rank that has them, in the order of its list
 
@@ -33,11 +38,12 @@ struct Overlap {
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(ids.size()); }
 };
 
-/// Builds it from what all ranks have. `triangles`: those of `mesh`. Collective. Throws MeshError and
+/// Builds it from what all ranks have. `triangles`: those of `mesh`. `is_gathered`: rank 0 owns all vertices, whatever
+/// `mesh` says. Collective. Throws MeshError and
 /// std::invalid_argument on all ranks, for what is wrong on one of them or between them: as SmoothingPlan does, and for
 /// ids that are negative or there twice, owners that are no ranks or that ranks disagree about, and triangles that two
 /// ranks have and none calls a ghost. Complexity: n log n in what the rank has.
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                      std::shared_ptr<const Communicator> communicator);
+                      bool is_gathered, std::shared_ptr<const Communicator> communicator);
 
 }  // namespace trismooth::mpi

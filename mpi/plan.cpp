@@ -21,12 +21,14 @@
 #include "trismooth/mpi/links.h"
 #include "trismooth/mpi/overlap.h"
 #include "trismooth/mpi/same_options.h"
+#include "trismooth/mpi/shared_result.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth::mpi {
 
@@ -40,10 +42,12 @@ int threads_of(const SmoothingOptions& options, const Communicator& communicator
   return std::max(1, Workers(0).count() / communicator.ranks_of_machine());
 }
 
-void require_supported(const SmoothingOptions& options, const Constraints& constraints) {
+void require_supported(const SmoothingOptions& options, const Constraints& constraints, Gather gather) {
   options.validate();
-  if (constraints.slide.along != Slide::off || constraints.slide.names_vertices()) {
-    throw std::invalid_argument("sliding is not there for a mesh in pieces: smooth it as a whole, or set slide to off");
+  if (constraints.slide.along != Slide::off && gather == Gather::never) {
+    throw std::invalid_argument(
+        "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide to "
+        "off");
   }
   if (backend_of(options).name() != "cpu") {
     throw std::invalid_argument("a mesh in pieces is smoothed by the CPU alone: set backend to cpu");
@@ -74,22 +78,26 @@ std::string text_of(const Point2<double>& point) {
 class Plan::Implementation {
  public:
   Implementation(std::shared_ptr<const Communicator> communicator, const LocalMesh& mesh,
-                 const Constraints& constraints, const SmoothingOptions& options)
-      : communicator_(std::move(communicator)), options_(options) {
+                 const Constraints& constraints, const SmoothingOptions& options, Gather gather, bool is_gathered)
+      : communicator_(std::move(communicator)),
+        options_(options),
+        gather_(gather),
+        is_gathered_(is_gathered || constraints.slide.along != Slide::off) {
     const Communicator& ranks = *communicator_;
     std::vector<Triangle> converted;
     std::span<const Triangle> triangles;
     ranks.on_all([&] {
-      require_supported(options, constraints);
+      require_supported(options, constraints, gather);
       options_.threads = threads_of(options, ranks);
       workers_.emplace(options_.threads);
       triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
     });
-    require_same_options(options, ranks);
+    require_same_options(options, constraints.slide, gather != Gather::never, ranks);
     local_vertices_ = mesh.vertex_ids.size();
     has_lengths_ = ranks.any(!options.mean_ratio.target_lengths.empty());
-    overlap_ = build_overlap(mesh, triangles, constraints, communicator_);
+    overlap_ = build_overlap(mesh, triangles, constraints, is_gathered_, communicator_);
     MeshPart& part = overlap_.part;
+    part.is_whole = is_gathered_;
     part.has_progress = ranks.any(static_cast<bool>(options.progress));
     messages_.emplace(part.messages());
     ghost_exchange_ = part.ghost_exchange();
@@ -98,6 +106,13 @@ class Plan::Implementation {
       fixed_ = fixed_vertices(topology_, overlap_.triangles, {.regions = overlap_.regions}, *workers_);
       for (std::size_t v = 0; v < fixed_.size(); ++v) {
         fixed_[v] |= overlap_.named[v];
+      }
+      if (is_gathered_) {
+        Sliding slide = constraints.slide;
+        slide.lines = overlap_.lines;
+        slide.line_tags = overlap_.line_tags;
+        slide.links = overlap_.links;
+        slidable_ = find_slidable(overlap_.triangles, fixed_, {.regions = overlap_.regions, .slide = slide}, *workers_);
       }
     });
     update_ghosts(std::span(fixed_));
@@ -138,7 +153,6 @@ class Plan::Implementation {
     make_ready(entered_points);
     read_targets();
     SmoothingResult result = smoothed(mine, stored, frame);
-    result.reverted_vertices = ranks.sum(result.reverted_vertices);
     hand_back(mine, local);
     name_by_caller(result);
     points.write(local, *workers_);
@@ -282,7 +296,7 @@ class Plan::Implementation {
   /// Prepares the sweeps where the orientation that these points give the mesh is new.
   void make_ready(std::span<const Point2<double>> local) {
     std::vector<std::uint8_t> reversed = labels_.reversed(overlap_, topology_, local, *communicator_, *workers_);
-    const bool is_new = smoother_ == nullptr || reversed != reversed_;
+    const bool is_new = !is_coloured_ || reversed != reversed_;
     if (!communicator_->any(is_new)) {
       return;
     }
@@ -300,6 +314,10 @@ class Plan::Implementation {
       colour(mesh.rings);
     }
     communicator_->on_all([&] {
+      if (is_gathered_ && communicator_->rank() != 0) {
+        return;
+      }
+      mesh.slidable = slidable_;
       mesh.fixed = fixed_;
       mesh.reversed = reversed_;
       mesh.part = std::shared_ptr<const MeshPart>(std::shared_ptr<void>(), &overlap_.part);
@@ -378,22 +396,63 @@ class Plan::Implementation {
   }
 
   SmoothingResult smoothed(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame) {
-    std::optional<SmoothingResult> result;
-    std::exception_ptr error;
+    SmoothingResult result;
     try {
-      result = smoother_->smooth(mine, stored, frame);
+      result = is_gathered_ ? smoothed_here(mine, stored, frame) : smoother_->smooth(mine, stored, frame);
+      result.reverted_vertices = communicator_->sum(result.reverted_vertices);
     } catch (const PartsError&) {
-      error = std::current_exception();  // as it is on all ranks
+      // All ranks are here.
+      communicator_->on_all([&] {
+        if (gather_ == Gather::never) {
+          throw std::invalid_argument(
+              "the mesh has inverted triangles, which are not untangled in a mesh in pieces: have it gathered on one "
+              "rank (Gather::where_needed), or set untangle to off");
+        }
+      });
+      result = smoothed_gathered(mine, stored);
     }
     communicator_->on_all([&] {
-      if (error) {
-        std::rethrow_exception(error);
-      }
       if (callback_error_) {
         std::rethrow_exception(std::exchange(callback_error_, nullptr));
       }
     });
-    return std::move(*result);
+    return result;
+  }
+
+  /// By rank 0, which has all.
+  SmoothingResult smoothed_here(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame) {
+    SmoothingResult result;
+    communicator_->on_all([&] {
+      if (communicator_->rank() == 0) {
+        result = smoother_->smooth(mine, stored, frame);
+      }
+    });
+    share_result(result, *communicator_);
+    return result;
+  }
+
+  /// The same where that was not known before.
+  SmoothingResult smoothed_gathered(std::span<Point2<double>> mine, Storage stored) {
+    if (gathered_ == nullptr) {
+      std::vector<std::uint8_t> is_copy(overlap_.triangles.size());
+      for (std::size_t t = 0; t < is_copy.size(); ++t) {
+        const auto& [a, b, c] = overlap_.triangles[t];
+        is_copy[t] = overlap_.is_own(std::min({a, b, c})) ? 0 : 1;
+      }
+      std::vector<std::uint8_t> named(overlap_.named.size());
+      std::vector<std::uint8_t> in_other_cell(overlap_.named.size());
+      for (std::size_t v = 0; v < named.size(); ++v) {
+        named[v] = overlap_.named[v] & hold::named;
+        in_other_cell[v] = overlap_.named[v] & hold::other_cell;
+      }
+      const LocalMesh mesh{overlap_.triangles, overlap_.ids, {}, is_copy, overlap_.triangle_ids};
+      constexpr bool is_gathered = true;
+      gathered_ = std::make_unique<Implementation>(
+          communicator_, mesh,
+          Constraints{.fixed = named, .other_cells = in_other_cell, .regions = overlap_.regions}, used_options(),
+          gather_, is_gathered);
+    }
+    return gathered_->smooth(PointView(mine), stored);
   }
 
   /// Sends what became of own vertices to all who have them.
@@ -412,22 +471,33 @@ class Plan::Implementation {
     }
   }
 
-  /// Gives what went back the caller's numbers, where the caller has the vertex.
+  /// Tells all who have a vertex that went back, in their own numbers.
   void name_by_caller(SmoothingResult& result) const {
-    const auto own = static_cast<std::size_t>(communicator_->rank());
-    std::vector<std::int32_t> local(overlap_.ids.size(), -1);
-    for (std::size_t i = 0; i < overlap_.to_owners[own].size(); ++i) {
-      local[static_cast<std::size_t>(overlap_.from_callers[own][i])] = overlap_.to_owners[own][i];
+    auto sent = lists_by_rank<RevertedVertex>(*communicator_);
+    for (std::size_t r = 0; r < sent.size(); ++r) {
+      // (Where nothing went back, which is the usual case, no list is gone through.)
+      for (std::size_t i = 0; i < overlap_.from_callers[r].size() && !result.reverted.empty(); ++i) {
+        const auto place = std::ranges::lower_bound(result.reverted, overlap_.from_callers[r][i], {},
+                                                    &RevertedVertex::vertex);
+        if (place != result.reverted.end() && place->vertex == overlap_.from_callers[r][i]) {
+          sent[r].push_back({static_cast<std::int32_t>(i), place->position});
+        }
+      }
     }
-    for (RevertedVertex& reverted : result.reverted) {
-      reverted.vertex = local[static_cast<std::size_t>(reverted.vertex)];
+    const ByRank<RevertedVertex> received = communicator_->exchanged(sent);
+    result.reverted.clear();
+    for (std::size_t r = 0; r < received.size(); ++r) {
+      for (const auto& [place, position] : received[r]) {
+        result.reverted.push_back({overlap_.to_owners[r][static_cast<std::size_t>(place)], position});
+      }
     }
-    std::erase_if(result.reverted, [](const RevertedVertex& reverted) { return reverted.vertex < 0; });
     std::ranges::sort(result.reverted, {}, &RevertedVertex::vertex);
   }
 
   std::shared_ptr<const Communicator> communicator_;
   SmoothingOptions options_;
+  Gather gather_;
+  bool is_gathered_;  ///< rank 0 owns all vertices
   std::optional<Workers> workers_;
   std::size_t local_vertices_ = 0;
   bool has_lengths_ = false;  ///< some rank has target lengths
@@ -436,23 +506,25 @@ class Plan::Implementation {
   VertexExchange ghost_exchange_;
   TriangleTopology topology_;
   std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed, ghosts as their owners have it
+  Slidable slidable_;                ///< where it is gathered
   ComponentLabels labels_;
   bool is_coloured_ = false;
   std::vector<std::uint8_t> reversed_;
   std::vector<double> lengths_;  ///< that are asked for, of the overlap
   std::unique_ptr<PreparedSmoother> smoother_;
   std::exception_ptr callback_error_;
+  std::unique_ptr<Implementation> gathered_;  ///< of what cannot be done in pieces, where it was needed
 };
 
 Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
-           const SmoothingOptions& options) {
+           const SmoothingOptions& options, Gather gather) {
   const auto ranks = std::make_shared<const Communicator>(communicator);
   implementation_ =
-      ranks->together([&] { return std::make_unique<Implementation>(ranks, mesh, constraints, options); });
+      ranks->together([&] { return std::make_unique<Implementation>(ranks, mesh, constraints, options, gather, false); });
 }
 
-Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options)
-    : Plan(communicator, mesh, Constraints{}, options) {}
+Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options, Gather gather)
+    : Plan(communicator, mesh, Constraints{}, options, gather) {}
 
 Plan::Plan(Plan&&) noexcept = default;
 Plan& Plan::operator=(Plan&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <memory>
 
 #include "trismooth/base/point_view.h"
@@ -14,10 +15,16 @@
 
 namespace trismooth::mpi {
 
+/// What becomes of what cannot be done in pieces.
+enum class Gather : std::uint8_t {
+  never,        ///< it is refused by std::invalid_argument, on all ranks
+  where_needed  ///< rank 0 does it alone, with the whole mesh in its memory; the bits are the same
+};
+
 /// A mesh in pieces, one a rank, whose connectivity is analysed once and whose coordinates are smoothed as often as they
 /// change. The bits are those that SmoothingPlan gives the whole mesh, whose vertices and triangles are in the order of
 /// their ids, for every number of ranks and every way of cutting: every vertex is moved by the rank that owns it, and
-/// what the others see of it are its values. Nothing is held of the whole mesh on any rank.
+/// what the others see of it are its values. Nothing is held of the whole mesh on any rank, unless Gather allows it.
 ///
 /// All functions are collective over the ranks of the communicator: all ranks call them in the same order. An error on
 /// one of them is thrown on all of them, of the same type, with the rank's number in front; coordinates of all ranks are
@@ -25,9 +32,10 @@ namespace trismooth::mpi {
 /// What cannot be told to the others any more (no memory left in the middle of a sweep, a message that MPI fails to
 /// deliver) ends them all, by MPI_Abort().
 ///
-/// Methods, forms, precisions, constraints, regions, target lengths and the guard are those of SmoothingPlan. Not there
-/// in pieces, and refused by std::invalid_argument: sliding (Constraints::slide), untangling of a mesh that has inverted
-/// triangles (without any, SmoothingOptions::untangles() changes nothing), other backends than the CPU's.
+/// Methods, forms, precisions, constraints, regions, target lengths and the guard are those of SmoothingPlan. Sliding
+/// (Constraints::slide), and untangling of a mesh that has inverted triangles (without any,
+/// SmoothingOptions::untangles() changes nothing), are not there in pieces: Gather says what becomes of that. Other
+/// backends than the CPU's are refused by std::invalid_argument.
 class [[nodiscard]] Plan {
  public:
   /// `communicator`: a copy of it is made; the caller's may be freed. `mesh` and `constraints`: in the rank's own
@@ -38,9 +46,10 @@ class [[nodiscard]] Plan {
   /// have and none calls a ghost, options that differ; std::logic_error where MPI is not initialised. Complexity: n log n
   /// in what the rank has.
   Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
-       const SmoothingOptions& options = {});
+       const SmoothingOptions& options = {}, Gather gather = Gather::never);
   /// The same without constraints.
-  Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options = {});
+  Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options = {},
+       Gather gather = Gather::never);
   Plan(Plan&&) noexcept;
   Plan& operator=(Plan&&) noexcept;
   /// Collective as well. After MPI_Finalize() it frees memory alone.
@@ -48,8 +57,10 @@ class [[nodiscard]] Plan {
 
   /// Smooths the local points in place, one for each local vertex, copies of other ranks' vertices included: these must
   /// be the same to the bit on all ranks that have them, and are so afterwards. Arguments and errors are those of
-  /// SmoothingPlan::smooth(). Of the result, `reverted` lists the rank's own vertices, by local number, and timings are
-  /// the rank's; all else is of the whole mesh, the same on all ranks.
+  /// SmoothingPlan::smooth(). Of the result, `reverted` lists the local vertices that went back, on every rank that has
+  /// them, UntanglingResult::turned is not filled, and processor, threads and timings are the rank's; all else is of the
+  /// whole mesh, the same on all ranks. Where the mesh is gathered (see Gather), rank 0's progress callback alone is
+  /// called.
   SmoothingResult smooth(const PointView& points, Storage storage = Storage::float64);
 
   /// The same for a plain array of float or double: x and y of every local vertex.

@@ -10,9 +10,10 @@
 
 namespace trismooth::mpi {
 
-void require_same_options(const SmoothingOptions& options, const Communicator& communicator) {
+void require_same_options(const SmoothingOptions& options, const Sliding& slide, bool gathers,
+                          const Communicator& communicator) {
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
-  const std::array<std::pair<const char*, std::int64_t>, 18> values{{
+  const std::array<std::pair<const char*, std::int64_t>, 24> values{{
       {"method", static_cast<std::int64_t>(options.method)},
       {"form", static_cast<std::int64_t>(options.form)},
       {"layout", static_cast<std::int64_t>(options.layout)},
@@ -31,6 +32,12 @@ void require_same_options(const SmoothingOptions& options, const Communicator& c
       {"target_quality", bits(options.target_quality.value_or(std::numeric_limits<double>::infinity()))},
       {"record_min_shape", options.record_min_shape ? 1 : 0},
       {"backend", options.backend == nullptr ? 0 : 1},
+      {"slide.along", static_cast<std::int64_t>(slide.along)},
+      {"slide.corner_angle", bits(slide.corner_angle)},
+      {"slide.deviation", bits(slide.deviation)},
+      {"slide.curve", static_cast<std::int64_t>(slide.curve)},
+      {"slide.coincident", slide.coincident ? 1 : 0},
+      {"gather", gathers ? 1 : 0},
   }};
   auto to_first = lists_by_rank<std::int64_t>(communicator);
   for (const auto& [name, value] : values) {

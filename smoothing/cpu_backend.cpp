@@ -37,9 +37,7 @@ constexpr std::int64_t vertex_grain = 8192;
 constexpr std::int32_t vertices_ahead = 32;
 
 constexpr const char* untangling_over_parts =
-    "the mesh has inverted triangles, and those of a mesh in parts cannot be untangled: untangle it as a whole first, "
-    "or "
-    "set untangle to off";
+    "the mesh has inverted triangles, and those of a mesh in parts are not untangled";
 
 class CpuSmoother final : public PreparedSmoother {
  public:
@@ -48,7 +46,7 @@ class CpuSmoother final : public PreparedSmoother {
       : options_(options), workers_(options.threads), fixed_(std::move(mesh.fixed)), part_(std::move(mesh.part)) {
     const Stopwatch watch;
     rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_, part_.get());
-    if (part_ != nullptr) {
+    if (part_ != nullptr && !part_->is_whole) {
       halo_.emplace(*part_, rings_);
     }
     if (options.measures_shape() || options.untangles()) {

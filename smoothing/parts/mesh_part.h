@@ -26,6 +26,7 @@ struct MeshPart {
   std::int32_t colour_count = 0;      ///< in the whole mesh
   std::int64_t free_vertices = 0;     ///< in the whole mesh
   bool has_progress = false;          ///< some part has a progress callback
+  bool is_whole = false;              ///< it is all of the mesh: there are no others to exchange anything with
   std::vector<Neighbour> neighbours;  ///< ascending by part
   std::shared_ptr<PartLinks> links;
 

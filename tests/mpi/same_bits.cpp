@@ -14,6 +14,7 @@ using properties::for_random_meshes;
 using properties::for_some_options;
 using properties::Run;
 using properties::SmoothingOptions;
+using trismooth::mpi::Gather;
 
 namespace {
 
@@ -57,6 +58,13 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
                   differ("inverted and held", found.untangling->inverted_fixed, expected.untangling->inverted_fixed)
             : "no word of untangling";
   }
+  if (expected.sliding) {
+    const auto& a = found.sliding;
+    const auto& b = expected.sliding;
+    wrong += a ? differ("chains", a->chains, b->chains) + differ("may slide", a->vertices, b->vertices) +
+                     differ("slid", a->slid, b->slid) + differ("given up", a->given_up, b->given_up)
+               : "no word of sliding";
+  }
   for (const auto& reverted : found.reverted) {
     const auto global = piece.global[static_cast<std::size_t>(reverted.vertex)];
     const auto place = std::ranges::find(expected.reverted, global, &trismooth::RevertedVertex::vertex);
@@ -67,14 +75,18 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
   return wrong;
 }
 
-std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, const Run& whole, Cut cut) {
+std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, const Run& whole, Cut cut,
+                      Gather gather) {
   const Piece piece = piece_of(mesh, cut, mesh.seed);
   std::vector<double> xy = piece.xy;
   const bool is_tangled = whole.result.untangling && whole.result.untangling->inverted_before > 0;
+  trismooth::Constraints constraints = piece.constraints();
+  constraints.slide = mesh.slide;
   try {
-    trismooth::mpi::Plan plan(MPI_COMM_WORLD, piece.mesh(), piece.constraints(), options);
+    trismooth::mpi::Plan plan(MPI_COMM_WORLD, piece.mesh(), constraints, options, gather);
     const auto result = plan.smooth(xy);
-    std::string wrong = is_tangled ? "a tangled mesh was taken" : difference(piece, xy, result, whole);
+    std::string wrong =
+        is_tangled && gather == Gather::never ? "a tangled mesh was taken" : difference(piece, xy, result, whole);
     if (said_by_any(wrong).empty()) {
       // The plan again, after another mesh: mirrored.
       std::vector<double> other = xy;
@@ -93,25 +105,42 @@ std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, c
     }
     return said_by_any(wrong);
   } catch (const std::invalid_argument& error) {
-    const bool is_meant = is_tangled && std::string(error.what()).find("inverted") != std::string::npos;
+    const bool is_meant =
+        is_tangled && gather == Gather::never && std::string(error.what()).find("inverted") != std::string::npos;
     return said_by_any(is_meant ? (xy == piece.xy ? "" : "refused, and moved") : error.what());
   }
 }
 
-}  // namespace
-
-TEST_CASE("random meshes in pieces come out with the bits of the whole") {
-  for_random_meshes(1000, [](const RandomMesh& mesh) {
+/// Ways to cut `count` random meshes, and to smooth them.
+void check_random_meshes(std::int64_t count, Gather gather, bool slides) {
+  for_random_meshes(count, [&](RandomMesh mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.record_min_shape = random.below(2) == 0;
       options.guard = random.below(5) != 0;
       if (random.below(4) == 0) {
         options.target_quality = random.between(0, 1);
       }
+      if (slides) {
+        mesh.slide = properties::any_sliding(random);
+      }
       const Run whole = properties::run(mesh, options);
       const auto cut = static_cast<Cut>(random.below(cuts));
-      const std::string wrong = in_pieces(mesh, options, whole, cut);
+      const std::string wrong = in_pieces(mesh, options, whole, cut, gather);
       return wrong.empty() ? wrong : fmt::format("{} (cut {})", wrong, static_cast<int>(cut));
     });
   });
+}
+
+}  // namespace
+
+TEST_CASE("random meshes in pieces come out with the bits of the whole") {
+  check_random_meshes(1000, Gather::never, false);
+}
+
+TEST_CASE("so do those that have to be untangled, gathered on one rank") {
+  check_random_meshes(500, Gather::where_needed, false);
+}
+
+TEST_CASE("so do those whose boundaries slide, gathered on one rank") {
+  check_random_meshes(500, Gather::where_needed, true);
 }

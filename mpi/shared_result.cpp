@@ -1,0 +1,75 @@
+#include "trismooth/mpi/shared_result.h"
+
+#include <vector>
+
+namespace trismooth::mpi {
+
+namespace {
+
+/// The figures of a result. UntanglingResult without its list.
+struct Figures {
+  std::int64_t sweeps;
+  std::int64_t vertex_updates;
+  std::int64_t moved_vertices;
+  std::int64_t guard_rounds;
+  std::int64_t free_vertices;
+  std::int32_t colours;
+  StopReason stop_reason;
+  bool has_untangling;
+  bool has_sliding;
+  std::int64_t inverted_before;
+  std::int64_t inverted_untangled;
+  std::int64_t inverted_after;
+  std::int64_t inverted_fixed;
+  std::int32_t turned_components;
+  SlidingResult sliding;
+};
+
+Figures figures_of(const SmoothingResult& result) {
+  const UntanglingResult untangling = result.untangling.value_or(UntanglingResult{});
+  return {result.sweeps,
+          result.vertex_updates,
+          result.moved_vertices,
+          result.guard_rounds,
+          result.free_vertices,
+          result.colours,
+          result.stop_reason,
+          result.untangling.has_value(),
+          result.sliding.has_value(),
+          untangling.inverted_before,
+          untangling.inverted_untangled,
+          untangling.inverted_after,
+          untangling.inverted_fixed,
+          untangling.turned_components,
+          result.sliding.value_or(SlidingResult{})};
+}
+
+void take(const Figures& figures, SmoothingResult& result) {
+  result.sweeps = figures.sweeps;
+  result.vertex_updates = figures.vertex_updates;
+  result.moved_vertices = figures.moved_vertices;
+  result.guard_rounds = figures.guard_rounds;
+  result.free_vertices = figures.free_vertices;
+  result.colours = figures.colours;
+  result.stop_reason = figures.stop_reason;
+  if (figures.has_untangling) {
+    result.untangling = UntanglingResult{figures.inverted_before, figures.inverted_untangled, figures.inverted_after,
+                                         figures.inverted_fixed, figures.turned_components, {}};
+  }
+  if (figures.has_sliding) {
+    result.sliding = figures.sliding;
+  }
+}
+
+}  // namespace
+
+void share_result(SmoothingResult& result, const Communicator& communicator) {
+  std::vector<Figures> figures{figures_of(result)};
+  communicator.broadcast(figures);
+  communicator.broadcast(result.history);
+  if (communicator.rank() != 0) {
+    take(figures.front(), result);
+  }
+}
+
+}  // namespace trismooth::mpi
