@@ -19,6 +19,7 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/host_untangling.h"
 #include "trismooth/cuda/memory_need.h"
+#include "trismooth/cuda/part_offloads.h"
 #include "trismooth/cuda/runtime/host_copy.h"
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/slide/sliding_options.h"
@@ -192,6 +193,8 @@ class CudaBackend final : public Backend {
  public:
   std::string name() const override { return "cuda"; }
 
+  void require_ready() const override { require_device(); }
+
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
@@ -202,10 +205,14 @@ class CudaBackend final : public Backend {
                                                  std::span<const Point2<double>> local,
                                                  const SmoothingOptions& options) const override {
     options.validate();
-    if (mesh.part != nullptr) {
-      throw std::invalid_argument("a mesh in parts is smoothed by the CPU alone");
-    }
     require_device();
+    if (mesh.part != nullptr && mesh.part->is_whole) {
+      // Colours are by the ids of the whole mesh, which the device's own are not.
+      return cpu_backend().prepare(mesh, triangles, local, options);
+    }
+    if (mesh.part != nullptr) {
+      return prepare_part(mesh, triangles, local, options, part_offloads(*mesh.part));
+    }
     if (mesh.slidable.is_wanted()) {
       require_sliding(options);
     }

@@ -99,6 +99,7 @@ Communicator::Communicator(MPI_Comm caller) {
   check(MPI_Comm_split_type(communicator_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine),
         "MPI_Comm_split_type");
   check(MPI_Comm_size(machine, &ranks_of_machine_), "MPI_Comm_size");
+  check(MPI_Comm_rank(machine, &place_on_machine_), "MPI_Comm_rank");
   MPI_Comm_free(&machine);
   check(MPI_Type_contiguous(static_cast<int>(sizeof(PartSums)), MPI_BYTE, &sums_type_), "MPI_Type_contiguous");
   check(MPI_Type_commit(&sums_type_), "MPI_Type_commit");

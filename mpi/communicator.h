@@ -38,6 +38,8 @@ class Communicator {
   int size() const { return size_; }
   /// How many ranks share this rank's machine, itself included.
   int ranks_of_machine() const { return ranks_of_machine_; }
+  /// This rank's place among these, from 0.
+  int place_on_machine() const { return place_on_machine_; }
   MPI_Comm handle() const { return communicator_; }
 
   PartSums joined(PartSums own) const;
@@ -113,6 +115,7 @@ class Communicator {
   int rank_ = 0;
   int size_ = 1;
   int ranks_of_machine_ = 1;
+  int place_on_machine_ = 0;
   MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
   MPI_Op join_ = MPI_OP_NULL;
 };

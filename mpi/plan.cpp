@@ -49,9 +49,6 @@ void require_supported(const SmoothingOptions& options, const Constraints& const
         "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide to "
         "off");
   }
-  if (backend_of(options).name() != "cpu") {
-    throw std::invalid_argument("a mesh in pieces is smoothed by the CPU alone: set backend to cpu");
-  }
   if (options.order == Order::unordered || options.execution != Execution::resident) {
     throw std::invalid_argument("executions and orders of the paper's CUDA versions are not there for a mesh in pieces");
   }
@@ -88,6 +85,7 @@ class Plan::Implementation {
     std::span<const Triangle> triangles;
     ranks.on_all([&] {
       require_supported(options, constraints, gather);
+      backend_of(options).require_ready();
       options_.threads = threads_of(options, ranks);
       workers_.emplace(options_.threads);
       triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
@@ -98,6 +96,9 @@ class Plan::Implementation {
     overlap_ = build_overlap(mesh, triangles, constraints, is_gathered_, communicator_);
     MeshPart& part = overlap_.part;
     part.is_whole = is_gathered_;
+    part.number = ranks.rank();
+    part.count = ranks.size();
+    part.place_on_machine = ranks.place_on_machine();
     part.has_progress = ranks.any(static_cast<bool>(options.progress));
     messages_.emplace(part.messages());
     ghost_exchange_ = part.ghost_exchange();
@@ -313,16 +314,22 @@ class Plan::Implementation {
     if (!std::exchange(is_coloured_, true)) {
       colour(mesh.rings);
     }
-    communicator_->on_all([&] {
-      if (is_gathered_ && communicator_->rank() != 0) {
-        return;
-      }
-      mesh.slidable = slidable_;
-      mesh.fixed = fixed_;
-      mesh.reversed = reversed_;
-      mesh.part = std::shared_ptr<const MeshPart>(std::shared_ptr<void>(), &overlap_.part);
+    mesh.slidable = slidable_;
+    mesh.fixed = fixed_;
+    mesh.reversed = reversed_;
+    mesh.part = std::shared_ptr<const MeshPart>(std::shared_ptr<void>(), &overlap_.part);
+    const auto prepare = [&] {
       smoother_ = backend_of(options_).prepare(std::move(mesh), overlap_.triangles, local, used_options());
-    });
+    };
+    if (is_gathered_) {
+      communicator_->on_all([&] {
+        if (communicator_->rank() == 0) {
+          prepare();
+        }
+      });
+    } else {
+      prepare();
+    }
   }
 
   /// Colours the free vertices as colour_free_vertices() does it in the whole mesh.

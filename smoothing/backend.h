@@ -52,6 +52,9 @@ class Backend {
   /// "cpu", "cuda".
   virtual std::string name() const = 0;
 
+  /// Throws DeviceError where it has nothing to run on.
+  virtual void require_ready() const {}
+
   /// Starts what the backend is slow to start, a driver and its device, as far as a mesh of about so many vertices is
   /// worth that; returns when it has. For callers who have something else to do meanwhile: call it on a thread of its
   /// own, before or beside any other function. Nothing depends on it: what is not started then starts when it is

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "trismooth/base/bulk_memory.h"
@@ -26,6 +27,7 @@
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/sweep_driver.h"
+#include "trismooth/smoothing/sweeps/sweep_offload.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
 
@@ -42,12 +44,21 @@ constexpr const char* untangling_over_parts =
 class CpuSmoother final : public PreparedSmoother {
  public:
   CpuSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
-              const SmoothingOptions& options)
-      : options_(options), workers_(options.threads), fixed_(std::move(mesh.fixed)), part_(std::move(mesh.part)) {
+              const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
+      : options_(options),
+        offloads_(std::move(offloads)),
+        workers_(options.threads),
+        fixed_(std::move(mesh.fixed)),
+        part_(std::move(mesh.part)) {
     const Stopwatch watch;
     rings_ = pack_rings(std::move(mesh.rings), local, options.form, workers_, part_.get());
     if (part_ != nullptr && !part_->is_whole) {
       halo_.emplace(*part_, rings_);
+      if (offloads_ != nullptr && options.precision == Precision::single_precision) {
+        in_single_ = offloads_->in_single(rings_, *halo_, options_);
+      } else if (offloads_ != nullptr) {
+        in_double_ = offloads_->in_double(rings_, *halo_, options_);
+      }
     }
     if (options.measures_shape() || options.untangles()) {
       // Those of vertices that may slide are in the chains.
@@ -110,6 +121,11 @@ class CpuSmoother final : public PreparedSmoother {
     result.backend = "cpu";
     result.device = processor_name();
     result.threads = workers_.count();
+    if (offloads_ != nullptr) {
+      result.backend = offloads_->backend();
+      result.device = offloads_->device();
+      result.threads = 0;
+    }
     result.free_vertices = part_ == nullptr ? rings_.free_count() : part_->free_vertices;
     result.colours = rings_.colours;
     if (options_.precision == Precision::double_precision) {
@@ -177,7 +193,7 @@ class CpuSmoother final : public PreparedSmoother {
       fixed_quotient =
           std::min(fixed_quotient, run.chains.smallest_quotient(std::span<const Point2<double>>(run.before)));
     }
-    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr, halo())
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr, halo(), offload<T>())
         .run(run.working, fixed_quotient, run.result);
   }
 
@@ -396,6 +412,16 @@ class CpuSmoother final : public PreparedSmoother {
     return {static_cast<T>(point.x), static_cast<T>(point.y)};
   }
 
+  /// Null: the sweeps are made here.
+  template <class T>
+  SweepOffload<T>* offload() {
+    if constexpr (std::is_same_v<T, float>) {
+      return in_single_.get();
+    } else {
+      return in_double_.get();
+    }
+  }
+
   /// Null: the mesh is no part of another one.
   Halo* halo() { return halo_ ? &*halo_ : nullptr; }
 
@@ -409,11 +435,14 @@ class CpuSmoother final : public PreparedSmoother {
   }
 
   SmoothingOptions options_;
+  std::unique_ptr<SweepOffloads> offloads_;
   Workers workers_;
   std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed
   std::shared_ptr<const MeshPart> part_;
   PackedRings rings_;
   std::optional<Halo> halo_;
+  std::unique_ptr<SweepOffload<float>> in_single_;  ///< one of these, where sweeps are made elsewhere
+  std::unique_ptr<SweepOffload<double>> in_double_;
   PackedSlidable slidable_;
   FixedTriangles fixed_triangles_;      ///< where they are asked for
   std::vector<Triangle> triangles_;     ///< of the mesh, where it may have to be untangled
@@ -433,11 +462,17 @@ class CpuBackend final : public Backend {
     if (options.order == Order::unordered) {
       throw std::invalid_argument("order 'unordered' exists for CUDA only");
     }
-    return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options);
+    return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
   }
 };
 
 }  // namespace
+
+std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, std::span<const Triangle> triangles,
+                                               std::span<const Point2<double>> local, const SmoothingOptions& options,
+                                               std::unique_ptr<SweepOffloads> offloads) {
+  return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, std::move(offloads));
+}
 
 const Backend& cpu_backend() {
   static const CpuBackend backend;

@@ -35,7 +35,7 @@ MAY_USE = {
 # From the lowest to the highest: each may use those before it.
 below = [*SMOOTHING, "cuda faces"]
 for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", "sweeps/grid", "sweeps/patches", "paper",
-            "guard", "slide"):
+            "guard", "slide", "parts"):
     MAY_USE[f"cuda/{own}"] = list(below)
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below

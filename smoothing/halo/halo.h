@@ -21,6 +21,9 @@ class Halo {
   /// Own free vertices that have the ghost (any vertex without a ring) as a neighbour.
   const NumberLists& around_ghosts() const { return around_ghosts_; }
 
+  /// What goes to the neighbours and comes from them of each colour (Form A: of one, which all have).
+  std::span<const VertexExchange> of_colours() const { return of_colours_; }
+
   /// Sends `values`, one for each packed vertex, of own free vertices of a colour (Form A: 0, which all have).
   template <class V>
   void start(std::int32_t colour, std::span<const V> values) {

@@ -25,6 +25,9 @@ struct MeshPart {
   std::vector<std::int32_t> colours;  ///< one a vertex, ghosts too: that of Form B in the whole mesh; -1: fixed
   std::int32_t colour_count = 0;      ///< in the whole mesh
   std::int64_t free_vertices = 0;     ///< in the whole mesh
+  int number = 0;                     ///< of this part, from 0
+  int count = 1;                      ///< of parts
+  int place_on_machine = 0;           ///< of this part among those on its machine, from 0
   bool has_progress = false;          ///< some part has a progress callback
   bool is_whole = false;              ///< it is all of the mesh: there are no others to exchange anything with
   std::vector<Neighbour> neighbours;  ///< ascending by part

@@ -24,6 +24,7 @@
 #include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
+#include "trismooth/smoothing/sweeps/sweep_offload.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 #include "trismooth/smoothing/sweeps/vertex_list.h"
 #include "trismooth/smoothing/sweeps/vertex_visits.h"
@@ -40,16 +41,19 @@ template <class T>
 class SweepDriver {
  public:
   /// `inverse_sizes`: see HostTargets. `slide`: what slides, where slides_behind() says so; null: nothing. `halo`: of a
-  /// part of a mesh, whose other parts run sweeps at the same time; null: it is the whole.
+  /// part of a mesh, whose other parts run sweeps at the same time; null: it is the whole. `offload`: who makes the
+  /// sweeps of a part, in place of this thread and its workers; null: nobody.
   SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers,
-              std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr, Halo* halo = nullptr)
+              std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr, Halo* halo = nullptr,
+              SweepOffload<T>* offload = nullptr)
       : rings_(rings),
         view_(rings.view()),
         options_(options),
         workers_(workers),
         inverse_sizes_(inverse_sizes),
         slide_(slide),
-        halo_(halo) {}
+        halo_(halo),
+        offload_(offload) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -62,7 +66,7 @@ class SweepDriver {
 
   void run_stages(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
     const Stopwatch watch;
-    if (options_.form == Form::swap) {
+    if (options_.form == Form::swap && offload_ == nullptr) {
       other_points_ = points;
     }
     if (reached_target(points, fixed_quotient)) {
@@ -76,6 +80,9 @@ class SweepDriver {
     if (slide_ != nullptr && options_.method == Method::mean_ratio) {
       slide_->aim(points, targets.view(), targets.mesh(), !inverse_sizes_.empty());
     }
+    if (offload_ != nullptr) {
+      offload_->begin(points, targets.view());
+    }
     Stages stages(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices);
     std::optional<StopReason> reason;
     for (;;) {
@@ -87,6 +94,9 @@ class SweepDriver {
       }
     }
     result.stop_reason = *reason;
+    if (offload_ != nullptr) {
+      offload_->end(points);
+    }
   }
 
   /// Sweeps to the end of the stage. Nothing where another one follows, which `stages` is at then.
@@ -94,12 +104,17 @@ class SweepDriver {
   std::optional<StopReason> run_stage(const Update& method, BulkVector<Point2<T>>& points, Stages& stages,
                                       double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
     const bool swaps = options_.form == Form::swap;
-    marked_.assign(points.size(), 1);
-    other_marked_.assign(swaps ? points.size() : 0, 0);
+    if (offload_ != nullptr) {
+      offload_->begin_stage();
+    } else {
+      marked_.assign(points.size(), 1);
+      other_marked_.assign(swaps ? points.size() : 0, 0);
+    }
     for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
-      SweepTally<T> tally = swaps ? sweep(method, points, other_points_, marked_, other_marked_)
-                                  : sweep(method, points, points, marked_, marked_);
-      if (swaps) {
+      SweepTally<T> tally = offload_ != nullptr ? offload_->sweep(stages.step<T>())
+                            : swaps             ? sweep(method, points, other_points_, marked_, other_marked_)
+                                                : sweep(method, points, points, marked_, marked_);
+      if (swaps && offload_ == nullptr) {
         points.swap(other_points_);
         marked_.swap(other_marked_);
       }
@@ -117,7 +132,10 @@ class SweepDriver {
       SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
                          static_cast<double>(std::sqrt(tally.max_relative_squared))};
       if (options_.measures_shape()) {
-        record.min_shape = min_shape(points, fixed_quotient);
+        record.min_shape = offload_ != nullptr
+                               ? min_shape_of(least_of_parts(halo_, static_cast<double>(offload_->smallest_quotient())),
+                                              fixed_quotient)
+                               : min_shape(points, fixed_quotient);
       }
       result.vertex_updates += tally.evaluated;
       result.history.push_back(record);
@@ -278,6 +296,7 @@ class SweepDriver {
   std::span<const double> inverse_sizes_;
   SlidePass<T>* slide_;
   Halo* halo_;
+  SweepOffload<T>* offload_;
   BulkVector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;

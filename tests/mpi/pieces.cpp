@@ -118,6 +118,52 @@ Piece piece_of(const RandomMesh& mesh, Cut cut, std::uint64_t seed) {
   return piece;
 }
 
+Piece plain_piece(const RandomMesh& mesh, const std::vector<int>& rank_of_triangle) {
+  const auto vertices = static_cast<std::size_t>(mesh.mesh.vertex_count());
+  std::vector<std::uint8_t> is_here(vertices, rank() == 0 ? 1 : 0);
+  const auto mark = [&](bool own, std::uint8_t value) {
+    for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+      for (const std::int32_t v : mesh.mesh.triangles[t]) {
+        if ((rank_of_triangle[t] == rank()) == own) {
+          is_here[static_cast<std::size_t>(v)] = value;
+        }
+      }
+    }
+  };
+  mark(false, 0);
+  mark(true, 1);
+  Piece piece;
+  std::vector<std::int32_t> number(vertices, -1);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (is_here[v] != 0) {
+      number[v] = static_cast<std::int32_t>(piece.global.size());
+      piece.global.push_back(static_cast<std::int32_t>(v));
+      piece.ids.push_back(static_cast<std::int64_t>(v));
+      piece.xy.insert(piece.xy.end(), {mesh.mesh.points[v].x, mesh.mesh.points[v].y});
+    }
+  }
+  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    if (rank_of_triangle[t] == rank()) {
+      const auto& [a, b, c] = mesh.mesh.triangles[t];
+      piece.triangles.push_back({number[static_cast<std::size_t>(a)], number[static_cast<std::size_t>(b)],
+                                 number[static_cast<std::size_t>(c)]});
+      piece.triangle_ids.push_back(static_cast<std::int64_t>(t));
+    }
+  }
+  return piece;
+}
+
+bool say_the_same(const std::string& own) {
+  auto length = static_cast<int>(own.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  std::string first = own;
+  first.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(first.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+  int is_same = first == own ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &is_same, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  return is_same != 0;
+}
+
 std::string said_by_any(const std::string& own) {
   int speaker = own.empty() ? ranks() : rank();
   MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);

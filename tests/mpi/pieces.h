@@ -57,6 +57,13 @@ struct Piece {
 /// This rank's piece.
 Piece piece_of(const RandomMesh& mesh, Cut cut, std::uint64_t seed);
 
+/// What this rank has where triangle t is on rank_of_triangle[t] and nowhere else: those triangles and their vertices,
+/// in the order of the whole mesh; owners are not said. Isolated vertices are on rank 0.
+Piece plain_piece(const RandomMesh& mesh, const std::vector<int>& rank_of_triangle);
+
+/// Whether all ranks say the same. Collective.
+bool say_the_same(const std::string& own);
+
 /// What the lowest rank says that says something; empty where none does. Collective.
 std::string said_by_any(const std::string& own);
 

@@ -1,24 +1,18 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "trismooth/cuda/primitives/warp_list.cuh"
 #include "trismooth/cuda/runtime/dependent_launch.cuh"
 #include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
 #include "trismooth/cuda/sweeps/block_tally.cuh"
+#include "trismooth/cuda/sweeps/grid/batch_pieces.cuh"
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 
 namespace trismooth::cuda {
 
 namespace {
-
-constexpr std::int32_t threads = 256;
-/// Blocks of a multiprocessor: what their registers allow.
-template <class T>
-constexpr std::int32_t blocks_at_once = sizeof(T) == sizeof(float) ? 3 : 2;
-constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// While more than one in so many vertices moves, all are evaluated: that is cheaper than to mark and to list them. In
 /// Form B, where a sweep takes a launch for each colour, it is so for a shorter time.
@@ -39,60 +33,6 @@ __device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopS
   const std::uint64_t share = rules.swaps ? smallest_share_a : smallest_share_b;
   const bool many_move = found.moved > static_cast<std::uint64_t>(free_count) / share;
   state->marks = rules.evaluates_all || many_move ? 0 : 1;
-}
-
-/// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
-/// each other, then leaves as many to each of the others: what is near in number is near in the mesh and in the cache.
-struct Pieces {
-  std::int32_t begin;
-  std::int32_t end;
-  std::int32_t run_bits;
-
-  /// The first vertex of the block's piece `i`; the end or more where there is none.
-  __device__ std::int64_t first(std::int32_t i) const {
-    const std::int32_t run =
-        (i >> run_bits) * static_cast<std::int32_t>(gridDim.x) + static_cast<std::int32_t>(blockIdx.x);
-    const std::int32_t piece = (run << run_bits) + (i & ((1 << run_bits) - 1));
-    return begin + static_cast<std::int64_t>(piece) * threads;
-  }
-};
-
-/// More vertices than a warp leaves to its teams before it evaluates them, but for those of its last piece.
-constexpr int enough_left_over = 32;
-
-/// Threads and blocks of a multiprocessor where a thread has one vertex: as many as hide the waiting for memory without
-/// taking registers away.
-constexpr std::int32_t threads_from_memory = 128;
-constexpr std::int32_t blocks_from_memory = 4;
-
-/// Evaluates the block's vertices. `list` is the warp's own.
-template <bool marks, class Update, class T, class Slot>
-__device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces, const SweepData<T, Slot>& data,
-                                             std::int32_t* list, ThreadTally<T>& tally) {
-  const auto thread = static_cast<std::int32_t>(threadIdx.x);
-  const auto fetch = [&](std::int64_t first) {
-    return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
-                                       : RingRecord<Slot>{};
-  };
-  std::int32_t piece = 0;
-  std::int64_t first = pieces.first(piece);
-  RingRecord<Slot> record = fetch(first);
-  while (first < pieces.end) {
-    int listed = 0;
-    do {
-      // The next record is on its way while this one is worked on.
-      const std::int64_t next_first = pieces.first(++piece);
-      const RingRecord<Slot> next = fetch(next_first);
-      const bool active = first + thread < pieces.end;
-      const std::int32_t v = static_cast<std::int32_t>(first) + thread;
-      listed = added_to_list(list, listed, visit<marks>(method, v, record, active, data, tally), v);
-      record = next;
-      first = next_first;
-    } while (listed < enough_left_over && first < pieces.end);
-    __syncwarp();
-    visit_by_teams<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
-    __syncwarp();
-  }
 }
 
 /// Whether a launch that marks its moves, or does not, is the one that is to make the next sweep.
@@ -137,7 +77,7 @@ __device__ void end_batch(ThreadTally<T> tally, std::int32_t evaluated, bool is_
 /// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
 /// to be marked is what this kernel does.
 template <bool marks, class Update, class T, class Slot>
-__global__ void __launch_bounds__(threads, blocks_at_once<T>)
+__global__ void __launch_bounds__(batch_threads, blocks_at_once<T>)
     sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
   wait_for_launch_before();
@@ -145,7 +85,7 @@ __global__ void __launch_bounds__(threads, blocks_at_once<T>)
     return;
   }
   __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[threads / 32][enough_left_over + 32];
+  __shared__ std::int32_t left_over[batch_threads / 32][enough_left_over + 32];
   if (threadIdx.x == 0) {
     shared = SweepSums{};
   }
@@ -204,9 +144,9 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
       if constexpr (has_register_update<Update, T>) {
         DependentLaunch kernel(&sweep_batch<marks(), Update, T, Slot>, stream);
         launch_sweeps(count, [&](std::int32_t begin, std::int32_t end, bool is_last) {
-          const auto blocks = static_cast<std::int32_t>(blocks_for(end - begin, threads));
+          const auto blocks = static_cast<std::int32_t>(blocks_for(end - begin, batch_threads));
           const std::int32_t run_bits = blocks < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-          kernel(static_cast<unsigned>(std::min(blocks, most_blocks)), threads, update, mesh, rules,
+          kernel(static_cast<unsigned>(std::min(blocks, most_blocks)), batch_threads, update, mesh, rules,
                  Pieces{begin, end, run_bits}, is_last, state, sums);
         });
       } else {

@@ -1,13 +1,12 @@
 #include <algorithm>
 
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
-#include "trismooth/cuda/primitives/vertex_marks.cuh"
-#include "trismooth/cuda/primitives/warp_list.cuh"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
 #include "trismooth/cuda/sweeps/block_tally.cuh"
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
+#include "trismooth/cuda/sweeps/grid/marked_batch.cuh"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 #include "trismooth/cuda/sweeps/smallest_quotient.cuh"
 
@@ -29,36 +28,6 @@ struct BlockWork {
   SweepSums sums;
   std::uint32_t differs;  ///< a vertex is elsewhere than two sweeps before
 };
-
-/// Updates the marked vertices of one batch that this warp looks after. `list` is its own.
-template <class Update, class T, class Slot>
-__device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
-                             const SweepData<T, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
-  // The words of a warp are far apart: what changes is often near to each other.
-  const std::int64_t warps = static_cast<std::int64_t>(gridDim.x) * (threads / 32);
-  const std::int64_t warp = thread_index() / 32;
-  const auto lane = static_cast<int>(threadIdx.x % 32);
-  for (std::int64_t base = begin / 32; base * 32 < end; base += words_at_a_time * warps) {
-    const std::int64_t beyond = static_cast<std::int64_t>(end) + 1;
-    const int listed =
-        list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
-    tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
-    int decided = 0;
-    if (!has_register_update<Update, T> || listed > few_for_teams) {
-      int left_over = 0;
-      for (; listed - decided > (has_register_update<Update, T> ? few_for_teams : 0); decided += 32) {
-        const int i = decided + lane;
-        const std::int32_t v = i < listed ? list[i] : 0;
-        const bool left = visit<true>(method, v, fetch_record(data.rings, v), i < listed, data, tally);
-        __syncwarp();
-        left_over = added_to_list(list, left_over, left, v);
-      }
-      __syncwarp();
-      visit_by_teams<true>(method, left_over, data, tally, [&](int i) { return list[i]; });
-    }
-    visit_by_teams<true>(method, listed - decided, data, tally, [&](int i) { return list[decided + i]; });
-  }
-}
 
 template <class T>
 __device__ void swap_values(T& a, T& b) {
@@ -103,8 +72,8 @@ __global__ void __launch_bounds__(threads, 1) sweep_grid(Update method, GridMesh
     data.differs = looks ? &work.differs : nullptr;
     ThreadTally<T> tally;
     for (std::int32_t batch = 0; batch < rules.batch_count; ++batch) {
-      sweep_marked(method, marks, all, rules.batches[batch], rules.batches[batch + 1], data, lists[threadIdx.x / 32],
-                   tally);
+      sweep_marked<threads>(method, marks, all, rules.batches[batch], rules.batches[batch + 1], data,
+                            lists[threadIdx.x / 32], tally);
       if (batch + 1 < rules.batch_count) {
         grid_barrier(barriers++, 0, work.barrier_total, nothing);
       }

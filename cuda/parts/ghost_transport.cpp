@@ -1,0 +1,220 @@
+#include "trismooth/cuda/parts/ghost_transport.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <random>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/base/splitmix64.h"
+#include "trismooth/cuda/parts/nccl.h"
+#include "trismooth/cuda/runtime/check.h"
+
+namespace trismooth::cuda {
+
+namespace {
+
+/// A stream beside the one of the sweeps, and the events with which the two wait for each other.
+class SideStream {
+ public:
+  SideStream() {
+    TRISMOOTH_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+    TRISMOOTH_CUDA_CHECK(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming));
+  }
+  SideStream(const SideStream&) = delete;
+  SideStream& operator=(const SideStream&) = delete;
+  ~SideStream() {
+    cudaEventDestroy(event_);
+    cudaStreamDestroy(stream_);
+  }
+
+  cudaStream_t get() const { return stream_; }
+  /// What is queued here waits for what has been queued there.
+  void wait_for(cudaStream_t other) const { wait(stream_, other); }
+  /// The other way round.
+  void hold_up(cudaStream_t other) const { wait(other, stream_); }
+
+ private:
+  void wait(cudaStream_t waiting, cudaStream_t awaited) const {
+    TRISMOOTH_CUDA_CHECK(cudaEventRecord(event_, awaited));
+    TRISMOOTH_CUDA_CHECK(cudaStreamWaitEvent(waiting, event_, 0));
+  }
+
+  cudaStream_t stream_ = nullptr;
+  cudaEvent_t event_ = nullptr;
+};
+
+/// Brings what the first part has to all of them: the others add zeros to it.
+template <class V>
+V of_first_part(const MeshPart& part, const V& own) {
+  using Words = std::array<std::int64_t, sizeof(V) / sizeof(std::int64_t)>;
+  auto words = part.number == 0 ? std::bit_cast<Words>(own) : Words{};
+  for (std::size_t first = 0; first < words.size(); first += PartSums{}.sums.size()) {
+    PartSums sums;
+    std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(first), sums.sums.size(), sums.sums.begin());
+    part.links->join(sums);
+    std::ranges::copy(sums.sums, words.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  return std::bit_cast<V>(words);
+}
+
+/// Which processes are the parts, in which order: the same number for all of them, and for no other processes.
+std::uint64_t group_of(const MeshPart& part) {
+  static const std::uint64_t process =
+      (static_cast<std::uint64_t>(std::random_device()()) << 32U) ^ std::random_device()();
+  PartSums sums;
+  sums.sums[0] = static_cast<std::int64_t>(splitmix64(process + static_cast<std::uint64_t>(part.number)));
+  part.links->join(sums);
+  return static_cast<std::uint64_t>(sums.sums[0]);
+}
+
+/// NCCL's communicator of these processes. It takes NCCL about a second to make one: it is kept for all plans, to the
+/// end of the process. Plans that are used in the same order on all parts, as they have to be, may share it.
+nccl::Communicator communicator_of(const nccl::Library& library, const MeshPart& part) {
+  static std::mutex making;
+  static std::map<std::uint64_t, nccl::Communicator> made;
+  const std::uint64_t group = group_of(part);
+  nccl::UniqueId id{};
+  if (part.number == 0) {
+    library.check(library.get_unique_id(&id), "ncclGetUniqueId");
+  }
+  id = of_first_part(part, id);
+  const std::lock_guard lock(making);
+  const auto [place, is_new] = made.try_emplace(group, nullptr);
+  if (is_new) {
+    library.check(library.comm_init_rank(&place->second, part.count, id, part.number), "ncclCommInitRank");
+  }
+  return place->second;
+}
+
+/// From device to device.
+class NcclTransport final : public GhostTransport {
+ public:
+  NcclTransport(const nccl::Library& library, const MeshPart& part)
+      : library_(library), communicator_(communicator_of(library, part)) {}
+
+  void start(std::span<const Message> sends, std::span<const Message> receives, cudaStream_t stream) override {
+    is_under_way_ = !sends.empty() || !receives.empty();
+    if (!is_under_way_) {
+      return;
+    }
+    side_.wait_for(stream);
+    library_.check(library_.group_start(), "ncclGroupStart");
+    for (const Message& message : sends) {
+      library_.check(
+          library_.send(message.bytes, message.size, nccl::Library::bytes, message.part, communicator_, side_.get()),
+          "ncclSend");
+    }
+    for (const Message& message : receives) {
+      library_.check(
+          library_.receive(message.bytes, message.size, nccl::Library::bytes, message.part, communicator_, side_.get()),
+          "ncclRecv");
+    }
+    library_.check(library_.group_end(), "ncclGroupEnd");
+  }
+
+  void finish(cudaStream_t stream) override {
+    if (is_under_way_) {
+      side_.hold_up(stream);
+    }
+  }
+
+ private:
+  const nccl::Library& library_;
+  nccl::Communicator communicator_;
+  SideStream side_;
+  bool is_under_way_ = false;
+};
+
+/// By way of the host, and the links between its parts.
+class HostTransport final : public GhostTransport {
+ public:
+  explicit HostTransport(const MeshPart& part) : links_(*part.links) {}
+  ~HostTransport() override {
+    cudaFreeHost(out_.bytes);
+    cudaFreeHost(in_.bytes);
+  }
+
+  void start(std::span<const Message> sends, std::span<const Message> receives, cudaStream_t stream) override {
+    sends_ = staged(sends, out_);
+    receives_ = staged(receives, in_);
+    receivers_.assign(receives.begin(), receives.end());
+    side_.wait_for(stream);
+    for (std::size_t i = 0; i < sends.size(); ++i) {
+      TRISMOOTH_CUDA_CHECK(
+          cudaMemcpyAsync(sends_[i].bytes.data(), sends[i].bytes, sends[i].size, cudaMemcpyDeviceToHost, side_.get()));
+    }
+  }
+
+  void finish(cudaStream_t stream) override {
+    TRISMOOTH_CUDA_CHECK(cudaStreamSynchronize(side_.get()));
+    links_.start(sends_, receives_);
+    links_.finish();
+    for (std::size_t i = 0; i < receivers_.size(); ++i) {
+      TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(receivers_[i].bytes, receives_[i].bytes.data(), receivers_[i].size,
+                                           cudaMemcpyHostToDevice, side_.get()));
+    }
+    // The memory of the host is used again.
+    TRISMOOTH_CUDA_CHECK(cudaStreamSynchronize(side_.get()));
+    side_.hold_up(stream);
+  }
+
+ private:
+  struct Pinned {
+    std::byte* bytes = nullptr;
+    std::size_t size = 0;
+  };
+
+  static std::vector<PartLinks::Message> staged(std::span<const Message> messages, Pinned& memory) {
+    std::size_t size = 0;
+    for (const Message& message : messages) {
+      size += message.size;
+    }
+    if (size > memory.size) {
+      TRISMOOTH_CUDA_CHECK(cudaFreeHost(std::exchange(memory.bytes, nullptr)));
+      void* bytes = nullptr;
+      TRISMOOTH_CUDA_CHECK(cudaMallocHost(&bytes, size));
+      memory = {static_cast<std::byte*>(bytes), size};
+    }
+    std::vector<PartLinks::Message> staged;
+    std::byte* place = memory.bytes;
+    for (const Message& message : messages) {
+      staged.push_back({message.part, {place, message.size}});
+      place += message.size;
+    }
+    return staged;
+  }
+
+  PartLinks& links_;
+  SideStream side_;
+  Pinned out_;
+  Pinned in_;
+  std::vector<PartLinks::Message> sends_;
+  std::vector<PartLinks::Message> receives_;
+  std::vector<Message> receivers_;
+};
+
+}  // namespace
+
+std::unique_ptr<GhostTransport> make_ghost_transport(const MeshPart& part) {
+  const nccl::Library* const library = nccl::library();
+  int devices = 0;
+  TRISMOOTH_CUDA_CHECK(cudaGetDeviceCount(&devices));
+  const char* const wanted = std::getenv("TRISMOOTH_GHOSTS");
+  const bool goes_by_host = wanted != nullptr && std::string_view(wanted) == "host";
+  // NCCL refuses two ranks on one device.
+  PartSums sums;
+  sums.sums[0] = library == nullptr || part.place_on_machine >= devices || part.count == 1 || goes_by_host ? 1 : 0;
+  part.links->join(sums);
+  if (sums.sums[0] > 0) {
+    return std::make_unique<HostTransport>(part);
+  }
+  return std::make_unique<NcclTransport>(*library, part);
+}
+
+}  // namespace trismooth::cuda

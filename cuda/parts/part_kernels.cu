@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <bit>
+
+#include "trismooth/cuda/parts/part_kernels.h"
+#include "trismooth/cuda/primitives/vertex_marks.cuh"
+#include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/runtime/device_properties.h"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/runtime/thread_index.cuh"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
+#include "trismooth/cuda/sweeps/grid/batch_pieces.cuh"
+#include "trismooth/cuda/sweeps/grid/marked_batch.cuh"
+#include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
+
+namespace trismooth::cuda {
+
+namespace {
+
+template <class T>
+__device__ SweepData<T, std::int32_t> data_of(const PartBatch<T>& batch) {
+  return {batch.rings, batch.from, batch.to, batch.next_marks, batch.tolerance};
+}
+
+/// Adds what the block's threads did. All of them call it.
+template <class T>
+__device__ void end_batch(const ThreadTally<T>& tally, SweepSums& shared, SweepSums* sums) {
+  join_in_block(tally, shared);
+  __syncthreads();
+  if (threadIdx.x == 0) {
+    add_block(shared, sums);
+  }
+}
+
+template <bool marks, class Update, class T>
+__global__ void __launch_bounds__(batch_threads, blocks_at_once<T>)
+    visit_all(Update method, PartBatch<T> batch, Pieces pieces, SweepSums* sums) {
+  __shared__ SweepSums shared;
+  __shared__ std::int32_t left_over[batch_threads / 32][enough_left_over + 32];
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  ThreadTally<T> tally;
+  sweep_pieces<marks>(method, pieces, data_of(batch), left_over[threadIdx.x / 32], tally);
+  if (thread_index() == 0) {
+    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
+  }
+  end_batch(tally, shared, sums);
+}
+
+/// The same by a thread for each vertex, which reads its ring from memory: for methods without an update in registers.
+template <bool marks, class Update, class T>
+__global__ void __launch_bounds__(threads_from_memory, blocks_from_memory)
+    visit_all_from_memory(Update method, PartBatch<T> batch, SweepSums* sums) {
+  __shared__ SweepSums shared;
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  const SweepData<T, std::int32_t> data = data_of(batch);
+  ThreadTally<T> tally;
+  const std::int64_t v = batch.begin + thread_index();
+  if (v < batch.end) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    const Point2<T> position = data.from.load(vertex);
+    settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
+                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
+                           tally);
+    tally.evaluated = 1;
+  }
+  end_batch(tally, shared, sums);
+}
+
+/// Threads of a block that visits marked vertices.
+constexpr int marked_threads = 256;
+
+template <class Update, class T>
+__global__ void __launch_bounds__(marked_threads) visit_marked(Update method, PartBatch<T> batch, SweepSums* sums) {
+  __shared__ SweepSums shared;
+  __shared__ std::int32_t lists[marked_threads / 32][words_at_a_time * 32];
+  if (threadIdx.x == 0) {
+    shared = SweepSums{};
+  }
+  __syncthreads();
+  ThreadTally<T> tally;
+  constexpr bool all = false;
+  sweep_marked<marked_threads>(method, batch.marks, all, batch.begin, batch.end, data_of(batch),
+                               lists[threadIdx.x / 32], tally);
+  end_batch(tally, shared, sums);
+}
+
+template <bool marks, class Update, class T>
+void launch_all(const Update& update, const PartBatch<T>& batch, SweepSums* sums, cudaStream_t stream) {
+  const std::int32_t count = batch.end - batch.begin;
+  if constexpr (has_register_update<Update, T>) {
+    const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
+    const auto blocks = static_cast<std::int32_t>(blocks_for(count, batch_threads));
+    const std::int32_t run_bits = blocks < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
+    visit_all<marks><<<static_cast<unsigned>(std::min(blocks, most_blocks)), batch_threads, 0, stream>>>(
+        update, batch, Pieces{batch.begin, batch.end, run_bits}, sums);
+  } else {
+    visit_all_from_memory<marks>
+        <<<blocks_for(count, threads_from_memory), threads_from_memory, 0, stream>>>(update, batch, sums);
+  }
+}
+
+template <class T>
+__global__ void __launch_bounds__(block_size)
+    gather(PointArray<T> points, const std::int32_t* vertices, std::int32_t count, PointRecord<T>* out) {
+  const std::int64_t i = thread_index();
+  if (i < count) {
+    out[i] = points.points[vertices[i]];
+  }
+}
+
+/// Bit for bit: as it is between parts of the host.
+template <class T>
+__device__ bool are_same(const PointRecord<T>& a, const PointRecord<T>& b) {
+  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
+  return std::bit_cast<Bits>(a.x) == std::bit_cast<Bits>(b.x) && std::bit_cast<Bits>(a.y) == std::bit_cast<Bits>(b.y);
+}
+
+template <class T>
+__global__ void __launch_bounds__(block_size)
+    arrive(const PointRecord<T>* in, ArrivedGhosts ghosts, PointArray<T> from, PointArray<T> to, std::uint32_t* marks) {
+  const std::int64_t i = thread_index();
+  if (i >= ghosts.count) {
+    return;
+  }
+  const std::int32_t ghost = ghosts.vertices[i];
+  const PointRecord<T> last = from.points[ghost];
+  const PointRecord<T> now = in[i];
+  to.points[ghost] = now;
+  if (marks != nullptr && !are_same(last, now)) {
+    for (std::uint32_t k = ghosts.offsets[i]; k < ghosts.offsets[i + 1]; ++k) {
+      mark(marks, ghosts.around[k]);
+    }
+  }
+}
+
+}  // namespace
+
+template <class T>
+void launch_part_batch(const MethodInUse<T>& method, const PartBatch<T>& batch, Visit visit, SweepSums* sums,
+                       cudaStream_t stream) {
+  if (batch.begin == batch.end) {
+    return;
+  }
+  visit_method(method, [&](const auto& update) {
+    if (visit == Visit::all) {
+      launch_all<false>(update, batch, sums, stream);
+    } else if (visit == Visit::all_and_mark) {
+      launch_all<true>(update, batch, sums, stream);
+    } else {
+      constexpr std::int32_t vertices_a_warp = 32 * words_at_a_time;
+      const unsigned blocks = std::min(
+          blocks_for(batch.end - batch.begin, static_cast<unsigned>(marked_threads / 32 * vertices_a_warp)) + 1,
+          static_cast<unsigned>(4 * multiprocessor_count()));
+      visit_marked<<<blocks, marked_threads, 0, stream>>>(update, batch, sums);
+    }
+  });
+  TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+}
+
+template <class T>
+void launch_gathering(const PointArray<T>& points, const std::int32_t* vertices, std::int32_t count,
+                      PointRecord<T>* out, cudaStream_t stream) {
+  if (count > 0) {
+    gather<<<blocks_for(count), block_size, 0, stream>>>(points, vertices, count, out);
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  }
+}
+
+template <class T>
+void launch_arrival(const PointRecord<T>* in, const ArrivedGhosts& ghosts, const PointArray<T>& from,
+                    const PointArray<T>& to, std::uint32_t* marks, cudaStream_t stream) {
+  if (ghosts.count > 0) {
+    arrive<<<blocks_for(ghosts.count), block_size, 0, stream>>>(in, ghosts, from, to, marks);
+    TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+  }
+}
+
+#define INSTANTIATE(T)                                                                                          \
+  template void launch_part_batch(const MethodInUse<T>&, const PartBatch<T>&, Visit, SweepSums*, cudaStream_t); \
+  template void launch_gathering(const PointArray<T>&, const std::int32_t*, std::int32_t, PointRecord<T>*,      \
+                                 cudaStream_t);                                                                 \
+  template void launch_arrival(const PointRecord<T>*, const ArrivedGhosts&, const PointArray<T>&,               \
+                               const PointArray<T>&, std::uint32_t*, cudaStream_t)
+INSTANTIATE(float);
+INSTANTIATE(double);
+
+}  // namespace trismooth::cuda

@@ -1,0 +1,17 @@
+// So it does where devices make the sweeps, each rank on one.
+
+#include "trismooth/cuda/backend.h"
+
+#include "catch.h"
+#include "mpi/random_pieces.h"
+
+using mpi_tests::check_random_meshes;
+using trismooth::mpi::Gather;
+
+TEST_CASE("random meshes in pieces on devices come out with the bits of the whole on the CPU") {
+  check_random_meshes(1000, Gather::never, false, &trismooth::cuda::backend());
+}
+
+TEST_CASE("on devices, too, what has to be untangled is gathered on one rank") {
+  check_random_meshes(100, Gather::where_needed, false, &trismooth::cuda::backend());
+}
