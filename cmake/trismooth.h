@@ -43,3 +43,8 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"
 #endif
+#if __has_include("trismooth/mpi/plan.h") && __has_include(<mpi.h>)
+#include "trismooth/mpi/local_mesh.h"
+#include "trismooth/mpi/plan.h"
+#include "trismooth/mpi/traffic.h"
+#endif

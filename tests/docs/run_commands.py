@@ -33,7 +33,8 @@ LINKED_PAGES = PAGES + [ROOT / name for name in ("CONTRIBUTING.md", "SECURITY.md
 COMMANDS = ("smooth", "quality", "generate", "bench", "info")
 # Options of other programs that the pages name.
 FOREIGN_OPTIONS = {"--prefix", "--preset", "--build", "--install", "--target", "--cflags", "--libs", "--check",
-                   "--sanitize", "--tests", "--tools", "--package", "--optimesh-python", "--files", "--cuda"}
+                   "--sanitize", "--tests", "--tools", "--package", "--optimesh-python", "--files", "--cuda",
+                   "--kill-on-bad-exit"}
 
 
 class Block:
