@@ -174,22 +174,20 @@ void Communicator::exchange(std::span<const Buffer> sends, std::span<const Buffe
   check(MPI_Type_contiguous(static_cast<int>(item_size), MPI_BYTE, &item), "MPI_Type_contiguous");
   check(MPI_Type_commit(&item), "MPI_Type_commit");
   std::vector<MPI_Request> requests;
-  const auto for_filled = [&](std::span<const Buffer> buffers, const auto& begin) {
-    for (std::size_t r = 0; r < buffers.size(); ++r) {
-      if (buffers[r].count > 0) {
-        requests.emplace_back();
-        begin(buffers[r], static_cast<int>(r));
-      }
+  for (const Buffer& buffer : receives) {
+    if (buffer.count > 0) {
+      check(MPI_Irecv(buffer.first, narrow(buffer.count), item, buffer.rank, exchange_tag, communicator_,
+                      &requests.emplace_back()),
+            "MPI_Irecv");
     }
-  };
-  for_filled(receives, [&](const Buffer& buffer, int rank) {
-    check(MPI_Irecv(buffer.first, narrow(buffer.count), item, rank, exchange_tag, communicator_, &requests.back()),
-          "MPI_Irecv");
-  });
-  for_filled(sends, [&](const Buffer& buffer, int rank) {
-    check(MPI_Isend(buffer.first, narrow(buffer.count), item, rank, exchange_tag, communicator_, &requests.back()),
-          "MPI_Isend");
-  });
+  }
+  for (const Buffer& buffer : sends) {
+    if (buffer.count > 0) {
+      check(MPI_Isend(buffer.first, narrow(buffer.count), item, buffer.rank, exchange_tag, communicator_,
+                      &requests.emplace_back()),
+            "MPI_Isend");
+    }
+  }
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
   MPI_Type_free(&item);
 }

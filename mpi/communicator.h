@@ -1,7 +1,5 @@
 #pragma once
 
-#include <mpi.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -10,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <mpi.h>
 
 #include "trismooth/smoothing/parts/part_links.h"
 
@@ -52,23 +52,32 @@ class Communicator {
   /// everywhere: the error of the lowest of these ranks, which it names.
   void on_all(const std::function<void()>& work) const;
 
+  /// How much comes from every rank, where `counts` go to each.
+  std::vector<std::int64_t> exchanged_counts(std::span<const std::int64_t> counts) const;
   /// Sends to every rank what is for it. Complexity: what is sent and received, and linear in the ranks.
   template <class V>
-  ByRank<V> exchanged(const ByRank<V>& to) const {
-    static_assert(std::is_trivially_copyable_v<V>);
+  ByRank<V> exchanged(ByRank<V> to) const {
     std::vector<std::int64_t> counts(static_cast<std::size_t>(size_));
     for (std::size_t r = 0; r < to.size(); ++r) {
       counts[r] = std::ssize(to[r]);
     }
-    const std::vector<std::int64_t> received = exchanged_counts(counts);
+    return exchanged(std::move(to), exchanged_counts(counts));
+  }
+  /// The same where it is known how much comes from every rank: nobody is asked for that.
+  template <class V>
+  ByRank<V> exchanged(ByRank<V> to, std::span<const std::int64_t> counts) const {
+    static_assert(std::is_trivially_copyable_v<V>);
     ByRank<V> from(static_cast<std::size_t>(size_));
     std::vector<Buffer> sends;
     std::vector<Buffer> receives;
     for (std::size_t r = 0; r < from.size(); ++r) {
-      from[r].resize(static_cast<std::size_t>(received[r]));
-      // Nobody writes to what is sent.
-      sends.push_back({const_cast<V*>(to[r].data()), counts[r]});
-      receives.push_back({from[r].data(), received[r]});
+      if (static_cast<int>(r) == rank_) {
+        from[r] = std::move(to[r]);
+        continue;
+      }
+      from[r].resize(static_cast<std::size_t>(counts[r]));
+      sends.push_back({to[r].data(), std::ssize(to[r]), static_cast<int>(r)});
+      receives.push_back({from[r].data(), counts[r], static_cast<int>(r)});
     }
     exchange(sends, receives, sizeof(V));
     return from;
@@ -82,14 +91,14 @@ class Communicator {
     for (int r = 1; r < size_ && rank_ == 0; ++r) {
       to[static_cast<std::size_t>(r)] = values;
     }
-    ByRank<V> from = exchanged(to);
+    ByRank<V> from = exchanged(std::move(to));
     if (rank_ != 0) {
       values = std::move(from[0]);
     }
   }
 
-  /// Calls a collective function, and throws what it throws as KnownToAll. Anything else cannot be told to the others any
-  /// more, and ends them all, with a message, by MPI_Abort().
+  /// Calls a collective function, and throws what it throws as KnownToAll. Anything else cannot be told to the others
+  /// any more, and ends them all, with a message, by MPI_Abort().
   template <class Function>
   auto together(const Function& function) const {
     try {
@@ -105,10 +114,10 @@ class Communicator {
   struct Buffer {
     void* first;
     std::int64_t count;
+    int rank;
   };
 
   [[noreturn]] void abandon(const char* message) const;
-  std::vector<std::int64_t> exchanged_counts(std::span<const std::int64_t> counts) const;
   void exchange(std::span<const Buffer> sends, std::span<const Buffer> receives, std::size_t item_size) const;
 
   MPI_Comm communicator_ = MPI_COMM_NULL;
@@ -119,6 +128,16 @@ class Communicator {
   MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
   MPI_Op join_ = MPI_OP_NULL;
 };
+
+/// The lengths of lists.
+template <class V>
+std::vector<std::int64_t> lengths_of(const ByRank<V>& lists) {
+  std::vector<std::int64_t> lengths;
+  for (const std::vector<V>& list : lists) {
+    lengths.push_back(static_cast<std::int64_t>(list.size()));
+  }
+  return lengths;
+}
 
 /// Lists for as many ranks, with nothing in them.
 template <class V>

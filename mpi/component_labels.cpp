@@ -4,25 +4,15 @@
 #include <array>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 
 #include "trismooth/mpi/directory.h"
+#include "trismooth/mpi/label_forest.h"
 #include "trismooth/quality/orientation.h"
 
 namespace trismooth::mpi {
 
 namespace {
-
-/// A component here and one on another rank that have a triangle in common.
-struct Link {
-  std::int32_t own;
-  std::int32_t other;
-  std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
-
-  /// The same on both sides.
-  auto key(bool own_first) const { return own_first ? std::tuple(own, other, parity) : std::tuple(other, own, parity); }
-};
 
 /// A component as the other rank hears of it.
 struct Named {
@@ -31,8 +21,8 @@ struct Named {
 };
 
 /// The links with every rank, in an order that both sides have.
-std::vector<std::vector<Link>> find_links(const Overlap& overlap, const TriangleComponents& components,
-                                          const Communicator& ranks) {
+std::vector<std::vector<ComponentLink>> find_links(const Overlap& overlap, const TriangleComponents& components,
+                                                   const Communicator& ranks) {
   // A triangle is known to those who own its vertices.
   auto named = lists_by_rank<Named>(ranks);
   for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
@@ -47,18 +37,19 @@ std::vector<std::vector<Link>> find_links(const Overlap& overlap, const Triangle
       }
     }
   }
-  const ByRank<Named> others = ranks.exchanged(named);
-  std::vector<std::vector<Link>> links(named.size());
+  const ByRank<Named> others = ranks.exchanged(std::vector(named));
+  std::vector<std::vector<ComponentLink>> links(named.size());
   for (std::size_t r = 0; r < named.size(); ++r) {
-    std::vector<Link>& with = links[r];
+    std::vector<ComponentLink>& with = links[r];
     for (std::size_t i = 0; i < named[r].size(); ++i) {
       with.push_back({named[r][i].component, others[r][i].component,
                       static_cast<std::uint8_t>(named[r][i].parity ^ others[r][i].parity)});
     }
     const bool own_first = ranks.rank() < static_cast<int>(r);
-    const auto key = [own_first](const Link& link) { return link.key(own_first); };
+    const auto key = [own_first](const ComponentLink& link) { return link.key(own_first); };
     std::ranges::sort(with, {}, key);
-    with.erase(std::unique(with.begin(), with.end(), [&](const Link& a, const Link& b) { return key(a) == key(b); }),
+    with.erase(std::unique(with.begin(), with.end(),
+                           [&](const ComponentLink& a, const ComponentLink& b) { return key(a) == key(b); }),
                with.end());
   }
   return links;
@@ -98,39 +89,58 @@ ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponent
                                  const Communicator& ranks)
     : labels_(static_cast<std::size_t>(components.components), {std::numeric_limits<std::int64_t>::max(), 0}) {
   for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
-    Label& label = labels_[static_cast<std::size_t>(components.component[t])];
+    ComponentLabel& label = labels_[static_cast<std::size_t>(components.component[t])];
     label.triangle = std::min(label.triangle, overlap.triangle_ids[t]);
   }
-  const std::vector<std::vector<Link>> links = find_links(overlap, components, ranks);
-  bool is_contradicted = false;
-  for (bool has_changed = true; ranks.any(has_changed);) {
-    has_changed = false;
-    auto told = lists_by_rank<Label>(ranks);
-    for (std::size_t r = 0; r < links.size(); ++r) {
-      for (const Link& link : links[r]) {
-        told[r].push_back(labels_[static_cast<std::size_t>(link.own)]);
-      }
-    }
-    const ByRank<Label> heard = ranks.exchanged(told);
+  const std::vector<std::vector<ComponentLink>> links = find_links(overlap, components, ranks);
+  LabelForest forest(labels_, ranks);
+  for (;;) {
+    // What is on the other side of every link, and how it stands to the label here.
+    const ByRank<ComponentLabel> others = told_over(links, ranks);
+    bool is_contradicted = false;
+    std::vector<LabelForest::Hook> hooks;
     for (std::size_t r = 0; r < links.size(); ++r) {
       for (std::size_t i = 0; i < links[r].size(); ++i) {
-        Label& own = labels_[static_cast<std::size_t>(links[r][i].own)];
-        const Label other{heard[r][i].triangle, static_cast<std::uint8_t>(heard[r][i].parity ^ links[r][i].parity)};
-        if (other.triangle < own.triangle) {
-          own = other;
-          has_changed = true;
-        } else if (other.triangle == own.triangle && other.parity != own.parity) {
+        const ComponentLabel& own = labels_[static_cast<std::size_t>(links[r][i].own)];
+        const ComponentLabel& other = others[r][i];
+        const auto parity = static_cast<std::uint8_t>(own.parity ^ links[r][i].parity ^ other.parity);
+        if (own.triangle != other.triangle) {
+          hooks.push_back({std::max(own.triangle, other.triangle), std::min(own.triangle, other.triangle), parity});
+        } else if (parity != 0) {
           is_contradicted = true;
         }
       }
     }
-  }
-  ranks.on_all([&] {
-    if (is_contradicted) {
-      throw MeshError(
-          "triangles that are connected across ranks cannot be oriented consistently (a one-sided surface)");
+    ranks.on_all([&] {
+      if (is_contradicted) {
+        throw MeshError(
+            "triangles that are connected across ranks cannot be oriented consistently (a one-sided surface)");
+      }
+    });
+    if (!ranks.any(!hooks.empty())) {
+      break;
     }
-  });
+    forest.join(hooks, ranks);
+    forest.look_up(labels_, ranks);
+  }
+  to_homes_.assign(static_cast<std::size_t>(ranks.size()), 0);
+  for (const ComponentLabel& label : labels_) {
+    ++to_homes_[static_cast<std::size_t>(home_of(label.triangle, ranks))];
+  }
+  from_ranks_ = ranks.exchanged_counts(to_homes_);
+}
+
+ByRank<ComponentLabel> ComponentLabels::told_over(const std::vector<std::vector<ComponentLink>>& links,
+                                                  const Communicator& ranks) const {
+  auto told = lists_by_rank<ComponentLabel>(ranks);
+  std::vector<std::int64_t> counts(told.size(), 0);
+  for (std::size_t r = 0; r < links.size(); ++r) {
+    counts[r] = std::ssize(links[r]);
+    for (const ComponentLink& link : links[r]) {
+      told[r].push_back(labels_[static_cast<std::size_t>(link.own)]);
+    }
+  }
+  return ranks.exchanged(std::move(told), counts);
 }
 
 std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, const TriangleComponents& components,
@@ -149,7 +159,7 @@ std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, cons
     sent[static_cast<std::size_t>(home_of(labels_[c].triangle, ranks))].push_back(
         {labels_[c].triangle, against_label(votes[c], labels_[c].parity, overlap.triangle_ids)});
   }
-  const ByRank<SentVotes> received = ranks.exchanged(sent);
+  const ByRank<SentVotes> received = ranks.exchanged(std::move(sent), from_ranks_);
   std::unordered_map<std::int64_t, OrientationVotes> totals;
   for (const auto& of_rank : received) {
     for (const SentVotes& some : of_rank) {
@@ -162,7 +172,7 @@ std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, cons
       answers[r].push_back(totals.at(some.label).flip() ? 1 : 0);
     }
   }
-  const ByRank<std::uint8_t> told = ranks.exchanged(answers);
+  const ByRank<std::uint8_t> told = ranks.exchanged(std::move(answers), to_homes_);
   std::vector<std::size_t> next(told.size(), 0);
   std::vector<std::uint8_t> flips(labels_.size());
   for (std::size_t c = 0; c < labels_.size(); ++c) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "trismooth/base/point2.h"
@@ -12,31 +13,50 @@
 
 namespace trismooth::mpi {
 
-/// Which components of a rank's overlap are parts of the same component of the whole mesh. Each has the id of its lowest
-/// triangle for a label.
+/// What a component of a rank's overlap is called.
+struct ComponentLabel {
+  std::int64_t triangle;
+  std::uint8_t parity;  ///< 1 where the lowest triangle here is listed against that of the label
+};
+
+/// A component here and one on another rank that have a triangle in common.
+struct ComponentLink {
+  std::int32_t own;
+  std::int32_t other;
+  std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
+
+  /// The same on both sides.
+  [[nodiscard]] std::tuple<std::int32_t, std::int32_t, std::uint8_t> key(bool own_first) const {
+    return own_first ? std::tuple(own, other, parity) : std::tuple(other, own, parity);
+  }
+};
+
+/// Which components of a rank's overlap are parts of the same component of the whole mesh. Each has the id of its
+/// lowest triangle for a label.
 class ComponentLabels {
  public:
   /// Of no triangle.
   ComponentLabels() = default;
 
   /// `components`: those of the overlap, found without edges between two ghosts. Collective. Throws MeshError on all
-  /// ranks for a component that cannot be oriented. Labels go from rank to rank until none changes: the rounds are as
-  /// many as ranks are passed, one after the other, on the way to a component's lowest triangle.
+  /// ranks for a component that cannot be oriented. Complexity: linear in what the rank has; rounds over all ranks grow
+  /// with the square of the logarithm of how many parts of a component there are.
   ComponentLabels(const Overlap& overlap, const TriangleComponents& components, const Communicator& communicator);
 
-  /// Orientation::reversed of every triangle of the overlap, as orient() finds it for the whole mesh. `points` are in the
-  /// local frame. Collective.
+  /// Orientation::reversed of every triangle of the overlap, as orient() finds it for the whole mesh. `points` are in
+  /// the local frame. Collective.
   std::vector<std::uint8_t> reversed(const Overlap& overlap, const TriangleComponents& components,
                                      std::span<const Point2<double>> points, const Communicator& communicator,
                                      Workers& workers) const;
 
  private:
-  struct Label {
-    std::int64_t triangle;
-    std::uint8_t parity;  ///< 1 where the lowest triangle here is listed against that of the label
-  };
+  /// What the other sides of the links have for labels.
+  ByRank<ComponentLabel> told_over(const std::vector<std::vector<ComponentLink>>& links,
+                                   const Communicator& ranks) const;
 
-  std::vector<Label> labels_;
+  std::vector<ComponentLabel> labels_;
+  std::vector<std::int64_t> to_homes_;    ///< how many of them have each rank for a home
+  std::vector<std::int64_t> from_ranks_;  ///< how many of each rank have this one for a home
 };
 
 }  // namespace trismooth::mpi

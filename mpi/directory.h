@@ -12,9 +12,13 @@ namespace trismooth::mpi {
 int home_of(std::int64_t id, const Communicator& communicator);
 
 /// The owner of each of this rank's vertices. `claimed`: what the rank says of each itself, empty: nothing; then it is
-/// the lowest rank that has the vertex. Collective. Throws std::invalid_argument where ranks disagree, or say it of some
-/// and not of others.
+/// the lowest rank that has the vertex. Collective. Throws std::invalid_argument where ranks disagree, or say it of
+/// some and not of others.
 std::vector<std::int32_t> owners_of(std::span<const std::int64_t> ids, std::span<const std::int32_t> claimed,
                                     const Communicator& communicator);
+
+/// Throws std::invalid_argument, which names `what`, on all ranks, where the same id is there twice, on one rank or on
+/// two. Collective.
+void require_unique(std::span<const std::int64_t> ids, const char* what, const Communicator& communicator);
 
 }  // namespace trismooth::mpi

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <mpi.h>
-
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <mpi.h>
 
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/traffic.h"

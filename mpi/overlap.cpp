@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <functional>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/links.h"
 
@@ -19,12 +21,20 @@ namespace trismooth::mpi {
 
 namespace {
 
+constexpr std::int64_t overlap_grain = 16384;
+
 /// A triangle on its way to those who own its vertices.
 struct SentTriangle {
   std::int64_t id;
   std::array<std::int64_t, 3> vertices;
   std::array<std::int32_t, 3> owners;
   std::int32_t region;
+};
+
+/// A triangle at own vertices: the caller's number `place`, or -1 - i for the i-th that was received.
+struct KeptTriangle {
+  std::int64_t id;
+  std::int32_t place;
 };
 
 /// A vertex on its way to its owner.
@@ -35,24 +45,46 @@ struct SentVertex {
 
 void require_length(std::size_t length, std::size_t expected, const char* what, const char* of) {
   if (length != expected) {
-    throw std::invalid_argument(std::string(what) + " has " + std::to_string(length) + " entries, expected one for each of " +
-                                std::to_string(expected) + " " + of);
+    throw std::invalid_argument(std::string(what) + " has " + std::to_string(length) +
+                                " entries, expected one for each of " + std::to_string(expected) + " " + of);
   }
 }
 
 void check_ids(std::span<const std::int64_t> ids) {
-  std::vector<std::int32_t> order(ids.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::int32_t v) { return std::pair(ids[static_cast<std::size_t>(v)], v); });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto v = static_cast<std::size_t>(order[i]);
+  const auto require_not_negative = [&](std::size_t v) {
     if (ids[v] < 0) {
       throw std::invalid_argument("vertex_ids: that of local vertex " + std::to_string(v) + " is " +
                                   std::to_string(ids[v]) + ", and must not be negative");
     }
-    if (i > 0 && ids[static_cast<std::size_t>(order[i - 1])] == ids[v]) {
-      throw std::invalid_argument("vertex_ids: local vertices " + std::to_string(order[i - 1]) + " and " +
-                                  std::to_string(v) + " have the same id " + std::to_string(ids[v]));
+  };
+  if (std::ranges::is_sorted(ids, std::less_equal<>())) {
+    if (!ids.empty()) {
+      require_not_negative(0);
+    }
+    return;
+  }
+  std::vector<std::pair<std::int64_t, std::size_t>> order;
+  for (std::size_t v = 0; v < ids.size(); ++v) {
+    require_not_negative(v);
+    order.emplace_back(ids[v], v);
+  }
+  std::ranges::sort(order);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i].first == order[i - 1].first) {
+      throw std::invalid_argument("vertex_ids: local vertices " + std::to_string(order[i - 1].second) + " and " +
+                                  std::to_string(order[i].second) + " have the same id " +
+                                  std::to_string(order[i].first));
+    }
+  }
+}
+
+void check_triangle_ids(std::span<const std::int64_t> ids) {
+  // Votes for orientations have one bit more.
+  constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max() / 4;
+  for (std::size_t t = 0; t < ids.size(); ++t) {
+    if (ids[t] < 0 || ids[t] > largest) {
+      throw std::invalid_argument("triangle_ids: that of local triangle " + std::to_string(t) + " is " +
+                                  std::to_string(ids[t]) + ", and must be from 0 to " + std::to_string(largest));
     }
   }
 }
@@ -60,12 +92,13 @@ void check_ids(std::span<const std::int64_t> ids) {
 class OverlapBuilder {
  public:
   OverlapBuilder(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                 bool is_gathered, std::shared_ptr<const Communicator> communicator)
+                 bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers)
       : mesh_(mesh),
         triangles_(triangles),
         constraints_(constraints),
         is_gathered_(is_gathered),
         ranks_(*communicator),
+        workers_(workers),
         links_(std::make_shared<Links>(std::move(communicator))) {}
 
   Overlap run() {
@@ -76,9 +109,11 @@ class OverlapBuilder {
       std::ranges::fill(owners_, 0);
     }
     send_vertices();
-    receive_triangles();
+    send_triangles();
     overlap_.part.links = links_;
-    number();
+    number_vertices();
+    list_callers();
+    list_triangles();
     ranks_.on_all([&] { check_repeated(); });
     meet_neighbours();
     if (is_gathered_) {
@@ -109,6 +144,7 @@ class OverlapBuilder {
     }
     if (!mesh_.triangle_ids.empty()) {
       require_length(mesh_.triangle_ids.size(), triangles_.size(), "triangle_ids", "local triangles");
+      check_triangle_ids(mesh_.triangle_ids);
     }
   }
 
@@ -129,73 +165,104 @@ class OverlapBuilder {
   }
 
   void send_vertices() {
-    std::vector<std::uint8_t> named(mesh_.vertex_ids.size(), 0);
-    for (std::size_t v = 0; v < named.size(); ++v) {
-      named[v] = static_cast<std::uint8_t>(
+    named_.assign(mesh_.vertex_ids.size(), 0);
+    for (std::size_t v = 0; v < named_.size(); ++v) {
+      named_[v] = static_cast<std::uint8_t>(
           (!constraints_.fixed.empty() && constraints_.fixed[v] != 0 ? hold::named : 0) |
           (!constraints_.other_cells.empty() && constraints_.other_cells[v] != 0 ? hold::other_cell : 0));
     }
     for (const std::int32_t v : constraints_.fixed_ids) {
-      named[static_cast<std::size_t>(v)] |= hold::named;
+      named_[static_cast<std::size_t>(v)] |= hold::named;
     }
     for (const auto& vertices : {constraints_.slide.lines, constraints_.slide.links}) {
       for (const std::int32_t v : vertices) {
-        named[static_cast<std::size_t>(v)] |= hold::line;
+        named_[static_cast<std::size_t>(v)] |= hold::line;
       }
     }
     overlap_.to_owners = lists_by_rank<std::int32_t>(ranks_);
     auto sent = lists_by_rank<SentVertex>(ranks_);
-    for (std::size_t v = 0; v < named.size(); ++v) {
+    for (std::size_t v = 0; v < named_.size(); ++v) {
       const auto owner = static_cast<std::size_t>(owners_[v]);
       overlap_.to_owners[owner].push_back(static_cast<std::int32_t>(v));
-      sent[owner].push_back({mesh_.vertex_ids[v], named[v]});
+      if (owners_[v] != ranks_.rank()) {
+        sent[owner].push_back({mesh_.vertex_ids[v], named_[v]});
+      }
     }
-    listed_ = ranks_.exchanged(sent);
+    listed_ = ranks_.exchanged(std::move(sent));
   }
 
-  void receive_triangles() {
-    const auto is_ghost = [&](std::size_t t) {
-      return !mesh_.ghost_triangles.empty() && mesh_.ghost_triangles[t] != 0;
-    };
-    std::int64_t own = 0;
+  bool is_copy(std::size_t t) const { return !mesh_.ghost_triangles.empty() && mesh_.ghost_triangles[t] != 0; }
+
+  /// Keeps the triangles at own vertices, and sends those at the others' to them.
+  void send_triangles() {
+    std::int64_t count = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      own += is_ghost(t) ? 0 : 1;
+      count += is_copy(t) ? 0 : 1;
     }
-    std::int64_t next_id = ranks_.sum_before(own);
+    std::int64_t next_id = ranks_.sum_before(count);
+    if (has_triangle_ids_) {
+      std::vector<std::int64_t> ids;
+      for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        if (!is_copy(t)) {
+          ids.push_back(mesh_.triangle_ids[t]);
+        }
+      }
+      require_unique(ids, "triangle_ids", ranks_);
+    }
+    is_at_kept_.assign(mesh_.vertex_ids.size(), 0);
     auto sent = lists_by_rank<SentTriangle>(ranks_);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (is_ghost(t)) {
+      if (is_copy(t)) {
         continue;
       }
-      SentTriangle triangle{has_triangle_ids_ ? mesh_.triangle_ids[t] : next_id++,
-                            {},
-                            {},
-                            has_regions_ ? constraints_.regions[t] : 0};
+      const std::int64_t id = has_triangle_ids_ ? mesh_.triangle_ids[t] : next_id++;
+      std::array<std::int32_t, 3> owners{};
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto v = static_cast<std::size_t>(triangles_[t][i]);
-        triangle.vertices[i] = mesh_.vertex_ids[v];
-        triangle.owners[i] = owners_[v];
+        owners[i] = owners_[static_cast<std::size_t>(triangles_[t][i])];
       }
-      const auto& [a, b, c] = triangle.owners;
-      sent[static_cast<std::size_t>(a)].push_back(triangle);
-      if (b != a) {
-        sent[static_cast<std::size_t>(b)].push_back(triangle);
-      }
-      if (c != a && c != b) {
-        sent[static_cast<std::size_t>(c)].push_back(triangle);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const bool is_told = (i > 0 && owners[i] == owners[0]) || (i > 1 && owners[i] == owners[1]);
+        if (is_told) {
+          continue;
+        }
+        if (owners[i] == ranks_.rank()) {
+          keep(t, id);
+        } else {
+          sent[static_cast<std::size_t>(owners[i])].push_back(sent_triangle(t, id, owners));
+        }
       }
     }
-    const ByRank<SentTriangle> from = ranks_.exchanged(sent);
-    sent = {};
+    const ByRank<SentTriangle> from = ranks_.exchanged(std::move(sent));
     for (std::size_t r = 0; r < from.size(); ++r) {
       received_.insert(received_.end(), from[r].begin(), from[r].end());
       sources_.insert(sources_.end(), from[r].size(), static_cast<std::int32_t>(r));
     }
   }
 
-  /// Numbers vertices and triangles.
-  void number() {
+  void keep(std::size_t t, std::int64_t id) {
+    kept_.push_back({id, static_cast<std::int32_t>(t)});
+    for (const std::int32_t v : triangles_[t]) {
+      is_at_kept_[static_cast<std::size_t>(v)] = 1;
+    }
+  }
+
+  SentTriangle sent_triangle(std::size_t t, std::int64_t id, const std::array<std::int32_t, 3>& owners) const {
+    SentTriangle triangle{id, {}, owners, has_regions_ ? constraints_.regions[t] : 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.vertices[i] = mesh_.vertex_ids[static_cast<std::size_t>(triangles_[t][i])];
+    }
+    return triangle;
+  }
+
+  /// Own vertices, whoever has them, and the corners of all triangles here.
+  void number_vertices() {
     std::vector<std::pair<std::int64_t, std::int32_t>> vertices;  // and their owners
+    vertices.reserve(mesh_.vertex_ids.size());
+    for (std::size_t v = 0; v < mesh_.vertex_ids.size(); ++v) {
+      if (owners_[v] == ranks_.rank() || is_at_kept_[v] != 0) {
+        vertices.emplace_back(mesh_.vertex_ids[v], owners_[v]);
+      }
+    }
     for (const auto& of_rank : listed_) {
       for (const SentVertex& vertex : of_rank) {
         vertices.emplace_back(vertex.id, ranks_.rank());
@@ -206,14 +273,35 @@ class OverlapBuilder {
         vertices.emplace_back(triangle.vertices[i], triangle.owners[i]);
       }
     }
-    std::ranges::sort(vertices);
+    if (!std::ranges::is_sorted(vertices)) {
+      std::ranges::sort(vertices);
+    }
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    overlap_.ids.reserve(vertices.size());
+    overlap_.owners.reserve(vertices.size());
+    overlap_.part.ghosts.reserve(vertices.size());
     for (const auto& [id, owner] : vertices) {
       overlap_.ids.push_back(id);
       overlap_.owners.push_back(owner);
       overlap_.part.ghosts.push_back(owner == ranks_.rank() ? 0 : 1);
     }
-    overlap_.named.assign(vertices.size(), 0);
+    vertices = {};
+    number_of_local_.resize(mesh_.vertex_ids.size());
+    workers_.for_blocks(std::ssize(number_of_local_), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
+      std::int32_t last = -1;
+      for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+        // Vertices are numbered as their ids are, more often than not.
+        const bool follows = last + 1 < overlap_.vertex_count() &&
+                             overlap_.ids[static_cast<std::size_t>(last + 1)] == mesh_.vertex_ids[v];
+        last = follows ? last + 1 : number_of(mesh_.vertex_ids[v]);
+        number_of_local_[v] = last;
+      }
+    });
+  }
+
+  /// Who has which own vertices, and what they say of them.
+  void list_callers() {
+    overlap_.named.assign(overlap_.ids.size(), 0);
     overlap_.from_callers = lists_by_rank<std::int32_t>(ranks_);
     for (std::size_t r = 0; r < listed_.size(); ++r) {
       for (const SentVertex& vertex : listed_[r]) {
@@ -222,45 +310,72 @@ class OverlapBuilder {
         overlap_.from_callers[r].push_back(v);
       }
     }
-    std::vector<std::size_t> order(received_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t t) { return received_[t].id; });
-    for (const std::size_t t : order) {
-      const SentTriangle& triangle = received_[t];
-      overlap_.triangles.push_back(
-          {number_of(triangle.vertices[0]), number_of(triangle.vertices[1]), number_of(triangle.vertices[2])});
-      overlap_.triangle_ids.push_back(triangle.id);
-      if (has_regions_) {
-        overlap_.regions.push_back(triangle.region);
-      }
-      sorted_sources_.push_back(sources_[t]);
+    const auto own = static_cast<std::size_t>(ranks_.rank());
+    overlap_.from_callers[own].reserve(overlap_.to_owners[own].size());
+    for (const std::int32_t local : overlap_.to_owners[own]) {
+      const std::int32_t v = number_of_local_[static_cast<std::size_t>(local)];
+      overlap_.named[static_cast<std::size_t>(v)] |= named_[static_cast<std::size_t>(local)];
+      overlap_.from_callers[own].push_back(v);
     }
-    received_ = {};
-    sources_ = {};
     listed_ = {};
+    named_ = {};
+  }
+
+  /// Those that were kept and those that came, in the order of their ids.
+  void list_triangles() {
+    for (std::size_t i = 0; i < received_.size(); ++i) {
+      kept_.push_back({received_[i].id, -1 - static_cast<std::int32_t>(i)});
+    }
+    const auto id_of = [](const KeptTriangle& triangle) { return triangle.id; };
+    if (!std::ranges::is_sorted(kept_, {}, id_of)) {
+      std::ranges::sort(kept_, {}, id_of);
+    }
+    overlap_.triangles.resize(kept_.size());
+    overlap_.triangle_ids.resize(kept_.size());
+    overlap_.regions.resize(has_regions_ ? kept_.size() : 0);
+    workers_.for_blocks(std::ssize(kept_), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        const auto [id, place] = kept_[i];
+        overlap_.triangle_ids[i] = id;
+        for (std::size_t k = 0; k < 3; ++k) {
+          overlap_.triangles[i][k] =
+              place >= 0 ? number_of_local_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(place)][k])]
+                         : number_of(received_[static_cast<std::size_t>(-1 - place)].vertices[k]);
+        }
+        if (has_regions_) {
+          overlap_.regions[i] = place >= 0 ? constraints_.regions[static_cast<std::size_t>(place)]
+                                           : received_[static_cast<std::size_t>(-1 - place)].region;
+        }
+      }
+    });
   }
 
   std::int32_t number_of(std::int64_t id) const {
     return static_cast<std::int32_t>(std::ranges::lower_bound(overlap_.ids, id) - overlap_.ids.begin());
   }
 
+  /// A triangle that two ranks have was not called a copy by either. (Where triangles have ids, one that is there twice
+  /// is meant to be.)
   void check_repeated() const {
-    for (std::size_t t = 1; t < overlap_.triangle_ids.size(); ++t) {
-      if (overlap_.triangle_ids[t] == overlap_.triangle_ids[t - 1]) {
-        throw std::invalid_argument("triangle_ids: " + std::to_string(overlap_.triangle_ids[t]) + " is on rank " +
-                                    std::to_string(sorted_sources_[t - 1]) + " and on rank " +
-                                    std::to_string(sorted_sources_[t]) + "; copies are to be in ghost_triangles");
+    if (has_triangle_ids_ || received_.empty()) {
+      return;
+    }
+    std::vector<std::uint8_t> is_at_received(overlap_.ids.size(), 0);
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      for (std::size_t k = 0; k < 3 && kept_[i].place < 0; ++k) {
+        is_at_received[static_cast<std::size_t>(overlap_.triangles[i][k])] = 1;
       }
     }
-    if (has_triangle_ids_) {
-      return;  // then a triangle that is there twice is meant to be
-    }
     using Corners = std::array<std::int32_t, 3>;
-    std::vector<std::pair<Corners, std::int32_t>> sorted;
-    for (std::size_t t = 0; t < overlap_.triangles.size(); ++t) {
-      Corners corners = overlap_.triangles[t];
-      std::ranges::sort(corners);
-      sorted.emplace_back(corners, sorted_sources_[t]);
+    std::vector<std::pair<Corners, std::int32_t>> sorted;  // and the rank that has it
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      Corners corners = overlap_.triangles[i];
+      if (std::ranges::all_of(corners,
+                              [&](std::int32_t v) { return is_at_received[static_cast<std::size_t>(v)] != 0; })) {
+        std::ranges::sort(corners);
+        sorted.emplace_back(
+            corners, kept_[i].place >= 0 ? ranks_.rank() : sources_[static_cast<std::size_t>(-1 - kept_[i].place)]);
+      }
     }
     std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
@@ -286,7 +401,7 @@ class OverlapBuilder {
         receives[owner].push_back(v);
       }
     }
-    const ByRank<std::int64_t> asked = ranks_.exchanged(wanted);
+    const ByRank<std::int64_t> asked = ranks_.exchanged(std::move(wanted));
     for (std::size_t r = 0; r < asked.size(); ++r) {
       if (asked[r].empty() && receives[r].empty()) {
         continue;
@@ -315,7 +430,7 @@ class OverlapBuilder {
                            mesh_.vertex_ids[static_cast<std::size_t>(pairs[i + 1])],
                            are_lines && !slide.line_tags.empty() ? slide.line_tags[i / 2] : 0});
       }
-      return ranks_.exchanged(sent);
+      return ranks_.exchanged(std::move(sent));
     };
     // Ranks that have the same edge may both have the line on it.
     std::set<std::tuple<std::int64_t, std::int64_t, std::int32_t>> known;
@@ -342,22 +457,26 @@ class OverlapBuilder {
   const Constraints& constraints_;
   bool is_gathered_;
   const Communicator& ranks_;
+  Workers& workers_;
   std::shared_ptr<Links> links_;
   bool has_triangle_ids_ = false;
   bool has_regions_ = false;
-  std::vector<std::int32_t> owners_;  ///< of local vertices
-  ByRank<SentVertex> listed_;
+  std::vector<std::int32_t> owners_;           ///< of local vertices
+  std::vector<std::uint8_t> named_;            ///< of local vertices, as Overlap::named
+  std::vector<std::uint8_t> is_at_kept_;       ///< of local vertices: corners of kept triangles
+  std::vector<std::int32_t> number_of_local_;  ///< in the overlap; of local vertices that are there
+  ByRank<SentVertex> listed_;                  ///< own vertices that other ranks have
+  std::vector<KeptTriangle> kept_;
   std::vector<SentTriangle> received_;
-  std::vector<std::int32_t> sources_;
-  std::vector<std::int32_t> sorted_sources_;
+  std::vector<std::int32_t> sources_;  ///< of received triangles: ranks
   Overlap overlap_;
 };
 
 }  // namespace
 
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                      bool is_gathered, std::shared_ptr<const Communicator> communicator) {
-  return OverlapBuilder(mesh, triangles, constraints, is_gathered, std::move(communicator)).run();
+                      bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers) {
+  return OverlapBuilder(mesh, triangles, constraints, is_gathered, std::move(communicator), workers).run();
 }
 
 }  // namespace trismooth::mpi

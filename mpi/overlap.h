@@ -11,11 +11,17 @@
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/parts/mesh_part.h"
 
+namespace trismooth {
+
+class Workers;
+
+}
+
 namespace trismooth::mpi {
 
 /// The vertices that a rank owns, with all of their triangles and these triangles' other vertices, its ghosts: one
-/// layer, which is what updates of own vertices need. Vertices are numbered in the order of their ids, triangles in that
-/// of theirs; so all that depends on the order of numbers in the whole mesh is found from those here.
+/// layer, which is what updates of own vertices need. Vertices are numbered in the order of their ids, triangles in
+/// that of theirs; so all that depends on the order of numbers in the whole mesh is found from those here.
 struct Overlap {
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;  ///< ranks
@@ -44,6 +50,6 @@ struct Overlap {
 /// ids that are negative or there twice, owners that are no ranks or that ranks disagree about, and triangles that two
 /// ranks have and none calls a ghost. Complexity: n log n in what the rank has.
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                      bool is_gathered, std::shared_ptr<const Communicator> communicator);
+                      bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers);
 
 }  // namespace trismooth::mpi

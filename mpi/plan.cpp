@@ -1,6 +1,8 @@
 #include "trismooth/mpi/plan.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -12,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/splitmix64.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/component_labels.h"
@@ -34,6 +36,8 @@ namespace trismooth::mpi {
 
 namespace {
 
+constexpr std::int64_t vertex_grain = 16384;
+
 /// The rank's share of the cores of its machine, where nothing else is asked for.
 int threads_of(const SmoothingOptions& options, const Communicator& communicator) {
   if (options.threads > 0) {
@@ -46,11 +50,13 @@ void require_supported(const SmoothingOptions& options, const Constraints& const
   options.validate();
   if (constraints.slide.along != Slide::off && gather == Gather::never) {
     throw std::invalid_argument(
-        "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide to "
+        "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide "
+        "to "
         "off");
   }
   if (options.order == Order::unordered || options.execution != Execution::resident) {
-    throw std::invalid_argument("executions and orders of the paper's CUDA versions are not there for a mesh in pieces");
+    throw std::invalid_argument(
+        "executions and orders of the paper's CUDA versions are not there for a mesh in pieces");
   }
 }
 
@@ -59,15 +65,24 @@ TriangleTopology connected(const Overlap& overlap, Workers& workers) {
   try {
     return connect_triangles(overlap.vertex_count(), overlap.triangles, workers, overlap.part.ghosts);
   } catch (const MeshError&) {
-    throw MeshError("triangles that are connected with each other cannot be oriented consistently (a one-sided surface)");
+    throw MeshError(
+        "triangles that are connected with each other cannot be oriented consistently (a one-sided surface)");
   }
 }
 
 /// Coordinates as they are compared: bit for bit.
-bool are_same(const Point2<double>& a, const Point2<double>& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
+bool are_same(const Point2<double>& a, const Point2<double>& b) {
+  return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+/// The shortest text that reads back to the same number.
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 std::string text_of(const Point2<double>& point) {
-  return "(" + std::to_string(point.x) + ", " + std::to_string(point.y) + ")";
+  return "(" + text_of(point.x) + ", " + text_of(point.y) + ")";
 }
 
 }  // namespace
@@ -93,7 +108,9 @@ class Plan::Implementation {
     require_same_options(options, constraints.slide, gather != Gather::never, ranks);
     local_vertices_ = mesh.vertex_ids.size();
     has_lengths_ = ranks.any(!options.mean_ratio.target_lengths.empty());
-    overlap_ = build_overlap(mesh, triangles, constraints, is_gathered_, communicator_);
+    overlap_ = build_overlap(mesh, triangles, constraints, is_gathered_, communicator_, *workers_);
+    from_callers_ = lengths_of(overlap_.from_callers);
+    to_owners_ = lengths_of(overlap_.to_owners);
     MeshPart& part = overlap_.part;
     part.is_whole = is_gathered_;
     part.number = ranks.rank();
@@ -141,13 +158,14 @@ class Plan::Implementation {
       local = points.read(*workers_);
     });
     require_one_storage(stored);
-    std::vector<Point2<double>> mine = gathered<Point2<double>>(local, [&](std::int32_t v, const auto& a, const auto& b) {
-      if (!are_same(a, b)) {
-        throw std::invalid_argument("points: ranks disagree about the vertex of id " +
-                                    std::to_string(overlap_.ids[static_cast<std::size_t>(v)]) + ": " + text_of(a) +
-                                    " and " + text_of(b));
-      }
-    });
+    std::vector<Point2<double>> mine =
+        gathered<Point2<double>>(local, [&](std::int32_t v, const auto& a, const auto& b) {
+          if (!are_same(a, b)) {
+            throw std::invalid_argument("points: ranks disagree about the vertex of id " +
+                                        std::to_string(overlap_.ids[static_cast<std::size_t>(v)]) + ": " + text_of(a) +
+                                        " and " + text_of(b));
+          }
+        });
     require_one_height(points, mine);
     const LocalFrame frame = frame_of(mine);
     const BulkVector<Point2<double>> entered_points = entered(frame, mine).points;
@@ -197,7 +215,7 @@ class Plan::Implementation {
     const bool are_float_somewhere = communicator_->any(is_float && local_vertices_ > 0);
     communicator_->on_all([&] {
       if (!is_float && are_float_somewhere && local_vertices_ > 0) {
-        throw std::invalid_argument("points: double here and float on other ranks");
+        throw std::invalid_argument("points, or the storage of results: double here and float on other ranks");
       }
     });
   }
@@ -206,16 +224,26 @@ class Plan::Implementation {
   /// compare(vertex, a, b) throws where two ranks may not have these two.
   template <class V, class Compare>
   std::vector<V> gathered(std::span<const V> local, const Compare& compare) {
+    const auto own = static_cast<std::size_t>(communicator_->rank());
     auto sent = lists_by_rank<V>(*communicator_);
     for (std::size_t r = 0; r < sent.size(); ++r) {
-      for (const std::int32_t v : overlap_.to_owners[r]) {
-        sent[r].push_back(local[static_cast<std::size_t>(v)]);
+      for (std::size_t i = 0; i < overlap_.to_owners[r].size() && r != own; ++i) {
+        sent[r].push_back(local[static_cast<std::size_t>(overlap_.to_owners[r][i])]);
       }
     }
-    const ByRank<V> received = communicator_->exchanged(sent);
+    const ByRank<V> received = communicator_->exchanged(std::move(sent), from_callers_);
     std::vector<V> mine(overlap_.ids.size());
+    std::vector<std::uint8_t> is_known(communicator_->size() > 1 ? mine.size() : 0, 0);
+    workers_->for_blocks(std::ssize(overlap_.to_owners[own]), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        const auto v = static_cast<std::size_t>(overlap_.from_callers[own][i]);
+        mine[v] = local[static_cast<std::size_t>(overlap_.to_owners[own][i])];
+        if (!is_known.empty()) {
+          is_known[v] = 1;
+        }
+      }
+    });
     communicator_->on_all([&] {
-      std::vector<std::uint8_t> is_known(mine.size(), 0);
       for (std::size_t r = 0; r < received.size(); ++r) {
         for (std::size_t i = 0; i < received[r].size(); ++i) {
           const std::int32_t v = overlap_.from_callers[r][i];
@@ -337,18 +365,15 @@ class Plan::Implementation {
     MeshPart& part = overlap_.part;
     part.colours.assign(overlap_.ids.size(), no_colour);
     std::vector<std::uint8_t> is_free(fixed_.size());
-    std::vector<std::int32_t> waiting;
+    BulkVector<std::int32_t> waiting;
     for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
       is_free[static_cast<std::size_t>(v)] = fixed_[static_cast<std::size_t>(v)] == 0 ? 1 : 0;
       if (is_free[static_cast<std::size_t>(v)] != 0 && overlap_.is_own(v)) {
         waiting.push_back(v);
       }
     }
-    std::ranges::sort(waiting, {}, [&](std::int32_t v) {
-      return splitmix64(static_cast<std::uint64_t>(overlap_.ids[static_cast<std::size_t>(v)]));
-    });
     while (communicator_->any(!waiting.empty())) {
-      colour_ready(rings.view(), overlap_.ids, is_free, part.colours, waiting);
+      colour_ready(rings.view(), overlap_.ids, is_free, part.colours, waiting, *workers_);
       update_ghosts(std::span(part.colours));
     }
     PartSums highest;
@@ -383,8 +408,8 @@ class Plan::Implementation {
       return;
     }
     const std::span<const double> own = options_.mean_ratio.target_lengths;
-    const std::vector<double> local = own.empty() ? std::vector<double>(local_vertices_, 1.0)
-                                                  : std::vector<double>(own.begin(), own.end());
+    const std::vector<double> local =
+        own.empty() ? std::vector<double>(local_vertices_, 1.0) : std::vector<double>(own.begin(), own.end());
     const std::vector<double> found = gathered<double>(local, [&](std::int32_t v, double a, double b) {
       if (!(a == b) && !hold::is_unused(fixed_[static_cast<std::size_t>(v)])) {
         throw std::invalid_argument("MeanRatioOptions::target_lengths: ranks disagree about the vertex of id " +
@@ -455,22 +480,28 @@ class Plan::Implementation {
       const LocalMesh mesh{overlap_.triangles, overlap_.ids, {}, is_copy, overlap_.triangle_ids};
       constexpr bool is_gathered = true;
       gathered_ = std::make_unique<Implementation>(
-          communicator_, mesh,
-          Constraints{.fixed = named, .other_cells = in_other_cell, .regions = overlap_.regions}, used_options(),
-          gather_, is_gathered);
+          communicator_, mesh, Constraints{.fixed = named, .other_cells = in_other_cell, .regions = overlap_.regions},
+          used_options(), gather_, is_gathered);
     }
     return gathered_->smooth(PointView(mine), stored);
   }
 
   /// Sends what became of own vertices to all who have them.
-  void hand_back(std::span<const Point2<double>> mine, std::span<Point2<double>> local) const {
+  void hand_back(std::span<const Point2<double>> mine, std::span<Point2<double>> local) {
+    const auto own = static_cast<std::size_t>(communicator_->rank());
     auto sent = lists_by_rank<Point2<double>>(*communicator_);
     for (std::size_t r = 0; r < sent.size(); ++r) {
-      for (const std::int32_t v : overlap_.from_callers[r]) {
-        sent[r].push_back(mine[static_cast<std::size_t>(v)]);
+      for (std::size_t i = 0; i < overlap_.from_callers[r].size() && r != own; ++i) {
+        sent[r].push_back(mine[static_cast<std::size_t>(overlap_.from_callers[r][i])]);
       }
     }
-    const ByRank<Point2<double>> received = communicator_->exchanged(sent);
+    const ByRank<Point2<double>> received = communicator_->exchanged(std::move(sent), to_owners_);
+    workers_->for_blocks(std::ssize(overlap_.to_owners[own]), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        local[static_cast<std::size_t>(overlap_.to_owners[own][i])] =
+            mine[static_cast<std::size_t>(overlap_.from_callers[own][i])];
+      }
+    });
     for (std::size_t r = 0; r < received.size(); ++r) {
       for (std::size_t i = 0; i < received[r].size(); ++i) {
         local[static_cast<std::size_t>(overlap_.to_owners[r][i])] = received[r][i];
@@ -480,18 +511,20 @@ class Plan::Implementation {
 
   /// Tells all who have a vertex that went back, in their own numbers.
   void name_by_caller(SmoothingResult& result) const {
+    if (result.reverted_vertices == 0) {
+      return;
+    }
     auto sent = lists_by_rank<RevertedVertex>(*communicator_);
     for (std::size_t r = 0; r < sent.size(); ++r) {
-      // (Where nothing went back, which is the usual case, no list is gone through.)
-      for (std::size_t i = 0; i < overlap_.from_callers[r].size() && !result.reverted.empty(); ++i) {
-        const auto place = std::ranges::lower_bound(result.reverted, overlap_.from_callers[r][i], {},
-                                                    &RevertedVertex::vertex);
+      for (std::size_t i = 0; i < overlap_.from_callers[r].size(); ++i) {
+        const auto place =
+            std::ranges::lower_bound(result.reverted, overlap_.from_callers[r][i], {}, &RevertedVertex::vertex);
         if (place != result.reverted.end() && place->vertex == overlap_.from_callers[r][i]) {
           sent[r].push_back({static_cast<std::int32_t>(i), place->position});
         }
       }
     }
-    const ByRank<RevertedVertex> received = communicator_->exchanged(sent);
+    const ByRank<RevertedVertex> received = communicator_->exchanged(std::move(sent));
     result.reverted.clear();
     for (std::size_t r = 0; r < received.size(); ++r) {
       for (const auto& [place, position] : received[r]) {
@@ -509,6 +542,8 @@ class Plan::Implementation {
   std::size_t local_vertices_ = 0;
   bool has_lengths_ = false;  ///< some rank has target lengths
   Overlap overlap_;
+  std::vector<std::int64_t> from_callers_;  ///< lengths of the lists of this name
+  std::vector<std::int64_t> to_owners_;     ///< likewise
   std::optional<VertexMessages> messages_;
   VertexExchange ghost_exchange_;
   TriangleTopology topology_;
@@ -526,8 +561,8 @@ class Plan::Implementation {
 Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
            const SmoothingOptions& options, Gather gather) {
   const auto ranks = std::make_shared<const Communicator>(communicator);
-  implementation_ =
-      ranks->together([&] { return std::make_unique<Implementation>(ranks, mesh, constraints, options, gather, false); });
+  implementation_ = ranks->together(
+      [&] { return std::make_unique<Implementation>(ranks, mesh, constraints, options, gather, false); });
 }
 
 Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options, Gather gather)
@@ -538,14 +573,24 @@ Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
 SmoothingResult Plan::smooth(const PointView& points, Storage storage) {
+  return implementation().communicator().together([&] { return implementation_->smooth(points, storage); });
+}
+
+const Plan::Implementation& Plan::implementation() const {
   if (implementation_ == nullptr) {
     throw std::logic_error("this plan has been moved from");
   }
-  return implementation_->communicator().together([&] { return implementation_->smooth(points, storage); });
+  return *implementation_;
 }
 
-Traffic Plan::traffic() const { return implementation_->traffic(); }
-std::int64_t Plan::own_vertices() const { return implementation_->own_vertices(); }
-std::int64_t Plan::ghost_vertices() const { return implementation_->ghost_vertices(); }
+Traffic Plan::traffic() const {
+  return implementation().traffic();
+}
+std::int64_t Plan::own_vertices() const {
+  return implementation().own_vertices();
+}
+std::int64_t Plan::ghost_vertices() const {
+  return implementation().ghost_vertices();
+}
 
 }  // namespace trismooth::mpi

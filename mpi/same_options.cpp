@@ -43,7 +43,7 @@ void require_same_options(const SmoothingOptions& options, const Sliding& slide,
   for (const auto& [name, value] : values) {
     to_first[0].push_back(value);
   }
-  const ByRank<std::int64_t> all = communicator.exchanged(to_first);
+  const ByRank<std::int64_t> all = communicator.exchanged(std::move(to_first));
   communicator.on_all([&] {
     for (std::size_t i = 0; i < values.size() && communicator.rank() == 0; ++i) {
       for (std::size_t r = 1; r < all.size(); ++r) {

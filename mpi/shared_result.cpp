@@ -54,7 +54,7 @@ void take(const Figures& figures, SmoothingResult& result) {
   result.stop_reason = figures.stop_reason;
   if (figures.has_untangling) {
     result.untangling = UntanglingResult{figures.inverted_before, figures.inverted_untangled, figures.inverted_after,
-                                         figures.inverted_fixed, figures.turned_components, {}};
+                                         figures.inverted_fixed,  figures.turned_components,  {}};
   }
   if (figures.has_sliding) {
     result.sliding = figures.sliding;

@@ -168,13 +168,44 @@ void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours) {
 }
 
 void colour_ready(const RingView& rings, std::span<const std::int64_t> ids, std::span<const std::uint8_t> is_free,
-                  std::span<std::int32_t> colours, std::vector<std::int32_t>& waiting) {
-  std::erase_if(waiting, [&](std::int32_t v) {
-    colours[v] = colour_of(v, rings, colours, [&](std::int32_t neighbour, std::int32_t vertex) {
-                   return is_free[neighbour] != 0 && coloured_before(ids[neighbour], ids[vertex]);
-                 }).colour;
-    return colours[v] != uncoloured;
+                  std::span<std::int32_t> colours, BulkVector<std::int32_t>& waiting, Workers& workers) {
+  // As Ranks: found once for each vertex.
+  BulkVector<std::uint32_t> ranks(ids.size());
+  workers.for_blocks(std::ssize(ids), colouring_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      ranks[v] = static_cast<std::uint32_t>(splitmix64(static_cast<std::uint64_t>(ids[v])) >> 32U);
+    }
   });
+  const auto comes_before = [&](std::int32_t neighbour, std::int32_t vertex) {
+    return is_free[neighbour] != 0 &&
+           (ranks[neighbour] < ranks[vertex] ||
+            (ranks[neighbour] == ranks[vertex] && coloured_before(ids[neighbour], ids[vertex])));
+  };
+  const auto colour_all = [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int32_t colour = colour_of(waiting[i], rings, colours, comes_before).colour;
+      if (colour != uncoloured) {
+        std::atomic_ref(colours[waiting[i]]).store(colour, std::memory_order_relaxed);
+        waiting[i] = done;
+      }
+    }
+  };
+  // Rounds, as in colour_free_vertices(), while each colours many.
+  constexpr std::size_t least_share = 16;
+  for (bool colours_many = true; !waiting.empty();) {
+    if (!colours_many) {
+      std::ranges::sort(waiting, comes_before);
+    }
+    const std::size_t before = waiting.size();
+    workers.for_blocks(std::ssize(waiting), colours_many ? colouring_grain : std::ssize(waiting), colour_all);
+    waiting = numbers_of(
+        std::ssize(waiting), [&](std::int64_t i) { return waiting[i] != done; }, workers,
+        [&](std::int64_t i) { return waiting[i]; });
+    if (!colours_many) {
+      return;  // in their order none of them has to be asked twice
+    }
+    colours_many = before - waiting.size() >= before / least_share && before - waiting.size() > 0;
+  }
 }
 
 Colouring colour_free_vertices(const RingView& rings, Workers& workers) {

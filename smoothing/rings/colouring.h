@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -29,11 +28,11 @@ Colouring colour_free_vertices(const RingView& rings, Workers& workers);
 /// Complexity: a scan of `colours`, and n log n in the vertices that are left and their neighbours.
 void colour_the_rest(const RingView& rings, std::span<std::int32_t> colours);
 
-/// A round of the algorithm where a mesh is in parts: colours those of `waiting` whose neighbours before them, in the
-/// order of splitmix64(id), have colours, and takes them out of it. `rings`: of all that the part colours itself, in
-/// its own numbering; `ids`, `is_free` and `colours` are of these vertices and of the ghosts, which may get their
-/// colours between two rounds; -1: none. `waiting` is in that order. Complexity: linear in what is waiting.
+/// What a part of a mesh can colour before other parts say more: those of `waiting` whose neighbours before them, in
+/// the order of splitmix64(id), have colours or get them here; they are taken out of it. `rings`: of all that the part
+/// colours itself, in its own numbering; `ids`, `is_free` and `colours` are of these vertices and of the ghosts, which
+/// may get their colours between two calls; -1: none. Complexity: linear, as a rule, in what is waiting.
 void colour_ready(const RingView& rings, std::span<const std::int64_t> ids, std::span<const std::uint8_t> is_free,
-                  std::span<std::int32_t> colours, std::vector<std::int32_t>& waiting);
+                  std::span<std::int32_t> colours, BulkVector<std::int32_t>& waiting, Workers& workers);
 
 }  // namespace trismooth
