@@ -84,12 +84,27 @@ run_asan() {
   fi
   build asan "${tests[@]}" fuzz "${python_module[@]}"
   run asan "${tests[@]}"
+  run_in_pieces
   print_coverage "${tests[@]}"
   "$project/scripts/fuzz.sh" --no-build --seconds-of-all "$fuzz_seconds"
   echo "asan: fuzzed after $SECONDS s"
   if ((${#python_module[@]} > 0)); then
     fuzz_python
   fi
+}
+
+# On ranks. What MPI itself never gives back is left out.
+run_in_pieces() {
+  build asan test_mpi
+  local ranks
+  for ranks in 1 3; do
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+      OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none \
+      LLVM_PROFILE_FILE="$project/build/asan/test_mpi_%p.profraw" ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" \
+      mpirun -n "$ranks" "$project/build/asan/tests/mpi/test_mpi"
+  done
+  rm -f "$project/build/asan/"test_mpi_*.profraw
+  echo "asan: run on ranks after $SECONDS s"
 }
 
 # Calls from Python with arrays right and wrong, for a moment. Of Python's own memory nothing is said.

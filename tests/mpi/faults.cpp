@@ -255,6 +255,13 @@ TEST_CASE("a triangle that two ranks have and none calls a ghost is refused on a
                 [](Job& job) { job.piece.triangle_ids[1] = job.piece.triangle_ids[0]; });
 }
 
+TEST_CASE("ids of triangles that are none, or there twice without any rank that sees both, are refused on all") {
+  check_refused("invalid_argument", {"triangle_ids", "from 0 to"}, [](Job& job) { job.piece.triangle_ids[0] = -1; });
+  // The first triangle of all is rank 0's, far from the last rank where there are three.
+  check_disagreement("invalid_argument", {"triangle_ids: 0 is on rank 0", "on rank " + std::to_string(spoiled())},
+                     [](Job& job) { job.piece.triangle_ids[0] = 0; });
+}
+
 TEST_CASE("what one rank has and the others have not, or the other way round, is refused on all") {
   const Change regions = [](Job& job) { job.piece.regions.assign(job.piece.triangles.size(), 0); };
   const Change owners = [](Job& job) { job.piece.owners.assign(job.piece.ids.size(), 0); };

@@ -1,9 +1,15 @@
 // So it does where devices make the sweeps, each rank on one.
 
 #include "trismooth/cuda/backend.h"
+#include "trismooth/cuda/devices.h"
 
 #include "catch.h"
 #include "mpi/random_pieces.h"
+
+const char* reason_to_skip();
+const char* reason_to_skip() {
+  return trismooth::cuda::survey_devices().devices.empty() ? "no CUDA device" : nullptr;
+}
 
 using mpi_tests::check_random_meshes;
 using trismooth::mpi::Gather;
