@@ -31,6 +31,7 @@
 #include "trismooth/cuda/backend.h"
 #endif
 #include "trismooth/mpi/plan.h"
+#include "trismooth/smoothing/smooth.h"
 
 #include "run_reporting.h"
 #include "tile_blocks.h"
@@ -52,6 +53,7 @@ struct Settings {
   int runs = 3;
   int threads = 1;
   bool guard = true;
+  bool serial = false;
 };
 
 /// Tiles along each axis: of the whole mesh, and with --vertices-per-rank of every rank's block.
@@ -156,6 +158,35 @@ struct SweepLog {
   }
 };
 
+int measure_serial(const Settings& settings, const SmoothingOptions& options, const tile_blocks::BlockMesh& mesh,
+                   std::int64_t memory_of_mesh) {
+  if (call(MPI_Comm_size) != 1) {
+    throw std::invalid_argument("--serial is for one rank");
+  }
+  const Stopwatch planning;
+  SmoothingPlan plan(std::ssize(mesh.ids), mesh.triangles, options);
+  const double plan_seconds = planning.seconds();
+  std::vector<double> xy;
+  SmoothingResult result;
+  double fastest = 0;
+  for (int run = 0; run <= settings.runs; ++run) {
+    xy = mesh.xy;
+    const Stopwatch watch;
+    result = plan.smooth(xy);
+    fastest = run < 2 ? watch.seconds() : std::min(fastest, watch.seconds());
+  }
+  const Json report{
+      {"vertices", std::ssize(mesh.ids)},
+      {"threads", result.threads},
+      {"sweeps", result.sweeps},
+      {"seconds", {{"plan", plan_seconds}, {"call", fastest}, {"sweeps_of_it", result.timings.smooth / 1000}}},
+      {"memory_of_mesh_bytes", memory_of_mesh},
+      {"peak_memory_bytes", peak_memory_bytes()},
+      {"coordinates", fmt::format("{:016x}", hash_of(mesh, xy))}};
+  fmt::print("{}\n", report.dump(2));
+  return EXIT_SUCCESS;
+}
+
 int measure(int argc, char** argv) {
   CLI::App app("What smoothing a mesh in pieces costs");
   Settings settings;
@@ -170,6 +201,8 @@ int measure(int argc, char** argv) {
   app.add_option("--backend", settings.backend, "cpu or cuda: a device a rank");
   app.add_option("--threads", settings.threads, "of a rank");
   app.add_flag("--guard,!--no-guard", settings.guard);
+  app.add_flag("--serial", settings.serial,
+               "by the plan of a whole mesh, on one rank: what the others are measured by");
   CLI11_PARSE(app, argc, argv);
   if (settings.vertices <= 0 && settings.vertices_per_rank <= 0) {
     throw std::invalid_argument("say --vertices or --vertices-per-rank");
@@ -194,6 +227,9 @@ int measure(int argc, char** argv) {
   }
 
   const tile_blocks::BlockMesh mesh = mesh_of_rank(settings);
+  if (settings.serial) {
+    return measure_serial(settings, options, mesh, peak_memory_bytes());
+  }
   const std::int64_t memory_of_mesh = peak_memory_bytes();
   std::optional<mpi::Plan> plan;
   MPI_Barrier(MPI_COMM_WORLD);
@@ -207,6 +243,7 @@ int measure(int argc, char** argv) {
   };
   plan.emplace(MPI_COMM_WORLD, mpi::LocalMesh{mesh.triangles, mesh.ids}, options);
   const double plan_seconds = largest(planning.seconds());
+  const std::int64_t memory_of_plan = peak_memory_bytes();
 
   std::vector<double> xy;
   SmoothingResult result;
@@ -260,6 +297,7 @@ int measure(int argc, char** argv) {
       {"traffic_of_a_call", json_of(traffic, 1)},
       {"traffic_of_a_sweep", json_of(log.between_sweeps(), log.sweeps())},
       {"memory_of_mesh_bytes", of_ranks(memory_of_mesh)},
+      {"peak_memory_of_plan_bytes", of_ranks(memory_of_plan)},
       {"peak_memory_bytes", memory},
       {"coordinates", fmt::format("{:016x}", hash_of(mesh, xy))}};
   if (call(MPI_Comm_rank) == 0) {

@@ -29,6 +29,11 @@ struct HeardClaim {
 /// The claims of all ranks, those of an id behind each other, the lowest rank first.
 std::vector<HeardClaim> sorted_claims(const ByRank<Claim>& heard) {
   std::vector<HeardClaim> claims;
+  std::size_t count = 0;
+  for (const std::vector<Claim>& of_rank : heard) {
+    count += of_rank.size();
+  }
+  claims.reserve(count);
   for (std::size_t r = 0; r < heard.size(); ++r) {
     for (std::size_t i = 0; i < heard[r].size(); ++i) {
       claims.push_back({heard[r][i].id, static_cast<std::int32_t>(r), heard[r][i].owner, static_cast<std::int64_t>(i)});
@@ -49,17 +54,25 @@ std::vector<std::int32_t> owners_of(std::span<const std::int64_t> ids, std::span
   if (communicator.size() == 1) {
     return std::vector<std::int32_t>(ids.size(), 0);
   }
+  std::vector<std::size_t> counts(static_cast<std::size_t>(communicator.size()), 0);
+  for (const std::int64_t id : ids) {
+    ++counts[static_cast<std::size_t>(home_of(id, communicator))];
+  }
   auto claims = lists_by_rank<Claim>(communicator);
+  for (std::size_t r = 0; r < claims.size(); ++r) {
+    claims[r].reserve(counts[r]);
+  }
   for (std::size_t v = 0; v < ids.size(); ++v) {
     claims[static_cast<std::size_t>(home_of(ids[v], communicator))].push_back(
         {ids[v], claimed.empty() ? nobody : claimed[v]});
   }
-  const ByRank<Claim> heard = communicator.exchanged(std::move(claims));
+  ByRank<Claim> heard = communicator.exchanged(std::move(claims));
   const std::vector<HeardClaim> sorted = sorted_claims(heard);
   auto answers = lists_by_rank<std::int32_t>(communicator);
   for (std::size_t r = 0; r < heard.size(); ++r) {
     answers[r].resize(heard[r].size());
   }
+  heard = {};
   communicator.on_all([&] {
     for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
       const HeardClaim& claim = sorted[i];

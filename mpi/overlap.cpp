@@ -181,6 +181,8 @@ class OverlapBuilder {
     }
     overlap_.to_owners = lists_by_rank<std::int32_t>(ranks_);
     auto sent = lists_by_rank<SentVertex>(ranks_);
+    overlap_.to_owners[static_cast<std::size_t>(ranks_.rank())].reserve(
+        static_cast<std::size_t>(std::ranges::count(owners_, ranks_.rank())));
     for (std::size_t v = 0; v < named_.size(); ++v) {
       const auto owner = static_cast<std::size_t>(owners_[v]);
       overlap_.to_owners[owner].push_back(static_cast<std::int32_t>(v));
@@ -210,6 +212,7 @@ class OverlapBuilder {
       require_unique(ids, "triangle_ids", ranks_);
     }
     is_at_kept_.assign(mesh_.vertex_ids.size(), 0);
+    kept_.reserve(static_cast<std::size_t>(count));
     auto sent = lists_by_rank<SentTriangle>(ranks_);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (is_copy(t)) {

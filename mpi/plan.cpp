@@ -121,7 +121,8 @@ class Plan::Implementation {
     ghost_exchange_ = part.ghost_exchange();
     ranks.on_all([&] {
       topology_ = connected(overlap_, *workers_);
-      fixed_ = fixed_vertices(topology_, overlap_.triangles, {.regions = overlap_.regions}, *workers_);
+      components_ = *topology_;
+      fixed_ = fixed_vertices(*topology_, overlap_.triangles, {.regions = overlap_.regions}, *workers_);
       for (std::size_t v = 0; v < fixed_.size(); ++v) {
         fixed_[v] |= overlap_.named[v];
       }
@@ -134,7 +135,8 @@ class Plan::Implementation {
       }
     });
     update_ghosts(std::span(fixed_));
-    labels_ = ComponentLabels(overlap_, topology_, ranks);
+    labels_ = ComponentLabels(overlap_, components_, ranks);
+    overlap_.owners = {};
     std::int64_t own_free = 0;
     for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
       own_free += overlap_.is_own(v) && fixed_[static_cast<std::size_t>(v)] == 0 ? 1 : 0;
@@ -167,11 +169,13 @@ class Plan::Implementation {
           }
         });
     require_one_height(points, mine);
+    local = {};
     const LocalFrame frame = frame_of(mine);
     const BulkVector<Point2<double>> entered_points = entered(frame, mine).points;
     make_ready(entered_points);
     read_targets();
     SmoothingResult result = smoothed(mine, stored, frame);
+    local.resize(local_vertices_);
     hand_back(mine, local);
     name_by_caller(result);
     points.write(local, *workers_);
@@ -324,7 +328,7 @@ class Plan::Implementation {
 
   /// Prepares the sweeps where the orientation that these points give the mesh is new.
   void make_ready(std::span<const Point2<double>> local) {
-    std::vector<std::uint8_t> reversed = labels_.reversed(overlap_, topology_, local, *communicator_, *workers_);
+    std::vector<std::uint8_t> reversed = labels_.reversed(overlap_, components_, local, *communicator_, *workers_);
     const bool is_new = !is_coloured_ || reversed != reversed_;
     if (!communicator_->any(is_new)) {
       return;
@@ -337,7 +341,13 @@ class Plan::Implementation {
       for (std::size_t v = 0; v < without_ring.size(); ++v) {
         without_ring[v] |= overlap_.part.ghosts[v];
       }
-      mesh.rings = one_rings(topology_, overlap_.triangles, reversed_, without_ring, *workers_);
+      if (!topology_) {
+        topology_ = connected(overlap_, *workers_);
+      }
+      mesh.rings = one_rings(*topology_, overlap_.triangles, reversed_, without_ring, *workers_);
+      // It is found again should a component be listed the other way round: that is rare, and it takes as much memory
+      // as the rings do.
+      topology_.reset();
     });
     if (!std::exchange(is_coloured_, true)) {
       colour(mesh.rings);
@@ -546,9 +556,10 @@ class Plan::Implementation {
   std::vector<std::int64_t> to_owners_;     ///< likewise
   std::optional<VertexMessages> messages_;
   VertexExchange ghost_exchange_;
-  TriangleTopology topology_;
-  std::vector<std::uint8_t> fixed_;  ///< as MeshRings::fixed, ghosts as their owners have it
-  Slidable slidable_;                ///< where it is gathered
+  TriangleComponents components_;             ///< of the overlap
+  std::optional<TriangleTopology> topology_;  ///< likewise, until rings are made of it
+  std::vector<std::uint8_t> fixed_;           ///< as MeshRings::fixed, ghosts as their owners have it
+  Slidable slidable_;                         ///< where it is gathered
   ComponentLabels labels_;
   bool is_coloured_ = false;
   std::vector<std::uint8_t> reversed_;
