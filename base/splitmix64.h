@@ -15,11 +15,6 @@ constexpr TRISMOOTH_HOST_DEVICE std::uint64_t splitmix64(std::uint64_t value) {
 }
 
 /// The order in which Form B colours vertices: a before b. splitmix64 is a bijection, so there are no ties.
-constexpr TRISMOOTH_HOST_DEVICE bool coloured_before(std::int32_t a, std::int32_t b) {
-  return splitmix64(static_cast<std::uint64_t>(a)) < splitmix64(static_cast<std::uint64_t>(b));
-}
-
-/// The same of ids that are numbers of a mesh in parts, from 0.
 constexpr TRISMOOTH_HOST_DEVICE bool coloured_before(std::int64_t a, std::int64_t b) {
   return splitmix64(static_cast<std::uint64_t>(a)) < splitmix64(static_cast<std::uint64_t>(b));
 }
