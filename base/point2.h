@@ -1,5 +1,9 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
 #include "trismooth/base/exact_arithmetic.h"
 #include "trismooth/base/host_device.h"
 
@@ -21,6 +25,13 @@ struct Point2 {
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE Point2<T> with_kept_bits(Point2<T> before, Point2<T> now) {
   return {now.x == before.x ? before.x : now.x, now.y == before.y ? before.y : now.y};
+}
+
+/// Bit for bit: zeros of different signs differ.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE bool have_same_bits(Point2<T> a, Point2<T> b) {
+  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+  return std::bit_cast<Bits>(a.x) == std::bit_cast<Bits>(b.x) && std::bit_cast<Bits>(a.y) == std::bit_cast<Bits>(b.y);
 }
 
 /// Twice the signed area between two vectors: positive where b is counter-clockwise of a.

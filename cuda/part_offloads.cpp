@@ -160,7 +160,7 @@ class PartSweeps final : public SweepOffload<T> {
                        0,
                        0,
                        static_cast<T>(options_.tolerance)};
-    const cudaStream_t stream = context_->stream();
+    cudaStream_t stream = context_->stream();
     for (std::size_t colour = 0; colour < exchanges_.size() && 2 * colour + 2 < rings_.batches.size(); ++colour) {
       ColourExchange<T>& exchange = exchanges_[colour];
       visit(batch, 2 * colour);

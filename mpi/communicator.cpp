@@ -159,7 +159,7 @@ void Communicator::on_all(const std::function<void()>& work) const {
   failure.kind = static_cast<ErrorKind>(kind);
   failure.message.resize(static_cast<std::size_t>(length));
   check(MPI_Bcast(failure.message.data(), length, MPI_CHAR, failed, communicator_), "MPI_Bcast");
-  throw KnownToAll{error_of(failure)};
+  throw KnownToAll(error_of(failure));
 }
 
 std::vector<std::int64_t> Communicator::exchanged_counts(std::span<const std::int64_t> counts) const {
@@ -193,7 +193,7 @@ void Communicator::exchange(std::span<const Buffer> sends, std::span<const Buffe
 }
 
 void Communicator::abandon(const char* message) const {
-  std::cerr << "trismooth: rank " << rank_ << ": " << message << std::endl;
+  std::cerr << "trismooth: rank " << rank_ << ": " << message << '\n' << std::flush;
   MPI_Abort(communicator_, 1);
   std::terminate();
 }

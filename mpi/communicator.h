@@ -20,7 +20,9 @@ template <class V>
 using ByRank = std::vector<std::vector<V>>;
 
 /// An error that all ranks know of. Any other that leaves a collective function would leave the others waiting.
-struct KnownToAll {
+struct KnownToAll : std::exception {
+  explicit KnownToAll(std::exception_ptr known) : error(std::move(known)) {}
+
   std::exception_ptr error;
 };
 

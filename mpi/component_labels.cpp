@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "trismooth/base/errors.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/label_forest.h"
 #include "trismooth/quality/orientation.h"

@@ -291,13 +291,12 @@ class OverlapBuilder {
     vertices = {};
     number_of_local_.resize(mesh_.vertex_ids.size());
     workers_.for_blocks(std::ssize(number_of_local_), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
-      std::int32_t last = -1;
+      std::size_t next = 0;  // behind the last one
       for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
         // Vertices are numbered as their ids are, more often than not.
-        const bool follows = last + 1 < overlap_.vertex_count() &&
-                             overlap_.ids[static_cast<std::size_t>(last + 1)] == mesh_.vertex_ids[v];
-        last = follows ? last + 1 : number_of(mesh_.vertex_ids[v]);
-        number_of_local_[v] = last;
+        const bool follows = next < overlap_.ids.size() && overlap_.ids[next] == mesh_.vertex_ids[v];
+        next = follows ? next : static_cast<std::size_t>(number_of(mesh_.vertex_ids[v]));
+        number_of_local_[v] = static_cast<std::int32_t>(next++);
       }
     });
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <numeric>
@@ -68,11 +67,6 @@ TriangleTopology connected(const Overlap& overlap, Workers& workers) {
     throw MeshError(
         "triangles that are connected with each other cannot be oriented consistently (a one-sided surface)");
   }
-}
-
-/// Coordinates as they are compared: bit for bit.
-bool are_same(const Point2<double>& a, const Point2<double>& b) {
-  return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
 /// The shortest text that reads back to the same number.
@@ -162,7 +156,7 @@ class Plan::Implementation {
     require_one_storage(stored);
     std::vector<Point2<double>> mine =
         gathered<Point2<double>>(local, [&](std::int32_t v, const auto& a, const auto& b) {
-          if (!are_same(a, b)) {
+          if (!have_same_bits(a, b)) {
             throw std::invalid_argument("points: ranks disagree about the vertex of id " +
                                         std::to_string(overlap_.ids[static_cast<std::size_t>(v)]) + ": " + text_of(a) +
                                         " and " + text_of(b));

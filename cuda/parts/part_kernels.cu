@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 
 #include "trismooth/cuda/parts/part_kernels.h"
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
@@ -113,13 +112,6 @@ __global__ void __launch_bounds__(block_size)
   }
 }
 
-/// Bit for bit: as it is between parts of the host.
-template <class T>
-__device__ bool are_same(const PointRecord<T>& a, const PointRecord<T>& b) {
-  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
-  return std::bit_cast<Bits>(a.x) == std::bit_cast<Bits>(b.x) && std::bit_cast<Bits>(a.y) == std::bit_cast<Bits>(b.y);
-}
-
 template <class T>
 __global__ void __launch_bounds__(block_size)
     arrive(const PointRecord<T>* in, ArrivedGhosts ghosts, PointArray<T> from, PointArray<T> to, std::uint32_t* marks) {
@@ -128,10 +120,10 @@ __global__ void __launch_bounds__(block_size)
     return;
   }
   const std::int32_t ghost = ghosts.vertices[i];
-  const PointRecord<T> last = from.points[ghost];
   const PointRecord<T> now = in[i];
+  const bool is_elsewhere = !have_same_bits(from.load(ghost), Point2<T>{now.x, now.y});
   to.points[ghost] = now;
-  if (marks != nullptr && !are_same(last, now)) {
+  if (marks != nullptr && is_elsewhere) {
     for (std::uint32_t k = ghosts.offsets[i]; k < ghosts.offsets[i + 1]; ++k) {
       mark(marks, ghosts.around[k]);
     }

@@ -129,8 +129,8 @@ Colouring batches_of_part(const MeshPart& part, const RingView& rings, Form form
 
 /// Puts ghosts that are free first among vertices without a ring; how many they are.
 std::int32_t put_free_ghosts_first(const MeshPart& part, std::span<std::int32_t> ringless) {
-  const auto rest = std::stable_partition(ringless.begin(), ringless.end(),
-                                          [&](std::int32_t v) { return part.colours[v] != no_colour; });
+  const auto rest =
+      std::partition(ringless.begin(), ringless.end(), [&](std::int32_t v) { return part.colours[v] != no_colour; });
   return static_cast<std::int32_t>(rest - ringless.begin());
 }
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -205,9 +204,9 @@ class SweepDriver {
       return;
     }
     halo_->finish<Point2<T>>(colour, [&](std::int32_t ghost, const Point2<T>& place) {
-      const Point2<T> last = from[ghost];
+      const bool is_elsewhere = !have_same_bits(from[ghost], place);
       to[ghost] = place;
-      if (std::memcmp(&last, &place, sizeof(place)) != 0) {
+      if (is_elsewhere) {
         for (const std::int32_t v : halo_->around_ghosts()[ghost]) {
           marked_next[v] = 1;
         }
