@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/parallel_file.h"
+
 // The one place that knows whether the build has VTK.
 #ifdef TRISMOOTH_HAS_VTK
 #include "trismooth/mesh_io/vtk_xml/silence_vtk.h"
@@ -34,6 +37,15 @@ const Codec& vtk_xml_codec(FileFormat /*format*/) {
 }
 
 void silence_libraries() {}
+
+ParallelFile read_parallel_file(const std::filesystem::path& path, std::string_view /*bytes*/) {
+  throw ReadError(path, "is a mesh in pieces of VTK's XML formats, which this build cannot read: build with VTK");
+}
+
+std::string with_sources(std::string_view bytes, const ParallelFile& /*file*/,
+                         std::span<const std::string> /*sources*/) {
+  return std::string(bytes);
+}
 
 #endif
 

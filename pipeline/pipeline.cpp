@@ -11,6 +11,7 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/stages/check_stage.h"
 #include "trismooth/pipeline/stages/read_stage.h"
@@ -130,6 +131,13 @@ class Run {
 
 void require_known_formats(const PipelineOptions& options) {
   const auto& output = options.written();
+  if (names_parallel_file(options.input)) {
+    throw ReadError(options.input,
+                    "is a mesh in pieces, which the program reads where it is built with MPI (-DTRISMOOTH_MPI=ON)");
+  }
+  if (output && names_parallel_file(*output)) {
+    throw WriteError(*output, "is the name of a mesh in pieces, which is written only where one is read");
+  }
   const auto says_nothing = [&options](const std::filesystem::path& path) {
     return !options.format && !is_standard_stream(path) && !format_of(path);
   };

@@ -13,6 +13,7 @@
 #include "trismooth/pipeline/file_groups.h"
 #include "trismooth/pipeline/held_vertices.h"
 #include "trismooth/pipeline/moving_fields.h"
+#include "trismooth/pipeline/partition.h"
 #include "trismooth/pipeline/projection.h"
 #include "trismooth/pipeline/region_array.h"
 #include "trismooth/quality/metrics.h"
@@ -70,6 +71,9 @@ struct PipelineOptions {
   std::optional<Projection> project;
   /// x is longitude and y is latitude, in degrees: smoothed on a map on which shapes are those on the sphere.
   bool geographic = false;
+  /// How the mesh is shared out among the ranks of an MPI job, where the program runs in one. Absent: pieces are kept
+  /// where there are at least as many as ranks, all else is bisected.
+  std::optional<Partition> partition;
   bool annotate = false;  ///< add arrays to the output, named `trismooth:...`
   /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
   std::optional<std::filesystem::path> annotated;

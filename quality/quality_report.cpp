@@ -9,6 +9,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
+#include "trismooth/quality/quality_part.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -17,7 +18,7 @@ namespace {
 
 /// Triangles are taken in blocks of this size whatever the number of threads, and the blocks' results are combined in
 /// order: no rounding depends on scheduling. A block's values stay in the second-level cache.
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t block_size = triangles_a_quality_part;
 
 std::size_t block_count(const TriangleView& view) {
   return (view.triangles.size() + block_size - 1) / block_size;
@@ -32,10 +33,6 @@ void for_each_block(const TriangleView& view, int threads, const Function& funct
                                   function(static_cast<std::size_t>(block));
                                 }
                               });
-}
-
-bool is_worse(const WorstElement& a, const WorstElement& b) {
-  return a.shape < b.shape || (a.shape == b.shape && a.triangle < b.triangle);
 }
 
 /// Collects the worst `capacity` elements offered. A heap with the least bad one in front.
@@ -72,27 +69,15 @@ class WorstList {
   std::vector<WorstElement> elements_;
 };
 
-constexpr MetricValues filled(double value) {
-  MetricValues values{};
-  values.fill(value);
-  return values;
-}
+constexpr MetricValues zeros{};
 
-/// What one block, or several in order, contribute to the report.
-struct Partial {
-  double count = 0;
-  std::int64_t inverted = 0;
-  std::int64_t degenerate = 0;
-  MetricValues sum = filled(0);
-  MetricValues squared_deviations = filled(0);  ///< from the mean of these triangles, summed
-  MetricValues min = filled(std::numeric_limits<double>::infinity());
-  MetricValues max = filled(-std::numeric_limits<double>::infinity());
-  std::array<std::int64_t, metric_count> acceptable{};
-  std::array<std::int64_t, shape_bins> shape_histogram{};
+/// What one block contributes.
+struct Block {
+  QualityPart part;
   std::vector<WorstElement> worst;
 };
 
-void count_shape(Partial& partial, double shape) {
+void count_shape(QualityPart& partial, double shape) {
   if (shape < 0) {
     ++partial.inverted;
     return;
@@ -104,7 +89,7 @@ void count_shape(Partial& partial, double shape) {
 }
 
 /// What the report says of each metric, of all of these triangles.
-void count_metrics(Partial& partial, std::span<const MetricValues> values) {
+void count_metrics(QualityPart& partial, std::span<const MetricValues> values) {
   std::array<AcceptableRange, metric_count> acceptable;
   for (std::size_t m = 0; m < metric_count; ++m) {
     acceptable[m] = acceptable_range(static_cast<Metric>(m));
@@ -126,7 +111,7 @@ void count_metrics(Partial& partial, std::span<const MetricValues> values) {
   for (double& value : mean) {
     value /= static_cast<double>(values.size());
   }
-  MetricValues squared_deviations = filled(0);
+  MetricValues squared_deviations = zeros;
   for (const MetricValues& of_triangle : values) {
     for (std::size_t m = 0; m < metric_count; ++m) {
       const double deviation = of_triangle[m] - mean[m];
@@ -141,50 +126,29 @@ void count_metrics(Partial& partial, std::span<const MetricValues> values) {
   partial.squared_deviations = squared_deviations;
 }
 
-Partial evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
+Block evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
   const std::size_t begin = block * block_size;
   const std::size_t count = std::min(block_size, view.triangles.size() - begin);
   std::array<MetricValues, block_size> values;
   for_corners(view, begin, begin + count, [&](std::size_t first, std::span<const CornerPoints> corners) {
     evaluate_all(corners, std::span(values).subspan(first - begin, corners.size()));
   });
-  Partial partial;
-  count_metrics(partial, std::span(values).first(count));
+  Block evaluated;
+  count_metrics(evaluated.part, std::span(values).first(count));
   WorstList worst(std::min(worst_count, count));
   for (std::size_t t = 0; t < count; ++t) {
     const double shape = values[t][static_cast<std::size_t>(Metric::shape)];
-    count_shape(partial, shape);
+    count_shape(evaluated.part, shape);
     if (worst.would_take(shape)) {
       const auto [a, b, c] = corner_points(view, begin + t);
       worst.offer({static_cast<std::int64_t>(begin + t), shape, {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}});
     }
   }
-  partial.worst = worst.take_sorted();
-  return partial;
+  evaluated.worst = worst.take_sorted();
+  return evaluated;
 }
 
-/// Adds the next block. Sums of squared deviations are merged as by T. F. Chan, G. H. Golub and R. J. LeVeque (1979).
-void append(Partial& total, const Partial& next) {
-  for (std::size_t m = 0; m < metric_count; ++m) {
-    if (total.count > 0) {
-      const double between = next.sum[m] / next.count - total.sum[m] / total.count;
-      total.squared_deviations[m] += between * between * (total.count * next.count / (total.count + next.count));
-    }
-    total.squared_deviations[m] += next.squared_deviations[m];
-    total.sum[m] += next.sum[m];
-    total.min[m] = std::min(total.min[m], next.min[m]);
-    total.max[m] = std::max(total.max[m], next.max[m]);
-    total.acceptable[m] += next.acceptable[m];
-  }
-  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
-    total.shape_histogram[bin] += next.shape_histogram[bin];
-  }
-  total.count += next.count;
-  total.inverted += next.inverted;
-  total.degenerate += next.degenerate;
-}
-
-MetricSummary summary(const Partial& total, std::size_t m) {
+MetricSummary summary(const QualityPart& total, std::size_t m) {
   if (total.count == 0) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {nan, nan, nan, nan, nan};
@@ -195,35 +159,72 @@ MetricSummary summary(const Partial& total, std::size_t m) {
 
 }  // namespace
 
-QualityReport quality_report(const TriangleView& view, const QualityOptions& options) {
-  const auto worst_count = static_cast<std::size_t>(std::max(options.worst_count, 0));
-  std::vector<Partial> partials(block_count(view));
-  for_each_block(view, options.threads,
-                 [&](std::size_t block) { partials[block] = evaluate_block(view, block, worst_count); });
+bool is_worse(const WorstElement& a, const WorstElement& b) {
+  return a.shape < b.shape || (a.shape == b.shape && a.triangle < b.triangle);
+}
 
-  Partial total;
+// Sums of squared deviations are merged as by T. F. Chan, G. H. Golub and R. J. LeVeque (1979).
+void QualityPart::append(const QualityPart& next) {
+  for (std::size_t m = 0; m < metric_count; ++m) {
+    if (count > 0) {
+      const double between = next.sum[m] / next.count - sum[m] / count;
+      squared_deviations[m] += between * between * (count * next.count / (count + next.count));
+    }
+    squared_deviations[m] += next.squared_deviations[m];
+    sum[m] += next.sum[m];
+    min[m] = std::min(min[m], next.min[m]);
+    max[m] = std::max(max[m], next.max[m]);
+    acceptable[m] += next.acceptable[m];
+  }
+  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
+    shape_histogram[bin] += next.shape_histogram[bin];
+  }
+  count += next.count;
+  inverted += next.inverted;
+  degenerate += next.degenerate;
+}
+
+QualityParts quality_parts(const TriangleView& view, const QualityOptions& options) {
+  const auto worst_count = static_cast<std::size_t>(std::max(options.worst_count, 0));
+  std::vector<Block> blocks(block_count(view));
+  for_each_block(view, options.threads,
+                 [&](std::size_t block) { blocks[block] = evaluate_block(view, block, worst_count); });
+  QualityParts made;
   WorstList worst(std::min(worst_count, view.triangles.size()));
-  for (const Partial& partial : partials) {
-    append(total, partial);
-    for (const WorstElement& element : partial.worst) {
+  for (const Block& block : blocks) {
+    made.parts.push_back(block.part);
+    for (const WorstElement& element : block.worst) {
       worst.offer(element);
     }
   }
+  made.worst = worst.take_sorted();
+  return made;
+}
 
+QualityReport report_of(const QualityPart& total, std::vector<WorstElement> worst, int exponent) {
   QualityReport report;
-  report.triangles = static_cast<std::int64_t>(view.triangles.size());
+  report.triangles = static_cast<std::int64_t>(total.count);
   report.inverted = total.inverted;
   report.degenerate = total.degenerate;
   report.shape_histogram = total.shape_histogram;
-  report.worst = worst.take_sorted();
+  report.worst = std::move(worst);
   for (std::size_t m = 0; m < metric_count; ++m) {
     report.metrics[m] = summary(total, m);
   }
   MetricSummary& area = report[Metric::area];
   for (double* const value : {&area.min, &area.mean, &area.max, &area.stddev}) {
-    *value = std::ldexp(*value, 2 * view.exponent);
+    *value = std::ldexp(*value, 2 * exponent);
   }
   return report;
+}
+
+QualityReport quality_report(const TriangleView& view, const QualityOptions& options) {
+  QualityParts made = quality_parts(view, options);
+  QualityPart total;
+  for (const QualityPart& part : made.parts) {
+    total.append(part);
+  }
+  return report_of(total, std::move(made.worst), view.exponent);
 }
 
 double smallest_shape(const TriangleView& view, int threads) {

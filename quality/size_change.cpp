@@ -13,10 +13,12 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/area_ratios.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 
@@ -25,10 +27,6 @@ namespace trismooth {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Triangles are taken in blocks of this size whatever the number of threads, and the blocks' sums are added up in
-/// their order: no rounding depends on scheduling.
-constexpr std::size_t triangles_a_block = 1024;
 
 /// Twice the areas of the block's triangles from `first` on, NaN where one is not valid.
 void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<double> areas) {
@@ -138,20 +136,21 @@ class RatioRanks {
 
 }  // namespace
 
-SizeChange size_change(const TriangleView& before, const TriangleView& after, int threads) {
+AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, int threads) {
   const std::size_t count = before.triangles.size();
   if (after.triangles.size() != count) {
     throw std::invalid_argument("size_change: the meshes have different triangles");
   }
   const double unit = std::ldexp(1.0, 2 * (after.exponent - before.exponent));
   BulkVector<double> ratios(count);
-  std::vector<double> sums((count + triangles_a_block - 1) / triangles_a_block);
+  std::vector<double> sums((count + triangles_a_size_part - 1) / triangles_a_size_part);
   Workers workers(threads);
   workers.for_blocks(static_cast<std::int64_t>(sums.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    std::array<double, triangles_a_block> areas_before;
+    std::array<double, triangles_a_size_part> areas_before;
     for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
-      const std::size_t first = block * triangles_a_block;
-      const std::span<double> of_block = std::span(ratios).subspan(first, std::min(triangles_a_block, count - first));
+      const std::size_t first = block * triangles_a_size_part;
+      const std::span<double> of_block =
+          std::span(ratios).subspan(first, std::min(triangles_a_size_part, count - first));
       doubled_valid_areas(before, first, std::span(areas_before).first(of_block.size()));
       doubled_valid_areas(after, first, of_block);
       for (std::size_t t = 0; t < of_block.size(); ++t) {
@@ -163,10 +162,16 @@ SizeChange size_change(const TriangleView& before, const TriangleView& after, in
       }
     }
   });
+  return {std::move(ratios), std::move(sums)};
+}
+
+SizeChange size_change(const TriangleView& before, const TriangleView& after, int threads) {
+  const auto [ratios, sums] = area_ratios(before, after, threads);
+  Workers workers(threads);
   RatioRanks ranks(ratios, workers);
   SizeChange change;
   change.triangles = ranks.total();
-  change.left_out = static_cast<std::int64_t>(count) - change.triangles;
+  change.left_out = std::ssize(ratios) - change.triangles;
   if (change.triangles == 0) {
     change.rms_log_ratio = change.ratio_p1 = change.ratio_p99 = no_number;
     return change;

@@ -40,7 +40,9 @@ for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", 
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below
 MAY_USE["mpi"] = list(SMOOTHING)
-MAY_USE["pipeline"] = list(MAY_USE)
+# The ranks of an MPI job are the pipeline's business in one room alone, which uses what the others have.
+MAY_USE["pipeline/ranks"] = [*MAY_USE, "pipeline"]
+MAY_USE["pipeline"] = [room for room in MAY_USE if room != "mpi"]
 MAY_USE["python"] = list(MAY_USE)
 
 INCLUDE = re.compile(r'^#include "trismooth/([^"]+)"', re.MULTILINE)
@@ -53,7 +55,7 @@ def room_of(path):
         return FACES[face]
     folder = path.rsplit("/", 1)[0]
     module = folder.split("/")[0]
-    return folder if module in ("smoothing", "cuda") or folder == "mesh_io/halfedge" else module
+    return folder if module in ("smoothing", "cuda") or folder in ("mesh_io/halfedge", "pipeline/ranks") else module
 
 
 def includes_of(source):

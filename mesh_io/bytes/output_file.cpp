@@ -23,7 +23,8 @@ struct UnfinishedFile {
   std::atomic<bool> named{false};
   std::array<char, 4096> name{};
 };
-std::array<UnfinishedFile, 8> unfinished_files;
+// (A rank writes many pieces of a mesh at a time.)
+std::array<UnfinishedFile, 256> unfinished_files;
 
 void remember(std::string_view name) {
   for (UnfinishedFile& file : unfinished_files) {
@@ -235,6 +236,10 @@ void OutputFile::commit() {
   done_ = true;
   forget(path_.native());
   folder.flush();
+}
+
+void OutputFile::begin_commits() noexcept {
+  begin_commit();
 }
 
 std::uint64_t OutputFile::commits_begun() noexcept {

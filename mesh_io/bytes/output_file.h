@@ -37,6 +37,11 @@ class OutputFile {
   /// of the new one. Throws WriteError.
   void commit();
 
+  /// For files of several processes that belong together: from now on it is as if a commit was begun. When every
+  /// process has called this, and not before, they commit: whoever is told to end until then puts nothing in its place,
+  /// nor do those that wait for it.
+  static void begin_commits() noexcept;
+
   /// How many files this process has begun to put in place.
   static std::uint64_t commits_begun() noexcept;
 

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "trismooth/pipeline/cli/interrupt.h"
 #include "trismooth/pipeline/cli/output_attempts.h"
 #include "trismooth/pipeline/cli/printable_stream.h"
+#include "trismooth/pipeline/cli/rank_job.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/usage_message.h"
 #include "trismooth/version.h"
@@ -75,7 +77,8 @@ ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const Comm
   }
   const auto chosen =
       std::ranges::find_if(subcommands, [](const Subcommand& subcommand) { return subcommand.app->parsed(); });
-  return chosen->run();
+  // Whatever no run is shared of, rank 0 does alone.
+  return environment.follows && !chosen->runs_pipeline ? ExitCode::done : chosen->run();
 }
 
 /// With the program's name alone, so that reports hold no path of the machine that nobody gave.
@@ -116,7 +119,8 @@ void reserve_memory_for_the_end() {
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& given) {
   PrintableStream out(given.out);
   PrintableStream err(given.err);
-  const CommandEnvironment environment{out, err, given.terminal, given.run, given.cuda};
+  const CommandEnvironment environment{out,        err, given.terminal,   given.run,
+                                       given.cuda, {},  given.over_ranks, given.follows};
   CLI::App app(description, "trismooth");
   app.set_version_flag("--version,-V", "trismooth " + std::string(version()), "Print the version and exit");
   app.set_help_flag("--help,-h", "Print this help and exit");
@@ -141,12 +145,27 @@ int run_command_line(int argc, const char* const* argv) {
   reserve_standard_streams();
   // A file that gets larger than allowed (ulimit -f) is then an error like a full disk, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  end_on_interrupt();
+  std::unique_ptr<RankJob> job = join_ranks(argc, argv);
+  const bool follows = job != nullptr && job->rank() > 0;
+  end_on_interrupt(follows ? InterruptWords::none : InterruptWords::said);
   Terminal terminal;
-  if (::isatty(STDERR_FILENO) != 0) {
+  if (::isatty(STDERR_FILENO) != 0 && !follows) {
     terminal = {&std::cerr, [] { return terminal_columns(STDERR_FILENO); }};
   }
-  return run_command_line(argc, argv, {std::cout, std::cerr, terminal});
+  std::ostringstream unread;
+  CommandEnvironment environment{follows ? static_cast<std::ostream&>(unread) : std::cout,
+                                 follows ? static_cast<std::ostream&>(unread) : std::cerr, terminal};
+  if (job == nullptr) {
+    return run_command_line(argc, argv, environment);
+  }
+  environment.run = [&job](const PipelineOptions& options) { return job->run(options); };
+  environment.over_ranks = job->shares_work();
+  environment.follows = follows;
+  const int code = job->agreed(run_command_line(argc, argv, environment));
+  // Of ranks that end with an error, a launcher tells the others to end, which are about to.
+  ignore_interrupts();
+  job.reset();
+  return code;
 }
 
 }  // namespace trismooth

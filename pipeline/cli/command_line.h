@@ -18,6 +18,10 @@ struct CommandEnvironment {
   std::function<PipelineResult(const PipelineOptions&)> run = &run_pipeline;
   std::function<CudaSupport()> cuda = &cuda_support;
   std::string command = {};  ///< what was typed, for reports; run_command_line() fills it
+  /// The run is shared by the ranks of an MPI job.
+  bool over_ranks = false;
+  /// This is one of its ranks but the first: it takes part in the run and does nothing else.
+  bool follows = false;
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for

@@ -8,6 +8,7 @@
 #include "trismooth/base/instruction_set.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/pipeline/cli/rank_job.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/report/labelled_line.h"
@@ -96,7 +97,7 @@ ExitCode run_info(const CommandEnvironment& environment) {
                          "formats:",
                          names_of_formats() + "; all are read and written, also compressed (.gz)" + missing_formats())
                   << labelled_line("compiler:", compiler()) << labelled_line("SIMD:", simd_level())
-                  << labelled_line("threads:", std::to_string(threads))
+                  << labelled_line("threads:", std::to_string(threads)) << labelled_line("MPI:", mpi_text())
                   << (cuda.backend != nullptr ? wrapped_lines(cuda.lines())
                                               : labelled_line("CUDA:", "not in this build"));
   return ExitCode::done;

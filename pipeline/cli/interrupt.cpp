@@ -22,6 +22,7 @@ constexpr std::array<int, 3> caught_signals{SIGINT, SIGTERM, SIGHUP};
 // All that the handler touches. Lock-free, or a handler could wait for the code that it interrupted.
 std::atomic<std::uint64_t> commits_at_start{0};
 std::atomic<bool> on_terminal{false};
+std::atomic<bool> is_silent{false};
 std::atomic<bool> came_too_late{false};
 std::atomic<bool> leaving{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::uint64_t>::is_always_lock_free);
@@ -31,7 +32,9 @@ void leave(std::string_view words) {
   std::array<char, 128> text{};
   const std::string_view first = on_terminal ? clear_line : std::string_view();
   std::copy(words.begin(), words.end(), std::copy(first.begin(), first.end(), text.begin()));
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), first.size() + words.size());
+  if (!is_silent) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), first.size() + words.size());
+  }
   _exit(static_cast<int>(ExitCode::cancelled));
 }
 
@@ -51,7 +54,8 @@ extern "C" void handle_interrupt(int /*signal*/) {
 
 }  // namespace
 
-void end_on_interrupt() {
+void end_on_interrupt(InterruptWords words) {
+  is_silent = words == InterruptWords::none;
   commits_at_start = OutputFile::commits_begun();
   on_terminal = ::isatty(STDERR_FILENO) != 0;
   struct sigaction action {};
@@ -68,6 +72,12 @@ void end_on_interrupt() {
     if (before.sa_handler != SIG_IGN) {
       ::sigaction(signal, &action, nullptr);
     }
+  }
+}
+
+void ignore_interrupts() {
+  for (const int signal : caught_signals) {
+    std::signal(signal, SIG_IGN);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/cli/format_option.h"
@@ -79,10 +80,12 @@ void require_own_file(const std::filesystem::path& report, const PipelineOptions
 }
 
 /// A place where no file can be made is told before the work, not after it.
-void try_outputs(const MeshRunSettings& settings) {
+void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   const PipelineOptions& options = settings.pipeline;
   require_use_of_format(options.format, {options.input, options.written()});
-  require_known_formats(options);
+  if (!over_ranks || !names_parallel_file(options.input)) {
+    require_known_formats(options);
+  }
   if (const auto& target = options.written(); target && !is_standard_stream(*target)) {
     const OutputFile attempt(*target);
   }
@@ -229,7 +232,11 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
 
   RunRecord record{environment.command, date_text(std::chrono::system_clock::now()), {}};
-  try_outputs(settings);
+  if (environment.follows) {
+    environment.run(options);
+    return ExitCode::done;
+  }
+  try_outputs(settings, environment.over_ranks);
   const PipelineResult result = run_watched(options, verbosity, environment);
 
   for (const Gate& gate : settings.gates) {

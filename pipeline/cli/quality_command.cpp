@@ -48,7 +48,8 @@ Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environm
                     })
       ->group(option_group::results);
   add_annotated_metrics_option(command, *settings);
-  return {&command, [settings, &environment] { return run_on_mesh(*settings, environment); }};
+  constexpr bool runs_pipeline = true;
+  return {&command, [settings, &environment] { return run_on_mesh(*settings, environment); }, runs_pipeline};
 }
 
 }  // namespace trismooth

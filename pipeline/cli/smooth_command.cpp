@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -133,6 +134,13 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
                   "or more are free; else cpu",
                   free_vertices_for_cuda))
       ->group(option_group::running);
+  add_parsed_option(
+      command, "--partition", alternatives<Partition>(),
+      "How the ranks of an MPI job share the mesh out; the result is the same. keep: as the pieces are, of "
+      "one file blocks of vertices; bisect: halved again and again, across the longer side [keep, where "
+      "there is a piece for each rank, else bisect]",
+      [&settings](const std::string& text) { settings.run.pipeline.partition = parse_choice<Partition>(text); })
+      ->group(option_group::running);
   add_enum_option(command, "--topology", options.topology,
                   "Who finds the neighbours; the result is the same. auto: the GPU where it smooths, else the host; "
                   "halfedge: the host by way of a halfedge mesh, which takes longer")
@@ -172,9 +180,12 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
   options.slide.validate();
+  if (environment.over_ranks && settings.backend == BackendChoice::cuda) {
+    throw std::invalid_argument("--backend cuda is not there over the ranks of an MPI job yet; leave it out");
+  }
   const CudaSupport cuda = environment.cuda();
   const CudaOrCpu automatic(cuda);
-  choose_backend(settings.backend, cuda, automatic, options.smoothing);
+  choose_backend(environment.over_ranks ? BackendChoice::cpu : settings.backend, cuda, automatic, options.smoothing);
   return run_on_mesh(std::move(settings.run), environment);
 }
 
@@ -207,7 +218,8 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
                 "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);
   add_annotated_metrics_option(command, settings->run);
-  return {&command, [settings, &environment] { return run_smooth(*settings, environment); }};
+  constexpr bool runs_pipeline = true;
+  return {&command, [settings, &environment] { return run_smooth(*settings, environment); }, runs_pipeline};
 }
 
 }  // namespace trismooth

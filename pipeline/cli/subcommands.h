@@ -14,6 +14,7 @@ namespace trismooth {
 struct Subcommand {
   CLI::App* app = nullptr;
   std::function<ExitCode()> run;
+  bool runs_pipeline = false;  ///< as CommandEnvironment::run does it
 };
 
 /// Each adds its command with its options to `app`; one source file a command. `environment` must outlive the result.

@@ -109,14 +109,7 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
     }
   }
   mesh.triangles = mesh.triangles_of_cells;
-  if (mesh.repeating_triangles > 0) {
-    mesh.notes.push_back(counted(mesh.repeating_triangles, "triangle") + " repeating a vertex (the first is cell " +
-                         std::to_string(first_repeating) + "): kept as they are, their vertices held fixed");
-  }
-  if (mesh.other_cells > mesh.repeating_triangles) {
-    mesh.notes.push_back(counted(mesh.other_cells - mesh.repeating_triangles, "cell") +
-                         " of other types than triangle: kept as they are, their vertices held fixed");
-  }
+  mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating_triangles, first_repeating);
 }
 
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
@@ -178,6 +171,31 @@ PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::p
   PlanarMesh mesh = sorted_mesh(document, path, workers);
   lay_into_plane(mesh, {}, document, path, workers);
   return mesh;
+}
+
+PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
+  check_document_size(document.point_count(), document.cells.size(), path);
+  PlanarMesh mesh;
+  sort_cells(document, mesh, workers);
+  mesh.notes.clear();
+  lay_into_plane(mesh, {}, document, path, workers);
+  return mesh;
+}
+
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t repeating_triangles,
+                                              std::optional<std::size_t> first_repeating) {
+  std::vector<std::string> notes;
+  if (repeating_triangles > 0) {
+    notes.push_back(
+        counted(repeating_triangles, "triangle") + " repeating a vertex" +
+        (first_repeating ? " (the first is cell " + std::to_string(*first_repeating) + ")" : std::string()) +
+        ": kept as they are, their vertices held fixed");
+  }
+  if (other_cells > repeating_triangles) {
+    notes.push_back(counted(other_cells - repeating_triangles, "cell") +
+                    " of other types than triangle: kept as they are, their vertices held fixed");
+  }
+  return notes;
 }
 
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {

@@ -76,6 +76,15 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
 /// The same of a mesh that may lie in no plane, laid into the plane of x and y: z has no say. Do not settle its plane.
 PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
+/// The same of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for the
+/// whole mesh. Throws ReadError naming `path` for too many points or cells.
+PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
+
+/// What the user should know of cells that are no triangles, one sentence each. `first_repeating`: the first triangle
+/// that repeats a vertex, if it is known.
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t repeating_triangles,
+                                              std::optional<std::size_t> first_repeating);
+
 /// Not of a temporary: the triangles may be the document's own.
 PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers) = delete;
 PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path) = delete;
@@ -88,6 +97,9 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
 /// number that is not below `vertex_count`.
+std::vector<std::int64_t> read_vertex_numbers(const std::filesystem::path& path, std::int64_t vertex_count);
+
+/// The same of a mesh whose vertices 32 bits can number.
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
 
 }  // namespace trismooth

@@ -1,8 +1,6 @@
 #include "trismooth/pipeline/input/regions.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -10,20 +8,17 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
+#include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
 
 namespace {
-
-constexpr double most_edges_of_known_names = 1.0 / 2;
-constexpr double most_edges_of_others = 1.0 / 3;
 
 /// An array of numbers, or of texts by their numbers.
 struct Candidate {
@@ -63,12 +58,6 @@ std::string names_of(const std::vector<Candidate>& candidates) {
   std::vector<DataArray> arrays;
   std::ranges::transform(candidates, std::back_inserter(arrays), &Candidate::array);
   return array_names(arrays);
-}
-
-bool is_few(std::int32_t values, std::size_t triangles) {
-  constexpr std::size_t always_few = 10;
-  constexpr std::size_t triangles_a_value = 8;
-  return static_cast<std::size_t>(values) <= std::max(always_few, triangles / triangles_a_value);
 }
 
 class RegionFinder {
@@ -126,77 +115,20 @@ class RegionFinder {
   }
 
   void judge(const Candidate& candidate) {
-    const std::string& name = candidate.array.name;
-    const bool known = is_region_name(name);
-    if (candidate.array.components != 1) {
-      if (known) {
-        regions_.notes.push_back(fmt::format("the cell array '{}' has {} components: it is not taken for regions", name,
-                                             candidate.array.components));
-      }
-      return;
+    ValueNumbers numbers =
+        candidate.array.components == 1 ? number_values(candidate.array, mesh_.cells) : ValueNumbers{};
+    const TriangleValues values{candidate.array.name,
+                                candidate.array.components,
+                                std::ssize(mesh_.triangles),
+                                [&] { return std::int64_t{numbers.count()}; },
+                                [&] { return are_whole(candidate.array, mesh_.cells, numbers); },
+                                [&] { return edges_.vertices_between(numbers.of_item); },
+                                [&] { return edges_.fraction_between(numbers.of_item); }};
+    if (const auto reason = judge_regions(values, regions_.notes)) {
+      obey(candidate, std::move(numbers), *reason);
+    } else if (constant_ == nullptr && is_constant_region(values)) {
+      constant_ = &candidate;
     }
-    ValueNumbers numbers = number_values(candidate.array, mesh_.cells);
-    if (numbers.count() < 2) {
-      if (known && numbers.count() == 1 && constant_ == nullptr) {
-        constant_ = &candidate;
-      }
-    } else if (known) {
-      judge_known(candidate, std::move(numbers));
-    } else {
-      judge_unknown(candidate, std::move(numbers));
-    }
-  }
-
-  void judge_known(const Candidate& candidate, ValueNumbers numbers) {
-    const std::optional<double> edges = edges_above(most_edges_of_known_names, numbers);
-    if (!edges) {
-      obey(candidate, std::move(numbers), RegionReason::known_name);
-      return;
-    }
-    regions_.notes.push_back(fmt::format(
-        "the cell array '{0}' changes across {1:.0f} % of the edges between triangles: it is not taken for regions, "
-        "what is between its values may move; --region-array {2} holds it",
-        candidate.array.name, 100 * *edges, shell_word(candidate.array.name)));
-  }
-
-  void judge_unknown(const Candidate& candidate, ValueNumbers numbers) {
-    const std::string& name = candidate.array.name;
-    const auto left_out = [&](const std::string& why) {
-      regions_.notes.push_back(
-          fmt::format("the cell array '{0}' ({1} values) is not taken for regions, {2}: what is between its values may "
-                      "move; --region-array {3} holds it",
-                      name, numbers.count(), why, shell_word(name)));
-    };
-    if (const std::optional<double> edges = edges_above(most_edges_of_others, numbers)) {
-      if (*edges <= most_edges_of_known_names && !is_bookkeeping_name(name)) {
-        left_out(fmt::format("it changes across {:.0f} % of the edges between triangles", 100 * *edges));
-      }
-    } else if (is_bookkeeping_name(name)) {
-      left_out("by its name it is for another purpose");
-    } else if (!are_whole(candidate.array, mesh_.cells, numbers)) {
-      left_out("it does not hold whole numbers");
-    } else if (!is_few(numbers.count(), mesh_.triangles.size())) {
-      left_out("its values are many for so few triangles");
-    } else {
-      const std::int32_t values = numbers.count();
-      obey(candidate, std::move(numbers), RegionReason::looks_like_regions);
-      regions_.notes.push_back(fmt::format(
-          "the cell array '{0}' ({1} values) looks like regions: the {2} vertices between them are held. If "
-          "that is right, --region-array {3} says so; if not, --region-array none frees them",
-          name, values, regions_.arrays.back().held_vertices, shell_word(name)));
-    }
-  }
-
-  /// The fraction of the inner edges across which the number changes, where it is above `most`, which is 1/3 or more.
-  std::optional<double> edges_above(double most, const ValueNumbers& numbers) {
-    // Few vertices have few edges between them: Euler's formula bounds these by three a vertex, and connected triangles
-    // have about as many inner edges as triangles, at least. So the edges need not be found where interfaces are thin.
-    const auto triangles = static_cast<std::int64_t>(mesh_.triangles.size());
-    if (9 * edges_.vertices_between(numbers.of_item) <= triangles) {
-      return std::nullopt;
-    }
-    const double fraction = edges_.fraction_between(numbers.of_item);
-    return fraction > most ? std::optional(fraction) : std::nullopt;
   }
 
   void obey(const Candidate& candidate, ValueNumbers numbers, RegionReason reason) {

@@ -134,23 +134,6 @@ MeshRings rings_of(RunState& run, const Constraints& constraints) {
   }
 }
 
-void note_irregular_vertices(RunState& run, const ReasonCounts& counts) {
-  std::int64_t non_manifold = 0;
-  std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
-  for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
-    const bool on_edge = (reasons & hold::non_manifold) != 0;
-    non_manifold += on_edge ? counts[reasons] : 0;
-    bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
-  }
-  const auto note = [&](std::int64_t count, const std::string& where) {
-    if (count > 0) {
-      run.note(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + where + ": held fixed");
-    }
-  };
-  note(non_manifold, "on edges of three triangles or more");
-  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
-}
-
 void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   InputSummary& input = run.result.input;
   input.triangles = static_cast<std::int64_t>(run.mesh.triangles.size());
@@ -225,7 +208,7 @@ void connect_mesh(RunState& run) {
     run.found.slidable = mesh.plane.aligned ? std::move(run.found.slidable) : Slidable{};
   }
   const ReasonCounts reasons = count_vertices(run);
-  note_irregular_vertices(run, reasons);
+  std::ranges::move(notes_of_irregular_vertices(reasons), std::back_inserter(result.notes));
   summarise_mesh(run, reasons);
   input.fixed_array = named.array;
   input.fixed_array_vertices = named.vertices;
@@ -234,6 +217,25 @@ void connect_mesh(RunState& run) {
   input.line_groups = find_line_groups(document);
   input.fixed_ids = options.fixed_ids.value_or(std::filesystem::path{});
   find_fields(run);
+}
+
+std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts) {
+  std::int64_t non_manifold = 0;
+  std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
+  for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
+    const bool on_edge = (reasons & hold::non_manifold) != 0;
+    non_manifold += on_edge ? counts[reasons] : 0;
+    bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
+  }
+  std::vector<std::string> notes;
+  const auto note = [&](std::int64_t count, const std::string& where) {
+    if (count > 0) {
+      notes.push_back(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + where + ": held fixed");
+    }
+  };
+  note(non_manifold, "on edges of three triangles or more");
+  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
+  return notes;
 }
 
 }  // namespace trismooth

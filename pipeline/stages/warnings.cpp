@@ -1,6 +1,8 @@
 #include "trismooth/pipeline/stages/warnings.h"
 
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,43 +22,21 @@ void warn_of_precision(RunState& run) {
     return;
   }
   const PrecisionLoss loss = single_precision_loss(run.view(), options.threads);
-  if (!loss.any()) {
-    return;
+  if (loss.any()) {
+    run.warn(warning_of(loss, options));
   }
-  run.warn(describe(loss) + (options.guard ? "; the guard checks the result in double" : "") +
-           "; --precision double smooths it as it is");
 }
 
 void warn_of_options_without_effect(RunState& run) {
-  const SmoothingOptions& options = run.options.smoothing;
-  const MeanRatioOptions& given = options.mean_ratio;
-  const MeanRatioOptions usual;
-  if (options.method == Method::mean_ratio) {
-    return;
-  }
-  std::vector<std::string_view> names;
-  if (run.options.size_array) {
-    names.emplace_back("--size-array");
-  }
-  if (given.target != usual.target) {
-    names.emplace_back("--target");
-  }
-  if (given.size_weight != usual.size_weight) {
-    names.emplace_back("--size-weight");
-  }
-  if (given.power != usual.power) {
-    names.emplace_back("--power");
-  }
-  if (!names.empty()) {
-    run.warn(fmt::format("the method {} takes no notice of {}; --method mean-ratio does", to_string(options.method),
-                         fmt::join(names, ", ")));
+  if (std::string warning = warning_of_options_without_effect(run.options); !warning.empty()) {
+    run.warn(std::move(warning));
   }
 }
 
 void warn_of_boundary(RunState& run) {
   if (const CoarseBoundary coarse = find_coarse_boundary(run.view(), run.found.fixed, run.options.smoothing.threads);
       coarse.any()) {
-    run.warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
+    run.warn(warning_of(coarse));
   }
 }
 
@@ -71,6 +51,37 @@ void warn_of_projection(RunState& run) {
 }
 
 }  // namespace
+
+std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& options) {
+  return describe(loss) + (options.guard ? "; the guard checks the result in double" : "") +
+         "; --precision double smooths it as it is";
+}
+
+std::string warning_of(const CoarseBoundary& coarse) {
+  return describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)";
+}
+
+std::string warning_of_options_without_effect(const PipelineOptions& options) {
+  const MeanRatioOptions& given = options.smoothing.mean_ratio;
+  const MeanRatioOptions usual;
+  std::vector<std::string_view> names;
+  if (options.size_array) {
+    names.emplace_back("--size-array");
+  }
+  if (given.target != usual.target) {
+    names.emplace_back("--target");
+  }
+  if (given.size_weight != usual.size_weight) {
+    names.emplace_back("--size-weight");
+  }
+  if (given.power != usual.power) {
+    names.emplace_back("--power");
+  }
+  return options.smoothing.method == Method::mean_ratio || names.empty()
+             ? std::string()
+             : fmt::format("the method {} takes no notice of {}; --method mean-ratio does",
+                           to_string(options.smoothing.method), fmt::join(names, ", "));
+}
 
 void warn_before_smoothing(RunState& run) {
   warn_of_precision(run);

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <string>
+
 namespace trismooth {
 
+struct CoarseBoundary;
+struct PipelineOptions;
+struct PrecisionLoss;
 struct RunState;
+struct SmoothingOptions;
 struct SmoothingResult;
 
 /// What the user should know before the smoothing: what single precision loses, options that the method takes no notice
 /// of, a boundary that is too coarse.
 void warn_before_smoothing(RunState& run);
+
+/// The sentences of these warnings. There is something lost, and a boundary that is too coarse.
+std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& options);
+std::string warning_of(const CoarseBoundary& coarse);
+/// Empty where the method takes notice of all options.
+std::string warning_of_options_without_effect(const PipelineOptions& options);
 
 /// And after it: folds that the never-worse check put back.
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing);

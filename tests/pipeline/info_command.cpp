@@ -14,7 +14,7 @@ TEST_CASE("info names version, formats, instructions and devices") {
   const Outcome outcome = call({"info"});
   CHECK(outcome.code == 0);
   for (const char* words : {"trismooth ", "off (.off), obj (.obj), ply (.ply), stl (.stl), vtk (.vtk),", "compressed",
-                            "SIMD:", "threads:", "CUDA:       not in this build"}) {
+                            "SIMD:", "threads:", "MPI:", "CUDA:       not in this build"}) {
     CAPTURE(words);
     CHECK(outcome.shows(words));
   }

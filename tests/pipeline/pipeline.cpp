@@ -379,3 +379,21 @@ TEST_CASE("a mesh that was turned over is reported as it is turned now") {
   again.input = *options.output;
   CHECK(trismooth::run_pipeline(again).before.metrics[0].min == result.after->metrics[0].min);
 }
+
+TEST_CASE("a mesh in pieces is for the program over MPI ranks, and is written only where one is read") {
+  const auto refusal = [](const PipelineOptions& options) -> std::string {
+    try {
+      trismooth::run_pipeline(options);
+      return {};
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  PipelineOptions pieces;
+  pieces.input = "big.pvtu";
+  CHECK(refusal(pieces).find("big.pvtu: is a mesh in pieces, which the program reads where it is built with MPI") == 0);
+  const Files files(test_meshes::jittered_grid(3, 3, 0.2, 1));
+  PipelineOptions options = files.options();
+  options.output = "out.pvtu";
+  CHECK(refusal(options).find("out.pvtu: is the name of a mesh in pieces") == 0);
+}

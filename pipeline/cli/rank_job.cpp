@@ -1,0 +1,115 @@
+#include "trismooth/pipeline/cli/rank_job.h"
+
+// The one place that knows whether the build has MPI.
+#ifdef TRISMOOTH_HAS_MPI
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <exception>
+#include <span>
+
+#include <mpi.h>
+
+#include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/pipeline/ranks/one_file_run.h"
+#include "trismooth/pipeline/ranks/piece_run.h"
+#endif
+
+namespace trismooth {
+
+#ifdef TRISMOOTH_HAS_MPI
+
+namespace {
+
+/// By what the launchers of Open MPI, MPICH, Intel MPI and Slurm tell the processes that they start.
+bool has_launcher() {
+  constexpr std::array names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMI_RANK", "PMIX_RANK"};
+  return std::ranges::any_of(names, [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+class MpiJob final : public RankJob {
+ public:
+  explicit MpiJob(bool has_pieces) : has_pieces_(has_pieces) {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    ranks_ = std::make_shared<const mpi::Communicator>(MPI_COMM_WORLD);
+  }
+
+  ~MpiJob() override {
+    ranks_.reset();
+    MPI_Finalize();
+  }
+
+  int rank() const override { return ranks_->rank(); }
+  bool shares_work() const override { return has_pieces_ || ranks_->size() > 1; }
+
+  PipelineResult run(const PipelineOptions& options) override {
+    if (!starts(true)) {
+      return {};
+    }
+    try {
+      return names_parallel_file(options.input) ? run_pieces(options, ranks_)
+             : ranks_->size() > 1               ? run_one_file(options, ranks_)
+                                                : run_pipeline(options);
+    } catch (const std::exception&) {
+      if (rank() == 0) {
+        throw;
+      }
+      return {};
+    }
+  }
+
+  int agreed(int code) override {
+    if (!is_settled_ && starts(false)) {
+      // Rank 0 has begun what this one cannot take part in.
+      MPI_Abort(MPI_COMM_WORLD, code);
+    }
+    MPI_Bcast(&code, 1, MPI_INT, 0, ranks_->handle());
+    return code;
+  }
+
+ private:
+  /// What rank 0 says of whether there is a run.
+  bool starts(bool own) {
+    int starts = own ? 1 : 0;
+    MPI_Bcast(&starts, 1, MPI_INT, 0, ranks_->handle());
+    is_settled_ = true;
+    return starts != 0;
+  }
+
+  bool has_pieces_;
+  bool is_settled_ = false;
+  std::shared_ptr<const mpi::Communicator> ranks_;
+};
+
+}  // namespace
+
+std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv) {
+  const std::span arguments(argv, static_cast<std::size_t>(argc));
+  const bool has_pieces =
+      std::ranges::any_of(arguments, [](const char* argument) { return names_parallel_file(argument); });
+  return has_pieces || has_launcher() ? std::make_unique<MpiJob>(has_pieces) : nullptr;
+}
+
+std::string mpi_text() {
+  std::string library(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
+  int length = 0;
+  MPI_Get_library_version(library.data(), &length);
+  library.resize(static_cast<std::size_t>(length));
+  // (Some say more than which one they are.)
+  return library.substr(0, library.find_first_of(",\n")) + "; reads meshes in pieces (.pvtu, .pvtp)";
+}
+
+#else
+
+std::string mpi_text() {
+  return "not in this build";
+}
+
+std::unique_ptr<RankJob> join_ranks(int /*argc*/, const char* const* /*argv*/) {
+  return nullptr;
+}
+
+#endif
+
+}  // namespace trismooth

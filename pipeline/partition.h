@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/base/enum_text.h"
+
+namespace trismooth {
+
+/// How a mesh is shared out among the ranks of an MPI job. No result depends on it.
+enum class Partition : std::uint8_t {
+  keep,    ///< as the files have it: pieces, one block of them after the other; of one file, vertices likewise
+  bisect,  ///< halved again and again, across the longer side of each half
+};
+
+template <>
+struct EnumText<Partition> {
+  static constexpr std::string_view what = "partition";
+  static constexpr std::array<std::pair<Partition, std::string_view>, 2> texts{
+      {{Partition::keep, "keep"}, {Partition::bisect, "bisect"}}};
+};
+
+}  // namespace trismooth

@@ -1,0 +1,131 @@
+#include "trismooth/pipeline/ranks/bisection.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <limits>
+
+#include <mpi.h>
+
+namespace trismooth {
+
+namespace {
+
+/// A number that stands in the order of coordinates, -0 as 0.
+std::uint64_t in_order(double coordinate) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
+  const auto bits = std::bit_cast<std::uint64_t>(coordinate + 0.0);
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+/// Ranks that have not been told apart yet.
+struct Group {
+  int first;
+  int count;
+};
+
+/// Cuts the points of all groups, each of more than one rank in two.
+class Level {
+ public:
+  Level(std::span<const Point2<double>> points, const std::vector<Group>& groups, std::vector<std::int32_t>& group_of,
+        const mpi::Communicator& ranks)
+      : points_(points), groups_(groups), group_of_(group_of), ranks_(ranks) {}
+
+  std::vector<Group> cut() {
+    find_sides();
+    find_cuts();
+    std::vector<Group> halves;
+    for (const Group& group : groups_) {
+      const int lower = group.count / 2;
+      halves.push_back({group.first, group.count - lower});
+      halves.push_back({group.first + group.count - lower, lower});
+    }
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const auto g = static_cast<std::size_t>(group_of_[p]);
+      const bool is_beyond = groups_[g].count > 1 && key(p, g) > cuts_[g];
+      group_of_[p] = static_cast<std::int32_t>(2 * g + (is_beyond ? 1 : 0));
+    }
+    return halves;
+  }
+
+ private:
+  std::uint64_t key(std::size_t point, std::size_t group) const {
+    return in_order(along_y_[group] != 0 ? points_[point].y : points_[point].x);
+  }
+
+  /// Across which side each group is cut.
+  void find_sides() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> ends(4 * groups_.size(), -infinity);  // of each group: x, -x, y, -y
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      double* const end = ends.data() + 4 * static_cast<std::size_t>(group_of_[p]);
+      const auto& [x, y] = points_[p];
+      end[0] = std::max(end[0], x);
+      end[1] = std::max(end[1], -x);
+      end[2] = std::max(end[2], y);
+      end[3] = std::max(end[3], -y);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_DOUBLE, MPI_MAX, ranks_.handle());
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      // Halves, so that no extent overflows.
+      const double x = ends[4 * g] / 2 + ends[4 * g + 1] / 2;
+      const double y = ends[4 * g + 2] / 2 + ends[4 * g + 3] / 2;
+      along_y_.push_back(y > x ? 1 : 0);
+    }
+  }
+
+  /// The number of each group's points that are not beyond its cut.
+  std::vector<std::int64_t> count_within(const std::vector<std::uint64_t>& cuts) const {
+    std::vector<std::int64_t> counts(groups_.size(), 0);
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const auto g = static_cast<std::size_t>(group_of_[p]);
+      counts[g] += key(p, g) <= cuts[g] ? 1 : 0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, ranks_.handle());
+    return counts;
+  }
+
+  /// The lowest cuts that leave the first halves of the groups enough points: bit by bit.
+  void find_cuts() {
+    constexpr std::uint64_t all_bits = std::numeric_limits<std::uint64_t>::max();
+    std::vector<std::int64_t> wanted = count_within(std::vector<std::uint64_t>(groups_.size(), all_bits));
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const int count = std::max(groups_[g].count, 1);
+      const int lower = count - count / 2;
+      wanted[g] = wanted[g] / count * lower + wanted[g] % count * lower / count;
+    }
+    cuts_.assign(groups_.size(), all_bits);
+    for (int bit = 63; bit >= 0; --bit) {
+      std::vector<std::uint64_t> lower = cuts_;
+      for (std::uint64_t& cut : lower) {
+        cut ^= std::uint64_t{1} << static_cast<unsigned>(bit);
+      }
+      const std::vector<std::int64_t> counts = count_within(lower);
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        cuts_[g] = counts[g] >= wanted[g] ? lower[g] : cuts_[g];
+      }
+    }
+  }
+
+  std::span<const Point2<double>> points_;
+  const std::vector<Group>& groups_;
+  std::vector<std::int32_t>& group_of_;
+  const mpi::Communicator& ranks_;
+  std::vector<std::uint8_t> along_y_;
+  std::vector<std::uint64_t> cuts_;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> bisected(std::span<const Point2<double>> points, const mpi::Communicator& ranks) {
+  std::vector<Group> groups{{0, ranks.size()}};
+  std::vector<std::int32_t> group_of(points.size(), 0);
+  while (std::ranges::any_of(groups, [](const Group& group) { return group.count > 1; })) {
+    groups = Level(points, groups, group_of, ranks).cut();
+  }
+  std::ranges::transform(group_of, group_of.begin(),
+                         [&](std::int32_t group) { return groups[static_cast<std::size_t>(group)].first; });
+  return group_of;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,211 @@
+#include "trismooth/pipeline/ranks/one_file_run.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include "trismooth/base/hold.h"
+#include "trismooth/mpi/plan.h"
+#include "trismooth/pipeline/ranks/bisection.h"
+#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/cpu_backend.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What rank 0 wants of the others. Of options the pipeline changes no more than these.
+struct RankCommand {
+  enum class What : std::uint8_t { end, smooth };
+
+  What what = What::end;
+  Storage storage = Storage::float64;
+  bool guard = true;
+};
+
+void share_command(RankCommand& command, const mpi::Communicator& ranks) {
+  MPI_Bcast(&command, sizeof(command), MPI_BYTE, 0, ranks.handle());
+}
+
+/// How the vertices are shared out: as the ranks that have them do not, all being rank 0's, somebody has to say it.
+std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> points, Partition partition,
+                                             const mpi::Communicator& ranks) {
+  if (partition == Partition::bisect) {
+    return bisected(points, ranks);
+  }
+  std::vector<std::int32_t> owners(points.size());
+  for (std::size_t v = 0; v < owners.size(); ++v) {
+    owners[v] = static_cast<std::int32_t>(v * static_cast<std::size_t>(ranks.size()) / owners.size());
+  }
+  return owners;
+}
+
+/// The mesh of rank 0, nothing on the others.
+struct WholeMesh {
+  std::span<const Triangle> triangles;
+  std::span<const std::uint8_t> fixed;  ///< bits of namespace hold
+};
+
+SmoothingResult smooth_over_ranks(const WholeMesh& mesh, std::span<Point2<double>> points, Storage storage,
+                                  SmoothingOptions options, Partition partition, const mpi::Communicator& ranks) {
+  options.backend = nullptr;
+  std::vector<std::int64_t> ids(points.size());
+  std::iota(ids.begin(), ids.end(), std::int64_t{0});
+  std::vector<std::uint8_t> named(points.size(), 0);
+  std::vector<std::uint8_t> in_other_cell(points.size(), 0);
+  for (std::size_t v = 0; v < mesh.fixed.size(); ++v) {
+    // Why else they are held the plan finds itself; who says so does not matter.
+    named[v] = (mesh.fixed[v] & ~hold::isolated) != 0 ? 1 : 0;
+    in_other_cell[v] = mesh.fixed[v] & hold::other_cell;
+  }
+  const std::vector<std::int32_t> owners = owners_of_one_file(points, partition, ranks);
+  const mpi::LocalMesh local{mesh.triangles, ids, owners};
+  const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
+  return mpi::Plan(ranks.handle(), local, constraints, options).smooth(PointView(points), storage);
+}
+
+/// Of rank 0: has the others take part.
+class RankSmoother final : public PreparedSmoother {
+ public:
+  RankSmoother(MeshRings mesh, std::span<const Triangle> triangles, SmoothingOptions options, Partition partition,
+               const mpi::Communicator& ranks)
+      : fixed_(std::move(mesh.fixed)),
+        triangles_(triangles.begin(), triangles.end()),
+        options_(std::move(options)),
+        partition_(partition),
+        ranks_(ranks) {}
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& /*frame*/) override {
+    RankCommand command{RankCommand::What::smooth, storage, options_.guard};
+    share_command(command, ranks_);
+    return smooth_over_ranks({triangles_, fixed_}, points, storage, options_, partition_, ranks_);
+  }
+
+  std::vector<std::uint8_t> fixed() const override { return fixed_; }
+
+ private:
+  std::vector<std::uint8_t> fixed_;
+  std::vector<Triangle> triangles_;
+  SmoothingOptions options_;
+  Partition partition_;
+  const mpi::Communicator& ranks_;
+};
+
+/// What rank 0 does alone, and says so.
+class LonelySmoother final : public PreparedSmoother {
+ public:
+  LonelySmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
+      : smoother_(std::move(smoother)), note_(std::move(note)) {}
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
+    SmoothingResult result = smoother_->smooth(points, storage, frame);
+    result.backend_note = note_;
+    return result;
+  }
+
+  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
+
+ private:
+  std::unique_ptr<PreparedSmoother> smoother_;
+  std::string note_;
+};
+
+bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
+                          std::span<const Point2<double>> local) {
+  const TriangleView view{local, triangles, reversed, 0};
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = canonical_corners(view, t);
+    if (!(shape_quotient(local[static_cast<std::size_t>(a)], local[static_cast<std::size_t>(b)],
+                         local[static_cast<std::size_t>(c)]) > 0)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The CPUs of all ranks, for rank 0 that has the mesh.
+class RankBackend final : public Backend {
+ public:
+  RankBackend(Partition partition, const mpi::Communicator& ranks) : partition_(partition), ranks_(ranks) {}
+
+  std::string name() const override { return cpu_backend().name(); }
+
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+                                            std::span<const Point2<double>> local,
+                                            const SmoothingOptions& options) const override {
+    const auto alone = [&](const std::string& why) {
+      return std::make_unique<LonelySmoother>(
+          cpu_backend().prepare(std::move(mesh), triangles, local, options),
+          why + " by one rank alone, not by the " + std::to_string(ranks_.size()) + " there are");
+    };
+    if (mesh.slidable.is_wanted()) {
+      return alone("vertices slide");
+    }
+    if (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local)) {
+      return alone("inverted triangles are untangled");
+    }
+    return std::make_unique<RankSmoother>(std::move(mesh), triangles, options, partition_, ranks_);
+  }
+
+ private:
+  Partition partition_;
+  const mpi::Communicator& ranks_;
+};
+
+/// The other ranks: take part as often as rank 0 asks them to.
+void follow(const SmoothingOptions& options, Partition partition, const mpi::Communicator& ranks) {
+  RankCommand command;
+  for (share_command(command, ranks); command.what == RankCommand::What::smooth; share_command(command, ranks)) {
+    SmoothingOptions own = options;
+    own.guard = command.guard;
+    own.progress = {};
+    try {
+      (void)smooth_over_ranks({}, {}, command.storage, own, partition, ranks);
+    } catch (const std::exception&) {
+      // All ranks have got it, and rank 0 tells it.
+      continue;
+    }
+  }
+}
+
+/// Lets the other ranks go, whatever becomes of rank 0's run.
+class RanksRelease {
+ public:
+  explicit RanksRelease(const mpi::Communicator& ranks) : ranks_(ranks) {}
+  RanksRelease(const RanksRelease&) = delete;
+  RanksRelease& operator=(const RanksRelease&) = delete;
+  ~RanksRelease() {
+    RankCommand command;
+    share_command(command, ranks_);
+  }
+
+ private:
+  const mpi::Communicator& ranks_;
+};
+
+}  // namespace
+
+PipelineResult run_one_file(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
+  const Partition partition = options.partition.value_or(Partition::bisect);
+  if (ranks->rank() > 0) {
+    follow(options.smoothing, partition, *ranks);
+    return {};
+  }
+  const RanksRelease release(*ranks);
+  const RankBackend backend(partition, *ranks);
+  PipelineOptions own = options;
+  own.smoothing.backend = &backend;
+  return run_pipeline(own);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,42 @@
+#include "trismooth/pipeline/ranks/piece.h"
+
+#include "trismooth/base/cell_list.h"
+
+namespace trismooth {
+
+OwnCells count_own_cells(const Piece& piece) {
+  const CellList& cells = piece.document.cells;
+  OwnCells count;
+  std::vector<std::uint8_t> has_triangles(cells.size(), 0);
+  for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+    has_triangles[static_cast<std::size_t>(piece.mesh.cells[t])] = 1;
+    count.triangles += piece.is_ghost(t) ? 0 : 1;
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (piece.ghost_cells[c] != 0) {
+      continue;
+    }
+    ++count.cells;
+    if (has_triangles[c] == 0) {
+      const bool is_triangular = cells.types[c] == cell_type::triangle || cells.types[c] == cell_type::polygon;
+      ++count.others;
+      count.repeating += is_triangular && cells[c].size() == 3 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document) {
+  constexpr unsigned duplicate_cell = 1;
+  std::vector<std::uint8_t> ghosts(document.cells.size(), 0);
+  const DataArray* const types = find_array(document.cell_arrays, "vtkGhostType");
+  if (types != nullptr && types->type == ScalarType::uint8 && types->components == 1) {
+    const auto values = types->as<std::uint8_t>();
+    for (std::size_t c = 0; c < ghosts.size(); ++c) {
+      ghosts[c] = static_cast<std::uint8_t>(values[c] & duplicate_cell);
+    }
+  }
+  return ghosts;
+}
+
+}  // namespace trismooth

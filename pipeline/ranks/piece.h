@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+
+namespace trismooth {
+
+/// A piece of a mesh that a rank has read.
+struct Piece {
+  std::size_t number = 0;  ///< among those of the parallel file, from 0
+  std::filesystem::path path;
+  MeshDocument document;
+  PlanarMesh mesh;                        ///< in the plane of x and y
+  std::vector<std::uint8_t> ghost_cells;  ///< one flag a cell: 1 where another piece has it
+  std::vector<std::int64_t> ids;          ///< one a point: its number in the whole mesh
+  std::vector<std::int32_t> vertices;     ///< one a point: its number among those of the rank
+
+  bool is_ghost(std::size_t triangle) const { return ghost_cells[static_cast<std::size_t>(mesh.cells[triangle])] != 0; }
+};
+
+/// The cells of a piece that no other piece has.
+struct OwnCells {
+  std::int64_t triangles = 0;  ///< those of strips count one by one
+  std::int64_t cells = 0;
+  std::int64_t others = 0;     ///< that are no triangles
+  std::int64_t repeating = 0;  ///< those of them that are triangles but for a vertex that they repeat
+};
+
+/// Counts them. Complexity: linear.
+OwnCells count_own_cells(const Piece& piece);
+
+/// Marks the cells that vtkGhostType tells to be copies.
+std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document);
+
+}  // namespace trismooth

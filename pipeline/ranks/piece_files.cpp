@@ -1,0 +1,243 @@
+#include "trismooth/pipeline/ranks/piece_files.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+
+namespace trismooth {
+
+namespace {
+
+std::vector<PieceArray> arrays_of_piece(const MeshDocument& document) {
+  std::vector<PieceArray> arrays{{PieceArray::Of::coordinates, document.point_type, 3, {}}};
+  const auto add = [&](PieceArray::Of of, std::span<const DataArray> listed) {
+    for (const DataArray& array : listed) {
+      arrays.push_back({of, array.type, array.components, array.name});
+    }
+  };
+  add(PieceArray::Of::points, document.point_arrays);
+  add(PieceArray::Of::cells, document.cell_arrays);
+  return arrays;
+}
+
+std::string text_of_array(const PieceArray& array) {
+  if (array.of == PieceArray::Of::coordinates) {
+    return "coordinates of type " + std::string(to_string(array.type));
+  }
+  return std::string("the ") + (array.of == PieceArray::Of::points ? "point" : "cell") + " array '" + array.name +
+         "' of type " + std::string(to_string(array.type)) + " and " + std::to_string(array.components) +
+         (array.components == 1 ? " component" : " components");
+}
+
+/// As bytes for other ranks, names ending in zeros.
+std::vector<char> packed(const std::vector<PieceArray>& arrays) {
+  std::vector<char> bytes;
+  for (const PieceArray& array : arrays) {
+    bytes.push_back(static_cast<char>(array.of));
+    bytes.push_back(static_cast<char>(array.type));
+    const auto* const components = reinterpret_cast<const char*>(&array.components);
+    bytes.insert(bytes.end(), components, components + sizeof(array.components));
+    bytes.insert(bytes.end(), array.name.begin(), array.name.end());
+    bytes.push_back('\0');
+  }
+  return bytes;
+}
+
+std::vector<PieceArray> unpacked(const std::vector<char>& bytes) {
+  std::vector<PieceArray> arrays;
+  for (auto at = bytes.begin(); at != bytes.end();) {
+    PieceArray array{static_cast<PieceArray::Of>(at[0]), static_cast<ScalarType>(at[1]), 0, {}};
+    std::memcpy(&array.components, &at[2], sizeof(array.components));
+    const auto name = at + 2 + sizeof(array.components);
+    const auto end = std::find(name, bytes.end(), '\0');
+    array.name.assign(name, end);
+    arrays.push_back(std::move(array));
+    at = end + 1;
+  }
+  return arrays;
+}
+
+bool holds_something(const Piece& piece) {
+  return piece.document.point_count() > 0 || piece.document.cells.size() > 0;
+}
+
+/// What the first rank with anything sends, on all ranks.
+std::vector<char> first_of(const std::vector<char>& own, const mpi::Communicator& ranks) {
+  auto sent = mpi::lists_by_rank<char>(ranks);
+  sent[0] = own;
+  const mpi::ByRank<char> received = ranks.exchanged(sent);
+  const auto first = std::ranges::find_if(received, [](const std::vector<char>& bytes) { return !bytes.empty(); });
+  std::vector<char> bytes = first == received.end() ? std::vector<char>{} : *first;
+  ranks.broadcast(bytes);
+  return bytes;
+}
+
+/// Finds the arrays, and throws ReadError where a piece has not those of the first that has anything: empty pieces have
+/// nothing to give an array values for, and some programs leave arrays out of them.
+void find_arrays(PieceFiles& files, const mpi::Communicator& ranks) {
+  const auto own = std::ranges::find_if(files.pieces, &holds_something);
+  const bool has_any = own != files.pieces.end();
+  const std::string own_path = has_any ? own->path.string() : std::string();
+  files.arrays = unpacked(first_of(has_any ? packed(arrays_of_piece(own->document)) : std::vector<char>{}, ranks));
+  const std::vector<char> path = first_of({own_path.begin(), own_path.end()}, ranks);
+  agree(ranks, [&] {
+    const auto require_all = [](const std::vector<PieceArray>& some, const std::vector<PieceArray>& others,
+                                const std::string& lacking, const std::string& having) {
+      for (const PieceArray& array : some) {
+        if (std::ranges::find(others, array) == others.end()) {
+          throw ReadError(lacking, "has not " + text_of_array(array) + ", which " + having +
+                                       " has; all pieces of a mesh must have the same arrays");
+        }
+      }
+    };
+    const std::string first_path(path.begin(), path.end());
+    for (const Piece& piece : files.pieces) {
+      if (holds_something(piece)) {
+        const std::vector<PieceArray> arrays = arrays_of_piece(piece.document);
+        require_all(files.arrays, arrays, piece.path.string(), first_path);
+        require_all(arrays, files.arrays, first_path, piece.path.string());
+      }
+    }
+  });
+}
+
+Piece read_piece(const PieceFiles& files, std::size_t number, Workers& workers) {
+  Piece piece;
+  piece.number = number;
+  piece.path = files.path_of(number);
+  piece.document = read_mesh(piece.path, workers.count());
+  if (piece.document.format != files.file.piece_format) {
+    throw ReadError(piece.path, "is a file of " + std::string(title_of(piece.document.format)) + "; the pieces of " +
+                                    files.path.string() + " are " + std::string(title_of(files.file.piece_format)));
+  }
+  if (!piece.document.cell_labels.empty()) {
+    throw ReadError(piece.path, "holds texts at cells ('" + piece.document.cell_labels.front().name +
+                                    "'), which a mesh in pieces may not have yet");
+  }
+  piece.mesh = mesh_of_piece(piece.document, piece.path, workers);
+  piece.ghost_cells = ghost_cells_of(piece.document);
+  return piece;
+}
+
+/// The first piece of a rank. The lowest ranks have one where there are fewer pieces than ranks.
+std::size_t block_begin(std::size_t pieces, int rank, const mpi::Communicator& ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  return (pieces * static_cast<std::size_t>(rank) + size - 1) / size;
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code is_absent;  // what does not exist is no other's file
+  return std::filesystem::equivalent(a, b, is_absent) || a.lexically_normal() == b.lexically_normal();
+}
+
+void write_text(OutputFile& file, const std::filesystem::path& target, const std::string& text) {
+  std::ofstream stream(file.path(), std::ios::binary);
+  stream << text << std::flush;
+  if (!stream) {
+    throw WriteError(target, "cannot be written");
+  }
+}
+
+}  // namespace
+
+PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers) {
+  PieceFiles files;
+  files.path = path;
+  std::vector<char> bytes;
+  agree(ranks, [&] {
+    if (ranks.rank() == 0) {
+      const FileBytes read = read_file_bytes(path);
+      bytes.assign(read.view().begin(), read.view().end());
+    }
+  });
+  ranks.broadcast(bytes);
+  files.bytes.assign(bytes.begin(), bytes.end());
+  agree(ranks, [&] {
+    files.file = read_parallel_file(path, files.bytes);
+    const std::size_t count = files.file.pieces.size();
+    for (std::size_t i = block_begin(count, ranks.rank(), ranks); i < block_begin(count, ranks.rank() + 1, ranks);
+         ++i) {
+      files.pieces.push_back(read_piece(files, i, workers));
+    }
+  });
+  find_arrays(files, ranks);
+  return files;
+}
+
+std::vector<std::string> output_sources(const PieceFiles& files, const std::filesystem::path& output) {
+  std::vector<std::string> sources;
+  for (const PieceName& piece : files.file.pieces) {
+    sources.push_back(piece.source);
+  }
+  if (is_same_file(files.path, output)) {
+    return sources;
+  }
+  const std::string extension(extensions_of(files.file.piece_format).front());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    sources[i] = output.stem().string() + "_" + std::to_string(i) + extension;
+  }
+  return sources;
+}
+
+void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output) {
+  if (is_same_file(files.path, output)) {
+    return;
+  }
+  std::set<std::filesystem::path> read;
+  for (std::size_t i = 0; i < files.file.pieces.size(); ++i) {
+    read.insert(std::filesystem::weakly_canonical(files.path_of(i)));
+  }
+  for (const std::string& source : output_sources(files, output)) {
+    const std::filesystem::path target = piece_path(output, source);
+    if (read.contains(std::filesystem::weakly_canonical(target))) {
+      throw std::invalid_argument(target.string() + " would be a piece of " + output.string() +
+                                  " and is one of the input; choose another name for the output");
+    }
+  }
+}
+
+void write_pieces(const PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
+                  Workers& workers) {
+  std::vector<std::unique_ptr<OutputFile>> written;
+  agree(ranks, [&] {
+    const std::vector<std::string> sources = output_sources(files, output);
+    for (const Piece& piece : files.pieces) {
+      const std::filesystem::path target = piece_path(output, sources[piece.number]);
+      written.push_back(std::make_unique<OutputFile>(target));
+      try {
+        piece.document.original->write(written.back()->path(), piece.document, {}, {}, workers);
+      } catch (const WriteError& error) {
+        throw WriteError(target, error.reason);  // which names the temporary file
+      }
+      written.back()->prepare();
+    }
+    if (ranks.rank() == 0) {
+      written.push_back(std::make_unique<OutputFile>(output));
+      write_text(*written.back(), output, with_sources(files.bytes, files.file, sources));
+      written.back()->prepare();
+    }
+  });
+  agree(ranks, [] { OutputFile::begin_commits(); });
+  const std::size_t pieces = files.pieces.size();
+  agree(ranks, [&] {
+    for (std::size_t i = 0; i < pieces; ++i) {
+      written[i]->commit();
+    }
+  });
+  agree(ranks, [&] {
+    if (ranks.rank() == 0) {
+      written.back()->commit();
+    }
+  });
+}
+
+}  // namespace trismooth

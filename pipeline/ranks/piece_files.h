@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/bytes/output_file.h"
+#include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/ranks/piece.h"
+
+namespace trismooth {
+
+/// An array that every piece has that holds anything.
+struct PieceArray {
+  enum class Of : std::uint8_t { coordinates, points, cells };
+
+  Of of = Of::points;
+  ScalarType type = ScalarType::float64;
+  std::uint64_t components = 1;
+  std::string name;
+
+  bool operator==(const PieceArray&) const = default;
+};
+
+/// A parallel file and the pieces of it that this rank has: contiguous blocks of pieces, one after the other.
+struct PieceFiles {
+  std::filesystem::path path;
+  std::string bytes;  ///< of the parallel file
+  ParallelFile file;
+  std::vector<PieceArray> arrays;  ///< in the order of the first piece that holds anything; known to all ranks
+  std::deque<Piece> pieces;
+
+  std::filesystem::path path_of(std::size_t piece) const { return piece_path(path, file.pieces[piece].source); }
+};
+
+/// Reads it, and checks that all pieces have the same arrays. Collective. Throws ReadError on all ranks.
+PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers);
+
+/// Where the pieces of `output` are to be, from its folder: those of the input itself where it is written back, else
+/// new files beside `output`, called after it.
+std::vector<std::string> output_sources(const PieceFiles& files, const std::filesystem::path& output);
+
+/// Throws std::invalid_argument where writing the pieces of `output` would overwrite those of another file, the input.
+void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output);
+
+/// Writes the pieces with their points as they are now, and the parallel file: all of them beside their targets first,
+/// then, when every rank has done so, in their places, the parallel file last. Collective. Throws WriteError on all
+/// ranks; whatever stood there survives that.
+void write_pieces(const PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
+                  Workers& workers);
+
+}  // namespace trismooth

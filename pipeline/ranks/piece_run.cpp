@@ -1,0 +1,387 @@
+#include "trismooth/pipeline/ranks/piece_run.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include "trismooth/base/local_points.h"
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/mpi/plan.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/bisection.h"
+#include "trismooth/pipeline/ranks/piece_files.h"
+#include "trismooth/pipeline/ranks/piece_options.h"
+#include "trismooth/pipeline/ranks/rank_boundary.h"
+#include "trismooth/pipeline/ranks/rank_components.h"
+#include "trismooth/pipeline/ranks/rank_constraints.h"
+#include "trismooth/pipeline/ranks/rank_hash.h"
+#include "trismooth/pipeline/ranks/rank_mesh.h"
+#include "trismooth/pipeline/ranks/rank_quality.h"
+#include "trismooth/pipeline/ranks/rank_regions.h"
+#include "trismooth/pipeline/ranks/rank_topology.h"
+#include "trismooth/pipeline/ranks/shared_vertices.h"
+#include "trismooth/pipeline/ranks/vertex_numbers.h"
+#include "trismooth/pipeline/stages/topology_stage.h"
+#include "trismooth/pipeline/stages/warnings.h"
+#include "trismooth/quality/precision_loss.h"
+
+namespace trismooth {
+
+namespace {
+
+std::int64_t largest_memory_of_ranks(const mpi::Communicator& ranks) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  auto bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
+  return bytes;
+}
+
+/// What the readers of all pieces say, each sentence once, on all ranks.
+std::vector<std::string> sentences_of_all(const std::set<std::string>& own, const mpi::Communicator& ranks) {
+  std::vector<char> text;
+  for (const std::string& sentence : own) {
+    text.insert(text.end(), sentence.begin(), sentence.end());
+    text.push_back('\0');
+  }
+  const mpi::ByRank<char> to_all(static_cast<std::size_t>(ranks.size()), text);
+  std::set<std::string> all;
+  for (const auto& list : ranks.exchanged(to_all)) {
+    for (auto at = list.begin(); at != list.end();) {
+      const auto end = std::find(at, list.end(), '\0');
+      all.emplace(at, end);
+      at = end + 1;
+    }
+  }
+  return {all.begin(), all.end()};
+}
+
+/// One run: the stages in their order, as those of run_pipeline().
+class PieceRun {
+ public:
+  PieceRun(const PipelineOptions& options, std::shared_ptr<const mpi::Communicator> ranks)
+      : options_(options), ranks_(std::move(ranks)), workers_(threads()) {
+    options_.smoothing.threads = workers_.count();
+  }
+
+  PipelineResult run() {
+    const Stopwatch watch;
+    agree(*ranks_, [&] {
+      options_.smoothing.validate();
+      require_piece_options(options_);
+    });
+    timed(Stage::read, result_.timings_ms.read, [&] { read(); });
+    timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
+    timed(Stage::check_before, result_.timings_ms.check_before, [&] { check_before(); });
+    if (options_.output) {
+      begin(Stage::smooth);
+      warn();
+      smooth();
+      timed(Stage::check_after, result_.timings_ms.check_after, [&] { check_after(); });
+      timed(Stage::write, result_.timings_ms.write, [&] { write_pieces(files_, *options_.output, *ranks_, workers_); });
+    }
+    result_.timings_ms.total = watch.milliseconds();
+    result_.peak_memory_bytes = largest_memory_of_ranks(*ranks_);
+    return std::move(result_);
+  }
+
+ private:
+  /// The cores of the machine are shared out among its ranks.
+  int threads() const {
+    const int asked = options_.smoothing.threads;
+    return asked > 0 ? asked : std::max(1, Workers(0).count() / ranks_->ranks_of_machine());
+  }
+
+  void begin(Stage stage) const {
+    agree(*ranks_, [&] {
+      if (options_.stage_started && options_.stage_started(stage) == Progress::stop) {
+        throw Cancelled();
+      }
+    });
+  }
+
+  template <class Body>
+  void timed(Stage stage, double& milliseconds, const Body& body) {
+    begin(stage);
+    const Stopwatch watch;
+    body();
+    milliseconds += watch.milliseconds();
+  }
+
+  void note(std::string sentence) { result_.notes.push_back(std::move(sentence)); }
+
+  void say_warning(std::string sentence) {
+    result_.warnings.push_back(std::move(sentence));
+    if (options_.warned) {
+      options_.warned(result_.warnings.back());
+    }
+  }
+
+  void read() {
+    files_ = read_pieces(options_.input, *ranks_, workers_);
+    agree(*ranks_, [&] {
+      if (ranks_->rank() == 0 && options_.output) {
+        require_own_pieces(files_, *options_.output);
+      }
+    });
+    std::set<std::string> notes;
+    std::set<std::string> losses;
+    for (const Piece& piece : files_.pieces) {
+      notes.insert(piece.document.notes.begin(), piece.document.notes.end());
+      losses.insert(piece.document.losses.begin(), piece.document.losses.end());
+    }
+    result_.notes = sentences_of_all(notes, *ranks_);
+    result_.losses = sentences_of_all(losses, *ranks_);
+    number_vertices(files_, *ranks_);
+    check_shared_vertices(files_, *ranks_);
+    mesh_ = join_pieces(files_, *ranks_);
+    result_.input.path = options_.input;
+    result_.input.format = files_.file.piece_format;
+  }
+
+  /// Where fewer ranks have read than there are, others get work all the same.
+  void share_out() {
+    const bool has_enough = std::ssize(files_.file.pieces) >= ranks_->size();
+    if (options_.partition.value_or(has_enough ? Partition::keep : Partition::bisect) == Partition::bisect) {
+      owners_ = bisected(mesh_.points(), *ranks_);
+    }
+  }
+
+  void connect() {
+    constraints_ = find_rank_constraints(files_, mesh_, options_.fixed_array, options_.fixed_ids, *ranks_);
+    share_out();
+    topology_.emplace(mesh_, constraints_.named, owners_, options_.input, ranks_, workers_);
+    regions_ = find_rank_regions(files_, *topology_, options_.region_arrays);
+    held_ = topology_->held(regions_.of_overlap, workers_);
+    const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(mesh_.points());
+    frame_ = topology_->frame_of(points, held_);
+    local_ = entered(frame_, points).points;
+    reversed_ = topology_->reversed(local_, workers_);
+    summarise();
+  }
+
+  void summarise() {
+    InputSummary& input = result_.input;
+    const mpi::Overlap& overlap = topology_->overlap();
+    OwnCells cells;
+    for (const Piece& piece : files_.pieces) {
+      const OwnCells of_piece = count_own_cells(piece);
+      cells.others += of_piece.others;
+      cells.repeating += of_piece.repeating;
+      cells.cells += of_piece.cells;
+    }
+    first_cell_ = ranks_->sum_before(cells.cells);
+    repeating_ = ranks_->sum(cells.repeating);
+    input.other_cells = ranks_->sum(cells.others);
+    const std::int64_t cell_count = ranks_->sum(cells.cells);
+    input.triangles = topology_->triangle_count();
+    agree(*ranks_, [&] {
+      if (input.triangles == 0 && cell_count > 0) {
+        throw ReadError(options_.input, "holds " + std::to_string(cell_count) +
+                                            " cells but no triangle; only triangle meshes can be smoothed");
+      }
+    });
+    ReasonCounts reasons{};
+    const std::vector<std::uint8_t> by_array = topology_->of_vertices<std::uint8_t>(constraints_.by_array);
+    std::int64_t vertices = 0;
+    std::int64_t by_array_count = 0;
+    for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
+      if (overlap.is_own(v)) {
+        ++vertices;
+        ++reasons[held_[static_cast<std::size_t>(v)]];
+        by_array_count += by_array[static_cast<std::size_t>(v)];
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, reasons.data(), static_cast<int>(reasons.size()), MPI_INT64_T, MPI_SUM,
+                  ranks_->handle());
+    input.vertices = ranks_->sum(vertices);
+    input.fixed_array = constraints_.fixed_array;
+    input.fixed_array_vertices = ranks_->sum(by_array_count);
+    input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
+    input.fixed_ids_vertices = constraints_.listed;
+    input.free_vertices = reasons[0];
+    input.fixed_vertices = input.vertices - input.free_vertices;
+    input.held = count_held(reasons);
+    input.regions = static_cast<std::int32_t>(regions_.names.size());
+    input.region_arrays = regions_.arrays;
+    for (const RegionArray& array : regions_.arrays) {
+      input.region_array.append(input.region_array.empty() ? "" : ", ").append(array.name);
+    }
+    result_.region_names = regions_.names;
+    const RankComponents components = count_components(*topology_, reversed_);
+    input.components = static_cast<std::int32_t>(components.count);
+    input.reoriented_triangles = components.reoriented_triangles;
+    result_.notes.insert(result_.notes.begin(), regions_.notes.begin(), regions_.notes.end());
+    if (cell_count == 0) {
+      note("the pieces hold no cells: nothing to smooth");
+    }
+    std::ranges::copy(notes_of_other_cells(input.other_cells, repeating_, std::nullopt),
+                      std::back_inserter(result_.notes));
+    std::ranges::copy(notes_of_irregular_vertices(reasons), std::back_inserter(result_.notes));
+    if (options_.fixed_ids && constraints_.listed == 0) {
+      say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
+    }
+  }
+
+  QualityReport quality_at(const std::vector<Point2<double>>& corners, const LocalFrame& frame) {
+    QualityReport report = quality_->report(corners, frame, workers_.count());
+    report.degenerate += repeating_;
+    std::vector<std::int64_t> cells;
+    for (const WorstElement& element : report.worst) {
+      cells.push_back(cell_of(element.triangle));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, cells.data(), static_cast<int>(cells.size()), MPI_INT64_T, MPI_SUM, ranks_->handle());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      report.worst[i].triangle = cells[i];
+    }
+    return report;
+  }
+
+  /// The number of a triangle's cell among those of all pieces, copies left out; 0 where another rank has it.
+  std::int64_t cell_of(std::int64_t triangle) const {
+    auto t = topology_->local_triangle(triangle);
+    std::int64_t before = first_cell_;
+    for (const Piece& piece : files_.pieces) {
+      const auto count = static_cast<std::int32_t>(piece.mesh.triangles.size());
+      if (t >= 0 && t < count) {
+        const std::int32_t cell = piece.mesh.cells[static_cast<std::size_t>(t)];
+        return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
+      }
+      t -= count;
+      before += std::ranges::count(piece.ghost_cells, 0);
+    }
+    return 0;
+  }
+
+  void check_before() {
+    quality_.emplace(*topology_, reversed_, held_, regions_.of_overlap, result_.input.regions);
+    corners_ = quality_->corners_at(local_);
+    result_.before = quality_at(corners_, frame_);
+    result_.regions_before = quality_->regions(corners_);
+  }
+
+  void warn() {
+    if (options_.smoothing.precision == Precision::single_precision) {
+      PrecisionLoss loss = single_precision_loss(quality_->view(corners_, frame_.exponent), workers_.count());
+      loss.triangles = ranks_->sum(loss.triangles);
+      loss.collapsed = ranks_->sum(loss.collapsed);
+      loss.distorted = ranks_->sum(loss.distorted);
+      if (loss.any()) {
+        say_warning(warning_of(loss, options_.smoothing));
+      }
+    }
+    if (std::string warning = warning_of_options_without_effect(options_); !warning.empty()) {
+      say_warning(std::move(warning));
+    }
+    const CoarseBoundary coarse = find_coarse_boundary(*topology_, local_, reversed_, held_, workers_.count());
+    if (coarse.any()) {
+      say_warning(warning_of(coarse));
+    }
+  }
+
+  void require_valid() {
+    const auto broken = result_.before.inverted + result_.before.degenerate - repeating_;
+    agree(*ranks_, [&] {
+      if (options_.smoothing.untangles() && broken > 0) {
+        throw std::invalid_argument(
+            std::to_string(broken) +
+            " triangles are inverted or degenerate, and meshes in pieces are not untangled yet; use --untangle off, or "
+            "smooth the mesh as one file");
+      }
+    });
+  }
+
+  void smooth() {
+    require_valid();
+    points_ = mesh_.points();
+    SmoothingResult smoothing = known_to_all([&] {
+      const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles};
+      const Constraints constraints{
+          .fixed = constraints_.named, .other_cells = mesh_.in_other_cell, .regions = regions_.of_mesh};
+      const Stopwatch watch;
+      mpi::Plan plan(ranks_->handle(), local, constraints, options_.smoothing);
+      result_.timings_ms.topology += watch.milliseconds();
+      return plan.smooth(PointView(points_), mesh_.storage);
+    });
+    agree(*ranks_, [&] {
+      if (smoothing.stop_reason == StopReason::cancelled) {
+        throw Cancelled();
+      }
+    });
+    move_points(files_, mesh_, points_);
+    hash(smoothing);
+    PipelineTimings& timings = result_.timings_ms;
+    timings.topology += smoothing.timings.prepare;
+    timings.transfer_in = smoothing.timings.transfer_in;
+    timings.untangle = smoothing.timings.untangle;
+    timings.smooth = smoothing.timings.smooth;
+    timings.transfer_out = smoothing.timings.transfer_out;
+    timings.guard = smoothing.timings.commit;
+    result_.smoothing = std::move(smoothing);
+  }
+
+  void hash(const SmoothingResult& smoothing) {
+    std::vector<std::array<double, 3>> places = mesh_.stored;
+    const auto move = [&](std::size_t v, Point2<double> to) {
+      if (!(to == Point2<double>{places[v][0], places[v][1]})) {
+        places[v][0] = to.x;
+        places[v][1] = to.y;
+      }
+    };
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      move(v, points_[v]);
+    }
+    result_.coordinates_hash = result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
+    if (smoothing.reverted_vertices > 0) {
+      for (const auto& [vertex, position] : smoothing.reverted) {
+        move(static_cast<std::size_t>(vertex),
+             {rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)});
+      }
+      result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
+    }
+  }
+
+  void check_after() {
+    const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
+    const LocalFrame frame = topology_->frame_of(points, held_);
+    const std::vector<Point2<double>> corners = quality_->corners_at(entered(frame, points).points);
+    result_.after = quality_at(corners, frame);
+    result_.regions_after = quality_->regions(corners);
+    result_.size_change = quality_->size_change(corners_, frame_, corners, frame, workers_.count());
+  }
+
+  PipelineOptions options_;
+  std::shared_ptr<const mpi::Communicator> ranks_;
+  Workers workers_;
+  PipelineResult result_;
+  PieceFiles files_;
+  RankMesh mesh_;
+  std::vector<std::int32_t> owners_;  ///< of the rank's vertices; empty: the lowest rank that has each
+  RankConstraints constraints_;
+  std::optional<RankTopology> topology_;
+  RankRegions regions_;
+  std::int64_t repeating_ = 0;   ///< triangles that repeat a vertex, in all pieces
+  std::int64_t first_cell_ = 0;  ///< the number of the rank's first cell among those of all pieces
+  std::vector<std::uint8_t> held_;
+  std::vector<std::uint8_t> reversed_;
+  LocalFrame frame_;
+  BulkVector<Point2<double>> local_;  ///< vertices of the overlap, in that frame
+  std::optional<RankQuality> quality_;
+  std::vector<Point2<double>> corners_;  ///< before the smoothing
+  std::vector<Point2<double>> points_;   ///< of the rank's vertices, after it
+};
+
+}  // namespace
+
+PipelineResult run_pieces(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
+  return ranks->together([&] { return PieceRun(options, ranks).run(); });
+}
+
+}  // namespace trismooth

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/pipeline.h"
+
+namespace trismooth {
+
+/// run_pipeline() of a mesh in pieces, over the ranks of an MPI job: each reads some of the pieces, has their part of
+/// the work and writes them. Files and figures are the same for every number of ranks, and the coordinates those of the
+/// mesh as one file, with its vertices in the order of their global ids. Callbacks of the options are called where they
+/// are set. Collective: throws the same on all ranks, what run_pipeline() throws, and std::invalid_argument for options
+/// that are not there for pieces. The result is complete on every rank, but for timings, which are the rank's.
+PipelineResult run_pieces(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks);
+
+}  // namespace trismooth

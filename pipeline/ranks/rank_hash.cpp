@@ -1,0 +1,70 @@
+#include "trismooth/pipeline/ranks/rank_hash.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include <mpi.h>
+
+// The state of a hash under way goes from rank to rank: its size has to be known.
+#define XXH_STATIC_LINKING_ONLY
+#include <xxhash.h>
+
+namespace trismooth {
+
+namespace {
+
+struct PlacedVertex {
+  std::int64_t id;
+  std::array<double, 3> place;
+};
+
+/// The vertices by blocks of ids, a block a rank.
+std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids,
+                                           std::span<const std::array<double, 3>> places,
+                                           const mpi::Communicator& ranks) {
+  std::int64_t last = ids.empty() ? 0 : *std::ranges::max_element(ids);
+  MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
+  // So many ids a block that the product does not overflow.
+  const std::int64_t block = last / ranks.size() + 1;
+  auto sent = mpi::lists_by_rank<PlacedVertex>(ranks);
+  for (std::size_t v = 0; v < ids.size(); ++v) {
+    sent[static_cast<std::size_t>(ids[v] / block)].push_back({ids[v], places[v]});
+  }
+  std::vector<PlacedVertex> all;
+  for (const auto& list : ranks.exchanged(sent)) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  std::ranges::sort(all, {}, &PlacedVertex::id);
+  all.erase(
+      std::unique(all.begin(), all.end(), [](const PlacedVertex& a, const PlacedVertex& b) { return a.id == b.id; }),
+      all.end());
+  return all;
+}
+
+}  // namespace
+
+std::uint64_t hash_over_ranks(std::span<const std::int64_t> ids, std::span<const std::array<double, 3>> places,
+                              const mpi::Communicator& ranks) {
+  constexpr int tag = 7312;
+  static_assert(std::endian::native == std::endian::little, "the hash is of little-endian numbers");
+  const std::vector<PlacedVertex> vertices = by_blocks_of_ids(ids, places, ranks);
+  XXH64_state_t state;
+  XXH64_reset(&state, 0);
+  const int last = ranks.size() - 1;
+  if (ranks.rank() > 0) {
+    MPI_Recv(&state, sizeof(state), MPI_BYTE, ranks.rank() - 1, tag, ranks.handle(), MPI_STATUS_IGNORE);
+  }
+  for (const PlacedVertex& vertex : vertices) {
+    XXH64_update(&state, vertex.place.data(), sizeof(vertex.place));
+  }
+  if (ranks.rank() < last) {
+    MPI_Send(&state, sizeof(state), MPI_BYTE, ranks.rank() + 1, tag, ranks.handle());
+  }
+  std::uint64_t digest = XXH64_digest(&state);
+  MPI_Bcast(&digest, 1, MPI_UINT64_T, last, ranks.handle());
+  return digest;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "trismooth/mpi/communicator.h"
+
+namespace trismooth {
+
+/// coordinates_hash() of the whole mesh, its vertices in the order of their ids, from what each rank has of them: one
+/// place for each id, the same on all ranks that have it. Collective. Complexity: linear in what the rank has, one rank
+/// after the other.
+std::uint64_t hash_over_ranks(std::span<const std::int64_t> ids, std::span<const std::array<double, 3>> places,
+                              const mpi::Communicator& ranks);
+
+}  // namespace trismooth

@@ -1,0 +1,350 @@
+#include "trismooth/pipeline/ranks/rank_regions.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "trismooth/base/splitmix64.h"
+#include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/pipeline/input/region_judge.h"
+#include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/input/value_numbers.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63U;
+constexpr std::uint64_t not_a_number = std::numeric_limits<std::uint64_t>::max();
+
+/// A value as a number without sign that stands in the values' order: not-a-numbers last, all alike, -0 as 0.
+template <class T>
+std::uint64_t key_of(T value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (std::isnan(value)) {
+      return not_a_number;
+    }
+    const auto bits = std::bit_cast<std::uint64_t>(static_cast<double>(value) + 0.0);
+    return (bits & sign_bit) != 0 ? ~bits : bits | sign_bit;
+  } else if constexpr (std::is_signed_v<T>) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) ^ sign_bit;
+  } else {
+    return value;
+  }
+}
+
+template <class T>
+T value_of_key(std::uint64_t key) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (key == not_a_number) {
+      return std::numeric_limits<T>::quiet_NaN();
+    }
+    return static_cast<T>(std::bit_cast<double>((key & sign_bit) != 0 ? key ^ sign_bit : ~key));
+  } else if constexpr (std::is_signed_v<T>) {
+    return static_cast<T>(static_cast<std::int64_t>(key ^ sign_bit));
+  } else {
+    return static_cast<T>(key);
+  }
+}
+
+std::string text_of_key(std::uint64_t key, ScalarType type) {
+  return visit_scalar_type(type, [key](auto zero) {
+    using T = decltype(zero);
+    return value_text(make_data_array<T>("", 1, {value_of_key<T>(key)}), 0);
+  });
+}
+
+bool is_whole_key(std::uint64_t key, ScalarType type) {
+  if (type != ScalarType::float32 && type != ScalarType::float64) {
+    return true;
+  }
+  const auto value = value_of_key<double>(key);
+  return std::isfinite(value) && value == std::floor(value);
+}
+
+/// The values of one array at the triangles of all pieces.
+class RankValues {
+ public:
+  RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology)
+      : topology_(topology), ranks_(topology.ranks()), type_(array.type) {
+    for (const Piece& piece : files.pieces) {
+      const DataArray* const values = find_array(piece.document.cell_arrays, array.name);
+      if (values == nullptr) {
+        continue;  // of an empty piece
+      }
+      visit_scalar_type(type_, [&](auto zero) {
+        const auto numbers = values->as<decltype(zero)>();
+        for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+          keys_.push_back(key_of(numbers[static_cast<std::size_t>(piece.mesh.cells[t])]));
+          if (!piece.is_ghost(t)) {
+            distinct_.push_back(keys_.back());
+          }
+        }
+      });
+    }
+    std::ranges::sort(distinct_);
+    distinct_.erase(std::unique(distinct_.begin(), distinct_.end()), distinct_.end());
+    at_overlap_ = topology.of_triangles<std::uint64_t>(keys_);
+  }
+
+  const std::vector<std::uint64_t>& keys() const { return keys_; }
+  ScalarType type() const { return type_; }
+
+  std::int64_t count() {
+    if (!count_) {
+      auto sent = mpi::lists_by_rank<std::uint64_t>(ranks_);
+      for (const std::uint64_t key : distinct_) {
+        sent[static_cast<std::size_t>(splitmix64(key) % static_cast<std::uint64_t>(ranks_.size()))].push_back(key);
+      }
+      std::vector<std::uint64_t> here;
+      for (const auto& list : ranks_.exchanged(sent)) {
+        here.insert(here.end(), list.begin(), list.end());
+      }
+      std::ranges::sort(here);
+      count_ = ranks_.sum(std::unique(here.begin(), here.end()) - here.begin());
+    }
+    return *count_;
+  }
+
+  bool are_whole() const {
+    return !ranks_.any(!std::ranges::all_of(distinct_, [&](std::uint64_t key) { return is_whole_key(key, type_); }));
+  }
+
+  std::int64_t vertices_between() {
+    if (!between_) {
+      const mpi::Overlap& overlap = topology_.overlap();
+      std::vector<std::optional<std::uint64_t>> seen(overlap.ids.size());
+      std::vector<std::uint8_t> is_between(overlap.ids.size(), 0);
+      for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
+        for (const std::int32_t v : overlap.triangles[t]) {
+          std::optional<std::uint64_t>& first = seen[static_cast<std::size_t>(v)];
+          first = first.value_or(at_overlap_[t]);
+          if (*first != at_overlap_[t] && overlap.is_own(v)) {
+            is_between[static_cast<std::size_t>(v)] = 1;
+          }
+        }
+      }
+      between_ = ranks_.sum(std::ranges::count(is_between, 1));
+    }
+    return *between_;
+  }
+
+  double fraction_between() const {
+    const mpi::Overlap& overlap = topology_.overlap();
+    std::int64_t edges = 0;
+    std::int64_t changes = 0;
+    for (std::size_t h = 0; h < 3 * overlap.triangles.size(); ++h) {
+      const std::int32_t twin = topology_.topology().twins[h];
+      const Triangle& corners = overlap.triangles[h / 3];
+      if (twin > static_cast<std::int32_t>(h) && overlap.is_own(std::min(corners[h % 3], corners[(h + 1) % 3]))) {
+        ++edges;
+        changes += at_overlap_[h / 3] != at_overlap_[static_cast<std::size_t>(twin) / 3] ? 1 : 0;
+      }
+    }
+    edges = ranks_.sum(edges);
+    changes = ranks_.sum(changes);
+    return edges == 0 ? 0 : static_cast<double>(changes) / static_cast<double>(edges);
+  }
+
+ private:
+  const RankTopology& topology_;
+  const mpi::Communicator& ranks_;
+  ScalarType type_;
+  std::vector<std::uint64_t> keys_;        ///< of the triangles of the rank's mesh
+  std::vector<std::uint64_t> distinct_;    ///< those of triangles that are no copies, ascending
+  std::vector<std::uint64_t> at_overlap_;  ///< of the triangles of the overlap
+  std::optional<std::int64_t> count_;
+  std::optional<std::int64_t> between_;
+};
+
+class RankRegionFinder {
+ public:
+  RankRegionFinder(const PieceFiles& files, const RankTopology& topology)
+      : files_(files), topology_(topology), ranks_(topology.ranks()) {
+    for (const PieceArray& array : files.arrays) {
+      if (array.of == PieceArray::Of::cells) {
+        candidates_.push_back(&array);
+      }
+    }
+  }
+
+  RankRegions by_names(std::span<const std::string> names) {
+    std::vector<const PieceArray*> chosen;
+    for (const std::string& name : names) {
+      for (const PieceArray* const array : named(name)) {
+        if (array->components != 1) {
+          throw mpi::KnownToAll{std::make_exception_ptr(std::invalid_argument(
+              fmt::format("the cell array '{}' has {} components; regions need one", array->name, array->components)))};
+        }
+        if (std::ranges::find(chosen, array) == chosen.end()) {
+          chosen.push_back(array);
+          obey(*array, RankValues(files_, *array, topology_), RegionReason::named);
+        }
+      }
+    }
+    return take();
+  }
+
+  RankRegions by_files() {
+    const PieceArray* constant = nullptr;
+    for (const PieceArray* const array : candidates_) {
+      if (!is_annotation(array->name)) {
+        judge(*array, constant);
+      }
+    }
+    if (regions_.arrays.empty() && constant != nullptr) {
+      obey(*constant, RankValues(files_, *constant, topology_), RegionReason::known_name);
+    }
+    return take();
+  }
+
+ private:
+  std::vector<const PieceArray*> named(const std::string& name) const {
+    std::vector<const PieceArray*> found;
+    const auto find = [&](const auto& same) {
+      std::ranges::copy_if(candidates_, std::back_inserter(found),
+                           [&](const PieceArray* array) { return same(array->name); });
+    };
+    find([&](const std::string& other) { return other == name; });
+    if (found.empty()) {
+      find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
+    }
+    if (found.empty()) {
+      std::string all;
+      for (const PieceArray* const array : candidates_) {
+        all.append(all.empty() ? "" : ", ").append(array->name);
+      }
+      throw mpi::KnownToAll{std::make_exception_ptr(
+          std::invalid_argument("the pieces have no cell array '" + name +
+                                "' to take regions from; they have: " + (all.empty() ? "none" : all)))};
+    }
+    return found;
+  }
+
+  void judge(const PieceArray& array, const PieceArray*& constant) {
+    if (array.components != 1) {
+      judge_regions({array.name, array.components, topology_.triangle_count(), {}, {}, {}, {}}, regions_.notes);
+      return;
+    }
+    RankValues values(files_, array, topology_);
+    const TriangleValues asked{array.name,
+                               array.components,
+                               topology_.triangle_count(),
+                               [&] { return values.count(); },
+                               [&] { return values.are_whole(); },
+                               [&] { return values.vertices_between(); },
+                               [&] { return values.fraction_between(); }};
+    if (const auto reason = judge_regions(asked, regions_.notes)) {
+      obey(array, std::move(values), *reason);
+    } else if (constant == nullptr && is_constant_region(asked)) {
+      constant = &array;
+    }
+  }
+
+  void obey(const PieceArray& array, RankValues values, RegionReason reason) {
+    regions_.arrays.push_back(
+        {array.name, reason, static_cast<std::int32_t>(values.count()), values.vertices_between()});
+    const bool is_first = regions_.names.empty();
+    const std::vector<std::uint64_t> all = values_of_all(values.keys());
+    const std::vector<std::int32_t> numbers = places_in(all, values.keys());
+    std::vector<std::string> texts;
+    for (const std::uint64_t key : all) {
+      texts.push_back(text_of_key(key, values.type()));
+    }
+    if (is_first) {
+      regions_.of_mesh = numbers;
+      regions_.names = std::move(texts);
+      return;
+    }
+    // Together with what the arrays before it say: pairs, ascending by the first, then by the second.
+    const auto width = static_cast<std::uint64_t>(std::max<std::size_t>(all.size(), 1));
+    std::vector<std::uint64_t> pairs(numbers.size());
+    for (std::size_t t = 0; t < pairs.size(); ++t) {
+      pairs[t] = static_cast<std::uint64_t>(regions_.of_mesh[t]) * width + static_cast<std::uint64_t>(numbers[t]);
+    }
+    const std::vector<std::uint64_t> all_pairs = values_of_all(pairs);
+    regions_.of_mesh = places_in(all_pairs, pairs);
+    std::vector<std::string> names;
+    for (const std::uint64_t pair : all_pairs) {
+      names.push_back(regions_.names[pair / width] + ", " + texts[pair % width]);
+    }
+    regions_.names = std::move(names);
+  }
+
+  RankRegions take() {
+    if (!regions_.arrays.empty()) {
+      regions_.of_overlap = topology_.of_triangles<std::int32_t>(regions_.of_mesh);
+    }
+    return std::move(regions_);
+  }
+
+  /// The different values that triangles of the whole mesh have, ascending, on all ranks. Copies have no say.
+  std::vector<std::uint64_t> values_of_all(std::span<const std::uint64_t> of_triangle) const {
+    std::vector<std::uint64_t> own;
+    std::size_t t = 0;
+    for (const Piece& piece : files_.pieces) {
+      for (std::size_t i = 0; i < piece.mesh.triangles.size(); ++i, ++t) {
+        if (!piece.is_ghost(i) && (own.empty() || own.back() != of_triangle[t])) {
+          own.push_back(of_triangle[t]);
+        }
+      }
+    }
+    make_unique(own);
+    std::vector<std::uint64_t> all;
+    for (const auto& list :
+         ranks_.exchanged(mpi::ByRank<std::uint64_t>(static_cast<std::size_t>(ranks_.size()), own))) {
+      all.insert(all.end(), list.begin(), list.end());
+    }
+    make_unique(all);
+    return all;
+  }
+
+  static void make_unique(std::vector<std::uint64_t>& values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  }
+
+  /// A copy that differs from its triangle may have a value of its own; as it has no say, it gets any other.
+  static std::vector<std::int32_t> places_in(const std::vector<std::uint64_t>& all,
+                                             std::span<const std::uint64_t> values) {
+    std::vector<std::int32_t> places(values.size());
+    std::ranges::transform(values, places.begin(), [&](std::uint64_t value) {
+      const auto place = std::ranges::lower_bound(all, value);
+      return place == all.end() ? 0 : static_cast<std::int32_t>(place - all.begin());
+    });
+    return places;
+  }
+
+  const PieceFiles& files_;
+  const RankTopology& topology_;
+  const mpi::Communicator& ranks_;
+  std::vector<const PieceArray*> candidates_;
+  RankRegions regions_;
+};
+
+}  // namespace
+
+RankRegions find_rank_regions(const PieceFiles& files, const RankTopology& topology,
+                              std::span<const std::string> names) {
+  if (std::ranges::find(names, no_region_arrays) != names.end()) {
+    if (names.size() > 1) {
+      throw mpi::KnownToAll{std::make_exception_ptr(
+          std::invalid_argument("--region-array none switches regions off; it cannot be given with other arrays"))};
+    }
+    return {};
+  }
+  RankRegionFinder finder(files, topology);
+  return names.empty() ? finder.by_files() : finder.by_names(names);
+}
+
+}  // namespace trismooth

@@ -1,0 +1,125 @@
+#include "trismooth/pipeline/ranks/rank_topology.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "trismooth/base/hold.h"
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mpi/component_labels.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/rings/fixed_vertices.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Calls a collective function of the mesh's connectivity: what it finds wrong is the file's fault.
+template <class Function>
+auto naming_file(const std::filesystem::path& path, const Function& function) {
+  try {
+    return known_to_all(function);
+  } catch (const mpi::KnownToAll& known) {
+    try {
+      std::rethrow_exception(known.error);
+    } catch (const MeshError& error) {
+      throw mpi::KnownToAll{std::make_exception_ptr(ReadError(path, error.what()))};
+    } catch (const std::invalid_argument& error) {
+      throw mpi::KnownToAll{std::make_exception_ptr(ReadError(path, error.what()))};
+    }
+  }
+}
+
+}  // namespace
+
+RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> named,
+                           std::span<const std::int32_t> owners, const std::filesystem::path& path,
+                           std::shared_ptr<const mpi::Communicator> ranks, Workers& workers)
+    : ranks_(std::move(ranks)) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.ghost_triangles[t] == 0) {
+      own_triangles_.push_back(static_cast<std::int32_t>(t));
+    }
+  }
+  first_triangle_ = ranks_->sum_before(std::ssize(own_triangles_));
+  triangle_count_ = ranks_->sum(std::ssize(own_triangles_));
+  const mpi::LocalMesh local{mesh.triangles, mesh.ids, owners, mesh.ghost_triangles};
+  const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
+  naming_file(path, [&] {
+    overlap_ = mpi::build_overlap(local, mesh.triangles, constraints, false, ranks_, workers);
+    ranks_->on_all([&] {
+      topology_ = connect_triangles(overlap_.vertex_count(), overlap_.triangles, workers, overlap_.part.ghosts);
+    });
+  });
+  ask_for_triangles();
+}
+
+void RankTopology::ask_for_triangles() {
+  auto own_first = mpi::lists_by_rank<std::int64_t>(*ranks_);
+  for (auto& list : own_first) {
+    list = {first_triangle_};
+  }
+  const mpi::ByRank<std::int64_t> firsts = ranks_->exchanged(own_first);
+  wanted_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
+  auto wanted = mpi::lists_by_rank<std::int64_t>(*ranks_);
+  for (std::size_t t = 0; t < overlap_.triangle_ids.size(); ++t) {
+    const std::int64_t id = overlap_.triangle_ids[t];
+    const auto after = std::ranges::upper_bound(firsts, id, {}, [](const auto& list) { return list.front(); });
+    const auto rank = static_cast<std::size_t>(after - firsts.begin() - 1);
+    wanted_triangles_[rank].push_back(static_cast<std::int32_t>(t));
+    wanted[rank].push_back(id);
+  }
+  const mpi::ByRank<std::int64_t> asked = ranks_->exchanged(wanted);
+  asked_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    for (const std::int64_t id : asked[r]) {
+      asked_triangles_[r].push_back(own_triangles_[static_cast<std::size_t>(id - first_triangle_)]);
+    }
+  }
+}
+
+std::int32_t RankTopology::local_triangle(std::int64_t id) const {
+  const bool is_own = id >= first_triangle_ && id < first_triangle_ + std::ssize(own_triangles_);
+  return is_own ? own_triangles_[static_cast<std::size_t>(id - first_triangle_)] : -1;
+}
+
+bool RankTopology::counts(std::size_t triangle) const {
+  const auto& [a, b, c] = overlap_.triangles[triangle];
+  return overlap_.is_own(std::min({a, b, c}));
+}
+
+std::vector<std::uint8_t> RankTopology::held(std::span<const std::int32_t> regions, Workers& workers) const {
+  std::vector<std::uint8_t> held;
+  agree(*ranks_, [&] {
+    held = fixed_vertices(topology_, overlap_.triangles, {.regions = regions}, workers);
+    for (std::size_t v = 0; v < held.size(); ++v) {
+      held[v] |= overlap_.named[v];
+    }
+  });
+  update_ghosts(std::span(held));
+  return held;
+}
+
+LocalFrame RankTopology::frame_of(std::span<const Point2<double>> points, std::span<const std::uint8_t> held) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PartSums low;
+  PartSums high;
+  low.largest = high.largest = {-infinity, -infinity};
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (!hold::is_unused(held[v])) {
+      low.largest = {std::max(low.largest[0], -points[v].x), std::max(low.largest[1], -points[v].y)};
+      high.largest = {std::max(high.largest[0], points[v].x), std::max(high.largest[1], points[v].y)};
+    }
+  }
+  low = ranks_->joined(low);
+  high = ranks_->joined(high);
+  return local_frame({-low.largest[0], -low.largest[1]}, {high.largest[0], high.largest[1]});
+}
+
+std::vector<std::uint8_t> RankTopology::reversed(std::span<const Point2<double>> local, Workers& workers) const {
+  return mpi::ComponentLabels(overlap_, topology_, *ranks_).reversed(overlap_, topology_, local, *ranks_, workers);
+}
+
+}  // namespace trismooth

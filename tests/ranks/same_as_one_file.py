@@ -1,0 +1,115 @@
+"""same_as_one_file.py PROGRAM: a mesh in pieces gets the coordinates and the report of the mesh as one file."""
+
+import random
+import unittest
+
+import pieces
+import ranks_tool
+
+# What a run may differ in.
+RUN_ALONE = {"timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date"}
+
+
+def without_run(report):
+    if isinstance(report, dict):
+        return {key: without_run(value) for key, value in report.items() if key not in RUN_ALONE}
+    if isinstance(report, list):
+        return [without_run(value) for value in report]
+    return report
+
+
+class SameAsOneFile(ranks_tool.RanksTest):
+    def test_global_ids(self):
+        mesh = self.random_mesh(2000)
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 4), 4))
+        whole = self.report("smooth", "whole.vtu", "smooth.vtu")
+        for ranks in (0, 1, 2, 3, 4):
+            parts = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu")
+            self.assertEqual(parts["coordinates_hash"], whole["coordinates_hash"], f"{ranks} ranks")
+            for part in ("input", "smoothing"):
+                # Triangles come in another order here, as the pieces have them.
+                self.assertEqual(without_run(parts[part]), without_run(whole[part]), f"{ranks} ranks")
+
+    def test_more_ranks_than_pieces(self):
+        mesh = self.random_mesh(1000)
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 2), 2))
+        whole = self.report("smooth", "whole.vtu", "smooth.vtu")
+        for ranks, partition in ((4, []), (4, ["--partition", "keep"]), (2, ["--partition", "bisect"])):
+            parts = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", *partition)
+            self.assertEqual(parts["coordinates_hash"], whole["coordinates_hash"], f"{ranks} ranks, {partition}")
+
+    def mixed_mesh(self):
+        """Triangles listed either way, holes, quadrilaterals, regions under a name and by their looks, fixed points."""
+        dice = random.Random(3)
+        mesh = self.random_mesh(1500)
+        kept = [cell[::-1] if dice.random() < 0.3 else cell for cell in mesh.cells
+                if abs(mesh.points[cell[0]][0] - 0.35) > 0.03 and dice.random() > 0.01]
+        # Pairs of triangles become quadrilaterals.
+        sides = {}
+        for c, cell in enumerate(kept):
+            for i in range(3):
+                sides.setdefault(tuple(sorted((cell[i], cell[i - 1]))), []).append(c)
+        joined = set()
+        quads = []
+        for (a, b), cells in sides.items():
+            if len(cells) == 2 and dice.random() < 0.01 and not joined.intersection(cells):
+                joined.update(cells)
+                quads.append([next(v for v in kept[cells[0]] if v not in (a, b)), a,
+                              next(v for v in kept[cells[1]] if v not in (a, b)), b])
+        mixed = pieces.Mesh(mesh.points, [cell for c, cell in enumerate(kept) if c not in joined] + quads)
+        mixed.cell_arrays["material"] = [3.0 if mixed.points[cell[0]][1] > 0.6 else -2.5 for cell in mixed.cells]
+        mixed.cell_arrays["other"] = [int(4 * mixed.points[cell[0]][0]) for cell in mixed.cells]
+        mixed.cell_arrays["load"] = [dice.random() for _ in mixed.cells]
+        return mixed
+
+    def test_reports(self):
+        parts = pieces.cut(self.mixed_mesh(), pieces.stripes(self.mixed_mesh(), 5), 5, global_ids=False)
+        pieces.write_pieces(self.path("mixed.pvtu"), parts)
+        merged = pieces.merged(parts)
+        pieces.write_vtu(self.path("merged.vtu"), merged)
+        self.write("ids.txt", "3 17 200 40  # and one twice: 17")
+        for options in ([], ["--method", "mean-ratio", "--untangle", "off"], ["--precision", "single", "--form", "a"],
+                        ["--method", "laplacian"], ["--guard", "off", "--method", "weighted"],
+                        ["--region-array", "material", "--region-array", "other"],
+                        ["--region-array", "none", "--fixed-ids", "ids.txt"]):
+            whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
+            for ranks in (1, 3):
+                with self.subTest(options=options, ranks=ranks):
+                    report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", *options)
+                    self.assertEqual(without_run(report), without_run(whole))
+
+    def test_quality(self):
+        mesh = self.random_mesh(500)
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 3), 3, global_ids=False)
+        pieces.write_pieces(self.path("big.pvtu"), parts)
+        pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
+        whole = self.run_tool("quality", "merged.vtu", "--verbose").out.replace("merged.vtu", "big.pvtu")
+        for ranks in (0, 2):
+            self.assertEqual(self.run_over(ranks, "quality", "big.pvtu", "--verbose").out, whole)
+
+    def test_float32(self):
+        mesh = self.random_mesh(500)
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 3), 3)
+        pieces.write_pieces(self.path("big.pvtu"), parts, "Float32")
+        pieces.write_vtu(self.path("whole.vtu"), mesh, "Float32")
+        whole = self.report("smooth", "whole.vtu", "smooth.vtu")
+        self.assertEqual(self.report_over(3, "smooth", "big.pvtu", "out.pvtu")["coordinates_hash"],
+                         whole["coordinates_hash"])
+
+    def test_one_file(self):
+        mesh = self.mixed_mesh()
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        for options in ([], ["--partition", "keep"], ["--method", "mean-ratio"], ["--slide", "straight"],
+                        ["--fields", "interpolate"]):
+            whole = self.report("smooth", "whole.vtu", "alone.vtu", *options)
+            parts = self.report_over(3, "smooth", "whole.vtu", "shared.vtu", *options)
+            with self.subTest(options=options):
+                self.assertEqual(self.read("shared.vtu"), self.read("alone.vtu"))
+                for key in ("coordinates_hash", "after", "input"):
+                    self.assertEqual(without_run(parts[key]), without_run(whole[key]))
+
+
+if __name__ == "__main__":
+    ranks_tool.main()
