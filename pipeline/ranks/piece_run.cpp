@@ -13,6 +13,7 @@
 
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/bisection.h"
@@ -66,8 +67,8 @@ std::vector<std::string> sentences_of_all(const std::set<std::string>& own, cons
 /// One run: the stages in their order, as those of run_pipeline().
 class PieceRun {
  public:
-  PieceRun(const PipelineOptions& options, std::shared_ptr<const mpi::Communicator> ranks)
-      : options_(options), ranks_(std::move(ranks)), workers_(threads()) {
+  PieceRun(PipelineOptions options, std::shared_ptr<const mpi::Communicator> ranks)
+      : options_(std::move(options)), ranks_(std::move(ranks)), workers_(threads()) {
     options_.smoothing.threads = workers_.count();
   }
 

@@ -61,7 +61,8 @@ std::vector<std::int64_t> numbers_of(const DataArray& array, const std::filesyst
           refuse("gives point " + std::to_string(i) + " the number " + std::to_string(values[i]) +
                  "; numbers are from 0 to 2^63 - 1");
         }
-        ids[i] = static_cast<std::int64_t>(values[i]);
+        // It is not negative.
+        ids[i] = static_cast<std::int64_t>(static_cast<std::make_unsigned_t<Number>>(values[i]));
       }
     }
   });
