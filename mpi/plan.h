@@ -71,11 +71,12 @@ class [[nodiscard]] Plan {
     return smooth(xy_points(xy), storage);
   }
 
-  /// What this rank has sent while it smoothed, since the plan was made.
+  /// What this rank has sent while it smoothed, since the plan was made. Throws std::logic_error where the plan was moved
+  /// from, as the following do.
   [[nodiscard]] Traffic traffic() const;
-  /// (Of what was moved from these throw std::logic_error, as smooth() does.) Vertices that this rank owns, and ghosts
-  /// that it holds.
+  /// Vertices that this rank owns.
   [[nodiscard]] std::int64_t own_vertices() const;
+  /// Vertices of others that it holds a copy of.
   [[nodiscard]] std::int64_t ghost_vertices() const;
 
  private:
