@@ -71,8 +71,8 @@ class [[nodiscard]] Plan {
     return smooth(xy_points(xy), storage);
   }
 
-  /// What this rank has sent while it smoothed, since the plan was made. Throws std::logic_error where the plan was moved
-  /// from, as the following do.
+  /// What this rank has sent while it smoothed, since the plan was made. Throws std::logic_error where the plan was
+  /// moved from, as the following do.
   [[nodiscard]] Traffic traffic() const;
   /// Vertices that this rank owns.
   [[nodiscard]] std::int64_t own_vertices() const;
