@@ -8,11 +8,15 @@ namespace trismooth {
 
 namespace {
 
+[[noreturn]] void throw_no_cuda() {
+  throw DeviceError(
+      "this build has no CUDA backend; leave out '--backend cuda' to smooth on the CPU, or build with "
+      "-DTRISMOOTH_CUDA=ON");
+}
+
 void require_cuda(const CudaSupport& cuda, const SmoothingOptions& options) {
   if (cuda.backend == nullptr) {
-    throw DeviceError(
-        "this build has no CUDA backend; leave out '--backend cuda' to smooth on the CPU, or build with "
-        "-DTRISMOOTH_CUDA=ON");
+    throw_no_cuda();
   }
   if (options.execution == Execution::cdp && !cuda.has_cdp) {
     throw DeviceError(
@@ -47,6 +51,13 @@ void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrC
   } else {
     options.backend = nullptr;
   }
+}
+
+void choose_backend_of_ranks(BackendChoice choice, const CudaSupport& cuda, SmoothingOptions& options) {
+  if (choice == BackendChoice::cuda && cuda.backend == nullptr) {
+    throw_no_cuda();
+  }
+  options.backend = choice == BackendChoice::cuda ? cuda.backend : nullptr;
 }
 
 }  // namespace trismooth

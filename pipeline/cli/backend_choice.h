@@ -26,4 +26,8 @@ struct EnumText<BackendChoice> {
 void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrCpu& automatic,
                     SmoothingOptions& options);
 
+/// The same for the ranks of an MPI job: the CPU, unless CUDA is asked for. Whether each has a device is found out by
+/// all of them together, when they smooth.
+void choose_backend_of_ranks(BackendChoice choice, const CudaSupport& cuda, SmoothingOptions& options);
+
 }  // namespace trismooth

@@ -1,6 +1,5 @@
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -180,12 +179,13 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   options.smoothing.guard = settings.guard == Switch::on;
   options.smoothing.validate();
   options.slide.validate();
-  if (environment.over_ranks && settings.backend == BackendChoice::cuda) {
-    throw std::invalid_argument("--backend cuda is not there over the ranks of an MPI job yet; leave it out");
-  }
   const CudaSupport cuda = environment.cuda();
   const CudaOrCpu automatic(cuda);
-  choose_backend(environment.over_ranks ? BackendChoice::cpu : settings.backend, cuda, automatic, options.smoothing);
+  if (environment.over_ranks) {
+    choose_backend_of_ranks(settings.backend, cuda, options.smoothing);
+  } else {
+    choose_backend(settings.backend, cuda, automatic, options.smoothing);
+  }
   return run_on_mesh(std::move(settings.run), environment);
 }
 

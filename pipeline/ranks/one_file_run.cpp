@@ -55,8 +55,8 @@ struct WholeMesh {
 };
 
 SmoothingResult smooth_over_ranks(const WholeMesh& mesh, std::span<Point2<double>> points, Storage storage,
-                                  SmoothingOptions options, Partition partition, const mpi::Communicator& ranks) {
-  options.backend = nullptr;
+                                  const SmoothingOptions& options, Partition partition,
+                                  const mpi::Communicator& ranks) {
   std::vector<std::int64_t> ids(points.size());
   std::iota(ids.begin(), ids.end(), std::int64_t{0});
   std::vector<std::uint8_t> named(points.size(), 0);
@@ -75,6 +75,7 @@ SmoothingResult smooth_over_ranks(const WholeMesh& mesh, std::span<Point2<double
 /// Of rank 0: has the others take part.
 class RankSmoother final : public PreparedSmoother {
  public:
+  /// `options`: with the backend that makes the sweeps of a rank.
   RankSmoother(MeshRings mesh, std::span<const Triangle> triangles, SmoothingOptions options, Partition partition,
                const mpi::Communicator& ranks)
       : fixed_(std::move(mesh.fixed)),
@@ -133,12 +134,14 @@ bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const s
   return false;
 }
 
-/// The CPUs of all ranks, for rank 0 that has the mesh.
+/// All ranks, for rank 0 that has the mesh.
 class RankBackend final : public Backend {
  public:
-  RankBackend(Partition partition, const mpi::Communicator& ranks) : partition_(partition), ranks_(ranks) {}
+  /// `of_rank`: who makes the sweeps of a rank; null: its CPU.
+  RankBackend(const Backend* of_rank, Partition partition, const mpi::Communicator& ranks)
+      : of_rank_(of_rank), partition_(partition), ranks_(ranks) {}
 
-  std::string name() const override { return cpu_backend().name(); }
+  std::string name() const override { return (of_rank_ != nullptr ? *of_rank_ : cpu_backend()).name(); }
 
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
@@ -154,10 +157,13 @@ class RankBackend final : public Backend {
     if (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local)) {
       return alone("inverted triangles are untangled");
     }
-    return std::make_unique<RankSmoother>(std::move(mesh), triangles, options, partition_, ranks_);
+    SmoothingOptions of_rank = options;
+    of_rank.backend = of_rank_;
+    return std::make_unique<RankSmoother>(std::move(mesh), triangles, std::move(of_rank), partition_, ranks_);
   }
 
  private:
+  const Backend* of_rank_;
   Partition partition_;
   const mpi::Communicator& ranks_;
 };
@@ -202,7 +208,7 @@ PipelineResult run_one_file(const PipelineOptions& options, const std::shared_pt
     return {};
   }
   const RanksRelease release(*ranks);
-  const RankBackend backend(partition, *ranks);
+  const RankBackend backend(options.smoothing.backend, partition, *ranks);
   PipelineOptions own = options;
   own.smoothing.backend = &backend;
   return run_pipeline(own);

@@ -107,7 +107,7 @@ class BadPieces(ranks_tool.RanksTest):
     def test_options(self):
         pieces.write_pieces(self.path("bad.pvtu"), self.cut())
         for options in (["--slide", "straight"], ["--geographic"], ["--project", "xy"], ["--annotate"],
-                        ["--fields", "interpolate"], ["--fixed-set", "corners"], ["--backend", "cuda"]):
+                        ["--fields", "interpolate"], ["--fixed-set", "corners"]):
             self.refused(options[0], options=options, expect=2)
         self.refused("--nosuch", options=["--nosuch"], expect=2)
         self.refused("nosuch", "region, vtkGhostType", options=["--region-array", "nosuch"], expect=2)

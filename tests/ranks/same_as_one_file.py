@@ -1,6 +1,9 @@
 """same_as_one_file.py PROGRAM: a mesh in pieces gets the coordinates and the report of the mesh as one file."""
 
+import os
 import random
+import shutil
+import subprocess
 import unittest
 
 import pieces
@@ -16,6 +19,11 @@ def without_run(report):
     if isinstance(report, list):
         return [without_run(value) for value in report]
     return report
+
+
+def has_gpu():
+    smi = shutil.which("nvidia-smi")
+    return smi is not None and subprocess.run([smi, "--list-gpus"], capture_output=True, check=False).returncode == 0
 
 
 class SameAsOneFile(ranks_tool.RanksTest):
@@ -39,6 +47,22 @@ class SameAsOneFile(ranks_tool.RanksTest):
         for ranks, partition in ((4, []), (4, ["--partition", "keep"]), (2, ["--partition", "bisect"])):
             parts = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", *partition)
             self.assertEqual(parts["coordinates_hash"], whole["coordinates_hash"], f"{ranks} ranks, {partition}")
+
+    def test_devices(self):
+        """Where there are none that is said once, with the exit code that it has without ranks."""
+        mesh = self.random_mesh(1000)
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 2), 2))
+        whole = self.report("smooth", "whole.vtu", "smooth.vtu", "--backend", "cpu")
+        for mesh_file, output in (("big.pvtu", "out.pvtu"), ("whole.vtu", "out.vtu")):
+            arguments = ["smooth", mesh_file, output, "--backend", "cuda", "--quiet", "--report", "report.json"]
+            if has_gpu():
+                self.run_over(2, *arguments)
+                self.assertEqual(self.read_report()["coordinates_hash"], whole["coordinates_hash"])
+            else:
+                outcome = self.run_over(2, *arguments, expect=5)
+                self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
+                self.assertFalse(os.path.exists(self.path(output)))
 
     def mixed_mesh(self):
         """Triangles listed either way, holes, quadrilaterals, regions under a name and by their looks, fixed points."""
