@@ -1,5 +1,6 @@
 #include "trismooth/mpi/communicator.h"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/errors.h"
 
 namespace trismooth::mpi {
@@ -115,6 +117,10 @@ Communicator::~Communicator() {
   MPI_Op_free(&join_);
   MPI_Type_free(&sums_type_);
   MPI_Comm_free(&communicator_);
+}
+
+int Communicator::threads(int asked) const {
+  return asked > 0 ? asked : std::max(1, Workers(0).count() / ranks_of_machine_);
 }
 
 PartSums Communicator::joined(PartSums own) const {

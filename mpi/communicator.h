@@ -38,9 +38,9 @@ class Communicator {
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  /// How many ranks share this rank's machine, itself included.
-  int ranks_of_machine() const { return ranks_of_machine_; }
-  /// This rank's place among these, from 0.
+  /// Threads of a rank: as many as are asked for; for 0 its share of the cores of its machine, one at least.
+  int threads(int asked) const;
+  /// This rank's place among those that share its machine, from 0.
   int place_on_machine() const { return place_on_machine_; }
   MPI_Comm handle() const { return communicator_; }
 

@@ -37,21 +37,12 @@ namespace {
 
 constexpr std::int64_t vertex_grain = 16384;
 
-/// The rank's share of the cores of its machine, where nothing else is asked for.
-int threads_of(const SmoothingOptions& options, const Communicator& communicator) {
-  if (options.threads > 0) {
-    return options.threads;
-  }
-  return std::max(1, Workers(0).count() / communicator.ranks_of_machine());
-}
-
 void require_supported(const SmoothingOptions& options, const Constraints& constraints, Gather gather) {
   options.validate();
   if (constraints.slide.along != Slide::off && gather == Gather::never) {
     throw std::invalid_argument(
         "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide "
-        "to "
-        "off");
+        "to off");
   }
   if (options.order == Order::unordered || options.execution != Execution::resident) {
     throw std::invalid_argument(
@@ -95,7 +86,7 @@ class Plan::Implementation {
     ranks.on_all([&] {
       require_supported(options, constraints, gather);
       backend_of(options).require_ready();
-      options_.threads = threads_of(options, ranks);
+      options_.threads = ranks.threads(options.threads);
       workers_.emplace(options_.threads);
       triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
     });

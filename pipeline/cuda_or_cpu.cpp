@@ -11,6 +11,7 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/pipeline/noted_smoother.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 
@@ -23,26 +24,6 @@ std::string failure_note(const DeviceError& error) {
   const std::string what = error.what();
   return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
 }
-
-/// A smoother, and what the user is to know of how it came about.
-class NotedSmoother final : public PreparedSmoother {
- public:
-  NotedSmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
-      : smoother_(std::move(smoother)), note_(std::move(note)) {}
-
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
-                         const std::optional<LocalFrame>& frame) override {
-    SmoothingResult result = smoother_->smooth(points, storage, frame);
-    result.backend_note = joined_notes(note_, result.backend_note);
-    return result;
-  }
-
-  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
-
- private:
-  std::unique_ptr<PreparedSmoother> smoother_;
-  std::string note_;
-};
 
 /// The device's smoother until it fails, the CPU's from then on.
 class FallingBackSmoother final : public PreparedSmoother {

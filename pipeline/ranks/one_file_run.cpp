@@ -13,6 +13,7 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/mpi/plan.h"
+#include "trismooth/pipeline/noted_smoother.h"
 #include "trismooth/pipeline/ranks/bisection.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
@@ -101,26 +102,6 @@ class RankSmoother final : public PreparedSmoother {
   const mpi::Communicator& ranks_;
 };
 
-/// What rank 0 does alone, and says so.
-class LonelySmoother final : public PreparedSmoother {
- public:
-  LonelySmoother(std::unique_ptr<PreparedSmoother> smoother, std::string note)
-      : smoother_(std::move(smoother)), note_(std::move(note)) {}
-
-  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
-                         const std::optional<LocalFrame>& frame) override {
-    SmoothingResult result = smoother_->smooth(points, storage, frame);
-    result.backend_note = note_;
-    return result;
-  }
-
-  std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }
-
- private:
-  std::unique_ptr<PreparedSmoother> smoother_;
-  std::string note_;
-};
-
 bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                           std::span<const Point2<double>> local) {
   const TriangleView view{local, triangles, reversed, 0};
@@ -147,7 +128,7 @@ class RankBackend final : public Backend {
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     const auto alone = [&](const std::string& why) {
-      return std::make_unique<LonelySmoother>(
+      return std::make_unique<NotedSmoother>(
           cpu_backend().prepare(std::move(mesh), triangles, local, options),
           why + " by one rank alone, not by the " + std::to_string(ranks_.size()) + " there are");
     };

@@ -68,7 +68,7 @@ std::vector<std::string> sentences_of_all(const std::set<std::string>& own, cons
 class PieceRun {
  public:
   PieceRun(PipelineOptions options, std::shared_ptr<const mpi::Communicator> ranks)
-      : options_(std::move(options)), ranks_(std::move(ranks)), workers_(threads()) {
+      : options_(std::move(options)), ranks_(std::move(ranks)), workers_(ranks_->threads(options_.smoothing.threads)) {
     options_.smoothing.threads = workers_.count();
   }
 
@@ -94,12 +94,6 @@ class PieceRun {
   }
 
  private:
-  /// The cores of the machine are shared out among its ranks.
-  int threads() const {
-    const int asked = options_.smoothing.threads;
-    return asked > 0 ? asked : std::max(1, Workers(0).count() / ranks_->ranks_of_machine());
-  }
-
   void begin(Stage stage) const {
     agree(*ranks_, [&] {
       if (options_.stage_started && options_.stage_started(stage) == Progress::stop) {
