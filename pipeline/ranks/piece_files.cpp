@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/shared_texts.h"
 
 namespace trismooth {
 
@@ -70,25 +71,14 @@ bool holds_something(const Piece& piece) {
   return piece.document.point_count() > 0 || piece.document.cells.size() > 0;
 }
 
-/// What the first rank with anything sends, on all ranks.
-std::vector<char> first_of(const std::vector<char>& own, const mpi::Communicator& ranks) {
-  auto sent = mpi::lists_by_rank<char>(ranks);
-  sent[0] = own;
-  const mpi::ByRank<char> received = ranks.exchanged(sent);
-  const auto first = std::ranges::find_if(received, [](const std::vector<char>& bytes) { return !bytes.empty(); });
-  std::vector<char> bytes = first == received.end() ? std::vector<char>{} : *first;
-  ranks.broadcast(bytes);
-  return bytes;
-}
-
 /// Finds the arrays, and throws ReadError where a piece has not those of the first that has anything: empty pieces have
 /// nothing to give an array values for, and some programs leave arrays out of them.
 void find_arrays(PieceFiles& files, const mpi::Communicator& ranks) {
   const auto own = std::ranges::find_if(files.pieces, &holds_something);
   const bool has_any = own != files.pieces.end();
   const std::string own_path = has_any ? own->path.string() : std::string();
-  files.arrays = unpacked(first_of(has_any ? packed(arrays_of_piece(own->document)) : std::vector<char>{}, ranks));
-  const std::vector<char> path = first_of({own_path.begin(), own_path.end()}, ranks);
+  files.arrays = unpacked(first_bytes(has_any ? packed(arrays_of_piece(own->document)) : std::vector<char>{}, ranks));
+  const std::vector<char> path = first_bytes({own_path.begin(), own_path.end()}, ranks);
   agree(ranks, [&] {
     const auto require_all = [](const std::vector<PieceArray>& some, const std::vector<PieceArray>& others,
                                 const std::string& lacking, const std::string& having) {

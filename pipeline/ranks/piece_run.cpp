@@ -27,6 +27,7 @@
 #include "trismooth/pipeline/ranks/rank_quality.h"
 #include "trismooth/pipeline/ranks/rank_regions.h"
 #include "trismooth/pipeline/ranks/rank_topology.h"
+#include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/shared_vertices.h"
 #include "trismooth/pipeline/ranks/vertex_numbers.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
@@ -43,25 +44,6 @@ std::int64_t largest_memory_of_ranks(const mpi::Communicator& ranks) {
   auto bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
   MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
   return bytes;
-}
-
-/// What the readers of all pieces say, each sentence once, on all ranks.
-std::vector<std::string> sentences_of_all(const std::set<std::string>& own, const mpi::Communicator& ranks) {
-  std::vector<char> text;
-  for (const std::string& sentence : own) {
-    text.insert(text.end(), sentence.begin(), sentence.end());
-    text.push_back('\0');
-  }
-  const mpi::ByRank<char> to_all(static_cast<std::size_t>(ranks.size()), text);
-  std::set<std::string> all;
-  for (const auto& list : ranks.exchanged(to_all)) {
-    for (auto at = list.begin(); at != list.end();) {
-      const auto end = std::find(at, list.end(), '\0');
-      all.emplace(at, end);
-      at = end + 1;
-    }
-  }
-  return {all.begin(), all.end()};
 }
 
 /// One run: the stages in their order, as those of run_pipeline().
@@ -132,8 +114,8 @@ class PieceRun {
       notes.insert(piece.document.notes.begin(), piece.document.notes.end());
       losses.insert(piece.document.losses.begin(), piece.document.losses.end());
     }
-    result_.notes = sentences_of_all(notes, *ranks_);
-    result_.losses = sentences_of_all(losses, *ranks_);
+    result_.notes = texts_of_all(notes, *ranks_);
+    result_.losses = texts_of_all(losses, *ranks_);
     number_vertices(files_, *ranks_);
     check_shared_vertices(files_, *ranks_);
     mesh_ = join_pieces(files_, *ranks_);

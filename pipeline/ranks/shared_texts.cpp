@@ -1,0 +1,36 @@
+#include "trismooth/pipeline/ranks/shared_texts.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace trismooth {
+
+std::vector<std::string> texts_of_all(const std::set<std::string>& own, const mpi::Communicator& ranks) {
+  std::vector<char> bytes;
+  for (const std::string& text : own) {
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    bytes.push_back('\0');
+  }
+  const mpi::ByRank<char> to_all(static_cast<std::size_t>(ranks.size()), bytes);
+  std::set<std::string> all;
+  for (const auto& list : ranks.exchanged(to_all)) {
+    for (auto at = list.begin(); at != list.end();) {
+      const auto end = std::find(at, list.end(), '\0');
+      all.emplace(at, end);
+      at = end + 1;
+    }
+  }
+  return {all.begin(), all.end()};
+}
+
+std::vector<char> first_bytes(const std::vector<char>& own, const mpi::Communicator& ranks) {
+  auto sent = mpi::lists_by_rank<char>(ranks);
+  sent[0] = own;
+  const mpi::ByRank<char> received = ranks.exchanged(sent);
+  const auto first = std::ranges::find_if(received, [](const std::vector<char>& bytes) { return !bytes.empty(); });
+  std::vector<char> bytes = first == received.end() ? std::vector<char>{} : *first;
+  ranks.broadcast(bytes);
+  return bytes;
+}
+
+}  // namespace trismooth
