@@ -221,7 +221,8 @@ class PieceRun {
     return report;
   }
 
-  /// The number of a triangle's cell among those of all pieces, copies left out; 0 where another rank has it.
+  /// The number of a triangle's cell in the one file that pieces are of, or else among those of all pieces, copies left
+  /// out; 0 where another rank has it.
   std::int64_t cell_of(std::int64_t triangle) const {
     auto t = topology_->local_triangle(triangle);
     std::int64_t before = first_cell_;
@@ -229,6 +230,9 @@ class PieceRun {
       const auto count = static_cast<std::int32_t>(piece.mesh.triangles.size());
       if (t >= 0 && t < count) {
         const std::int32_t cell = piece.mesh.cells[static_cast<std::size_t>(t)];
+        if (!piece.cell_ids.empty()) {
+          return piece.cell_ids[static_cast<std::size_t>(cell)];
+        }
         return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
       }
       t -= count;
@@ -279,7 +283,7 @@ class PieceRun {
     require_valid();
     points_ = mesh_.points();
     SmoothingResult smoothing = known_to_all([&] {
-      const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles};
+      const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles, mesh_.triangle_ids};
       const Constraints constraints{
           .fixed = constraints_.named, .other_cells = mesh_.in_other_cell, .regions = regions_.of_mesh};
       const Stopwatch watch;

@@ -37,6 +37,14 @@ void hold_by_array(const PieceFiles& files, const std::optional<std::string>& na
   }
 }
 
+void hold_by_sets(const PieceFiles& files, RankConstraints& constraints) {
+  for (const Piece& piece : files.pieces) {
+    for (std::size_t i = 0; i < piece.held_by_sets.size(); ++i) {
+      constraints.named[static_cast<std::size_t>(piece.vertices[i])] |= piece.held_by_sets[i];
+    }
+  }
+}
+
 /// Different numbers, ascending, on all ranks.
 std::vector<std::int64_t> read_numbers(const std::filesystem::path& path, const RankMesh& mesh,
                                        const mpi::Communicator& ranks) {
@@ -88,6 +96,7 @@ RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& m
   constraints.by_array.assign(mesh.ids.size(), 0);
   agree(ranks, [&] { hold_by_array(files, fixed_array, constraints); });
   constraints.named = constraints.by_array;
+  hold_by_sets(files, constraints);
   if (fixed_ids) {
     hold_by_numbers(*fixed_ids, mesh, ranks, constraints);
   }

@@ -94,6 +94,7 @@ RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {
                                   piece.vertices[static_cast<std::size_t>(c)]});
         mesh.ghost_triangles.push_back(piece.is_ghost(t) ? 1 : 0);
       }
+      mesh.triangle_ids.insert(mesh.triangle_ids.end(), piece.triangle_ids.begin(), piece.triangle_ids.end());
     }
     check_document_size(0, mesh.triangles.size(), files.path);
   });

@@ -19,6 +19,7 @@ struct RankMesh {
   std::vector<std::uint8_t> in_other_cell;    ///< one a vertex: 1 where a cell that is not a triangle uses it
   std::vector<Triangle> triangles;            ///< of piece after piece, copies of other pieces' too
   std::vector<std::uint8_t> ghost_triangles;  ///< one a triangle: 1 where it is such a copy
+  std::vector<std::int64_t> triangle_ids;     ///< their numbers in the whole mesh, ascending; empty: as they come
   Storage storage = Storage::float64;         ///< what coordinates are rounded to in the files
 
   std::vector<Point2<double>> points() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -43,9 +44,16 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
       own_triangles_.push_back(static_cast<std::int32_t>(t));
     }
   }
-  first_triangle_ = ranks_->sum_before(std::ssize(own_triangles_));
   triangle_count_ = ranks_->sum(std::ssize(own_triangles_));
-  const mpi::LocalMesh local{mesh.triangles, mesh.ids, owners, mesh.ghost_triangles};
+  if (mesh.triangle_ids.empty()) {
+    own_ids_.resize(own_triangles_.size());
+    std::iota(own_ids_.begin(), own_ids_.end(), ranks_->sum_before(std::ssize(own_triangles_)));
+  } else {
+    for (const std::int32_t t : own_triangles_) {
+      own_ids_.push_back(mesh.triangle_ids[static_cast<std::size_t>(t)]);
+    }
+  }
+  const mpi::LocalMesh local{mesh.triangles, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
   const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
   naming_file(path, [&] {
     overlap_ = mpi::build_overlap(local, mesh.triangles, constraints, false, ranks_, workers);
@@ -56,33 +64,65 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
   ask_for_triangles();
 }
 
-void RankTopology::ask_for_triangles() {
-  auto own_first = mpi::lists_by_rank<std::int64_t>(*ranks_);
-  for (auto& list : own_first) {
-    list = {first_triangle_};
+std::vector<std::int32_t> RankTopology::holders_of_triangles() const {
+  // Numbers are shared out in blocks among ranks that keep a list of who has them.
+  const std::int64_t block = triangle_count_ / ranks_->size() + 1;
+  auto sent = mpi::lists_by_rank<std::int64_t>(*ranks_);
+  for (const std::int64_t id : own_ids_) {
+    sent[static_cast<std::size_t>(id / block)].push_back(id);
   }
-  const mpi::ByRank<std::int64_t> firsts = ranks_->exchanged(own_first);
+  const std::int64_t first = block * ranks_->rank();
+  std::vector<std::int32_t> holders(static_cast<std::size_t>(block), 0);
+  const mpi::ByRank<std::int64_t> heard = ranks_->exchanged(std::move(sent));
+  for (std::size_t r = 0; r < heard.size(); ++r) {
+    for (const std::int64_t id : heard[r]) {
+      holders[static_cast<std::size_t>(id - first)] = static_cast<std::int32_t>(r);
+    }
+  }
+  auto asked = mpi::lists_by_rank<std::int64_t>(*ranks_);
+  for (const std::int64_t id : overlap_.triangle_ids) {
+    asked[static_cast<std::size_t>(id / block)].push_back(id);
+  }
+  auto answers = mpi::lists_by_rank<std::int32_t>(*ranks_);
+  const mpi::ByRank<std::int64_t> wanted = ranks_->exchanged(std::move(asked));
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    for (const std::int64_t id : wanted[r]) {
+      answers[r].push_back(holders[static_cast<std::size_t>(id - first)]);
+    }
+  }
+  const mpi::ByRank<std::int32_t> told = ranks_->exchanged(std::move(answers));
+  std::vector<std::size_t> next(told.size(), 0);
+  std::vector<std::int32_t> found;
+  found.reserve(overlap_.triangle_ids.size());
+  for (const std::int64_t id : overlap_.triangle_ids) {
+    const auto home = static_cast<std::size_t>(id / block);
+    found.push_back(told[home][next[home]++]);
+  }
+  return found;
+}
+
+void RankTopology::ask_for_triangles() {
+  const std::vector<std::int32_t> holders = holders_of_triangles();
   wanted_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
   auto wanted = mpi::lists_by_rank<std::int64_t>(*ranks_);
   for (std::size_t t = 0; t < overlap_.triangle_ids.size(); ++t) {
-    const std::int64_t id = overlap_.triangle_ids[t];
-    const auto after = std::ranges::upper_bound(firsts, id, {}, [](const auto& list) { return list.front(); });
-    const auto rank = static_cast<std::size_t>(after - firsts.begin() - 1);
+    const auto rank = static_cast<std::size_t>(holders[t]);
     wanted_triangles_[rank].push_back(static_cast<std::int32_t>(t));
-    wanted[rank].push_back(id);
+    wanted[rank].push_back(overlap_.triangle_ids[t]);
   }
-  const mpi::ByRank<std::int64_t> asked = ranks_->exchanged(wanted);
+  const mpi::ByRank<std::int64_t> asked = ranks_->exchanged(std::move(wanted));
   asked_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
   for (std::size_t r = 0; r < asked.size(); ++r) {
     for (const std::int64_t id : asked[r]) {
-      asked_triangles_[r].push_back(own_triangles_[static_cast<std::size_t>(id - first_triangle_)]);
+      asked_triangles_[r].push_back(local_triangle(id));
     }
   }
 }
 
 std::int32_t RankTopology::local_triangle(std::int64_t id) const {
-  const bool is_own = id >= first_triangle_ && id < first_triangle_ + std::ssize(own_triangles_);
-  return is_own ? own_triangles_[static_cast<std::size_t>(id - first_triangle_)] : -1;
+  const auto place = std::ranges::lower_bound(own_ids_, id);
+  return place != own_ids_.end() && *place == id ? own_triangles_[static_cast<std::size_t>(place - own_ids_.begin())]
+                                                 : -1;
 }
 
 bool RankTopology::counts(std::size_t triangle) const {

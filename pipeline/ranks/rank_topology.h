@@ -97,13 +97,15 @@ class RankTopology {
     messages.start(exchange, std::span<const V>(values));
     messages.finish<V>(exchange, [&](std::int32_t v, const V& value) { values[static_cast<std::size_t>(v)] = value; });
   }
+  /// For each triangle of the overlap the rank in whose pieces it is.
+  std::vector<std::int32_t> holders_of_triangles() const;
   void ask_for_triangles();
 
   std::shared_ptr<const mpi::Communicator> ranks_;
   mpi::Overlap overlap_;
   TriangleTopology topology_;
   std::vector<std::int32_t> own_triangles_;  ///< of the rank's mesh, those that are no copies
-  std::int64_t first_triangle_ = 0;          ///< the number of the first of them in the whole mesh
+  std::vector<std::int64_t> own_ids_;        ///< the numbers of these in the whole mesh, ascending
   std::int64_t triangle_count_ = 0;
   mpi::ByRank<std::int32_t> wanted_triangles_;  ///< of the overlap, by the rank in whose pieces they are
   mpi::ByRank<std::int32_t> asked_triangles_;   ///< of the rank's mesh, by the rank that wants to know
