@@ -13,7 +13,7 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/mpi/plan.h"
-#include "trismooth/pipeline/noted_smoother.h"
+#include "trismooth/smoothing/noted_smoother.h"
 #include "trismooth/pipeline/ranks/bisection.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
