@@ -13,6 +13,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/stages/check_stage.h"
 #include "trismooth/pipeline/stages/read_stage.h"
 #include "trismooth/pipeline/stages/run_state.h"
@@ -61,15 +62,25 @@ class Run {
     starting_ = start_backend(options_);
     timed(Stage::read, timings.read, read_input);
     check_and_smooth();
-    if (const auto& path = options_.written()) {
-      timed(Stage::write, timings.write,
-            [&](RunState& run) { write_output(run, *path, !options_.output || options_.annotate); });
-    }
+    write();
     return result_after(watch);
   }
 
-  /// The stages between reading and writing, on `document`, which is as it was where they fail.
-  PipelineResult run_on(MeshDocument& document) {
+  /// The stages behind reading.
+  PipelineResult run_from(MeshDocument document) {
+    const Stopwatch watch;
+    options_.smoothing.validate();
+    options_.slide.validate();
+    state_.document = std::move(document);
+    take_input(state_);
+    check_and_smooth();
+    write();
+    return result_after(watch);
+  }
+
+  /// The stages between reading and writing, on `document`, which is as it was where they fail. `annotations`, where it
+  /// is not null, gets those that the options want.
+  PipelineResult run_on(MeshDocument& document, AddedArrays* annotations = nullptr) {
     const Stopwatch watch;
     options_.smoothing.validate();
     options_.slide.validate();
@@ -85,11 +96,21 @@ class Run {
       document.point_arrays = point_arrays;
       throw;
     }
+    if (annotations != nullptr && (options_.annotate || options_.annotated)) {
+      *annotations = annotations_of(state_);
+    }
     document = std::move(state_.document);
     return result_after(watch);
   }
 
  private:
+  void write() {
+    if (const auto& path = options_.written()) {
+      timed(Stage::write, state_.result.timings_ms.write,
+            [&](RunState& run) { write_output(run, *path, !options_.output || options_.annotate); });
+    }
+  }
+
   void check_and_smooth() {
     PipelineTimings& timings = state_.result.timings_ms;
     timed(Stage::topology, timings.topology, connect_mesh);
@@ -156,6 +177,19 @@ void require_known_formats(const PipelineOptions& options) {
 
 PipelineResult run_pipeline(const PipelineOptions& options) {
   return Run(options).run();
+}
+
+PipelineResult run_pipeline_on(MeshDocument document, const PipelineOptions& options) {
+  return Run(options).run_from(std::move(document));
+}
+
+PipelineResult run_on_document(MeshDocument& document, const PipelineOptions& options, AddedArrays& annotations) {
+  PipelineOptions own = options;
+  if (options.output) {
+    own.output = std::filesystem::path("document").replace_extension(extensions_of(document.format).front());
+    own.format = document.format;
+  }
+  return Run(own).run_on(document, &annotations);
 }
 
 PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options) {

@@ -188,6 +188,16 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
                       settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
                     })
       ->group(option_group::running);
+  command
+      .add_flag("--single", settings.pipeline.single,
+                "Of a mesh in pieces over MPI ranks: write one file of any format, by rank 0, with the whole mesh in its "
+                "memory")
+      ->group(option_group::running);
+  command
+      .add_flag("--gather", settings.pipeline.gather,
+                "Of a mesh in pieces over MPI ranks: what is not done in pieces (--slide, untangling, ...) is done by "
+                "rank 0, with the whole mesh in its memory")
+      ->group(option_group::running);
   constexpr bool repeatable = true;
   add_parsed_option(
       command, "--report", "FILE", "Write a report: FILE.json or FILE.html. Repeatable",

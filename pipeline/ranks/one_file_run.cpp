@@ -182,17 +182,25 @@ class RanksRelease {
 
 }  // namespace
 
-PipelineResult run_one_file(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
+PipelineResult run_on_first(const PipelineOptions& options, const mpi::Communicator& ranks,
+                            const std::function<PipelineResult(const PipelineOptions&)>& run) {
+  if (ranks.size() == 1) {
+    return run(options);
+  }
   const Partition partition = options.partition.value_or(Partition::bisect);
-  if (ranks->rank() > 0) {
-    follow(options.smoothing, partition, *ranks);
+  if (ranks.rank() > 0) {
+    follow(options.smoothing, partition, ranks);
     return {};
   }
-  const RanksRelease release(*ranks);
-  const RankBackend backend(options.smoothing.backend, partition, *ranks);
+  const RanksRelease release(ranks);
+  const RankBackend backend(options.smoothing.backend, partition, ranks);
   PipelineOptions own = options;
   own.smoothing.backend = &backend;
-  return run_pipeline(own);
+  return run(own);
+}
+
+PipelineResult run_one_file(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
+  return run_on_first(options, *ranks, &run_pipeline);
 }
 
 }  // namespace trismooth

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/pipeline.h"
 
 namespace trismooth {
+
+/// Calls `run` on rank 0, with these options and, of several ranks, a backend whose sweeps all make; the others take part until it
+/// returns or throws, on rank 0 alone. What is not done in pieces (sliding, untangling) rank 0 does alone, and says so.
+/// Collective; the result of other ranks is empty.
+PipelineResult run_on_first(const PipelineOptions& options, const mpi::Communicator& ranks,
+                            const std::function<PipelineResult(const PipelineOptions&)>& run);
 
 /// run_pipeline() of a mesh in one file, whose sweeps are made by all ranks of an MPI job: rank 0 reads and writes it,
 /// and reports on it, with the whole mesh in its memory; the others have their part of the vertices and give what they

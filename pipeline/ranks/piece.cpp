@@ -26,6 +26,10 @@ OwnCells count_own_cells(const Piece& piece) {
   return count;
 }
 
+bool holds_something(const Piece& piece) {
+  return piece.document.point_count() > 0 || piece.document.cells.size() > 0;
+}
+
 std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document) {
   constexpr unsigned duplicate_cell = 1;
   std::vector<std::uint8_t> ghosts(document.cells.size(), 0);

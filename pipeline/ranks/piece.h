@@ -39,6 +39,9 @@ struct OwnCells {
 /// Counts them. Complexity: linear.
 OwnCells count_own_cells(const Piece& piece);
 
+/// Whether it has any points or cells.
+bool holds_something(const Piece& piece);
+
 /// Marks the cells that vtkGhostType tells to be copies.
 std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document);
 

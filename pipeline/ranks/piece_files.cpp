@@ -67,10 +67,6 @@ std::vector<PieceArray> unpacked(const std::vector<char>& bytes) {
   return arrays;
 }
 
-bool holds_something(const Piece& piece) {
-  return piece.document.point_count() > 0 || piece.document.cells.size() > 0;
-}
-
 /// Finds the arrays, and throws ReadError where a piece has not those of the first that has anything: empty pieces have
 /// nothing to give an array values for, and some programs leave arrays out of them.
 void find_arrays(PieceFiles& files, const mpi::Communicator& ranks) {
@@ -178,13 +174,19 @@ std::vector<std::string> output_sources(const PieceFiles& files, const std::file
   return sources;
 }
 
-void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output) {
+void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single) {
   if (is_same_file(files.path, output)) {
     return;
   }
   std::set<std::filesystem::path> read;
   for (std::size_t i = 0; i < files.file.pieces.size(); ++i) {
     read.insert(std::filesystem::weakly_canonical(files.path_of(i)));
+  }
+  if (single && read.contains(std::filesystem::weakly_canonical(output))) {
+    throw std::invalid_argument(output.string() + " is a piece of the input; choose another name for the output");
+  }
+  if (single) {
+    return;
   }
   for (const std::string& source : output_sources(files, output)) {
     const std::filesystem::path target = piece_path(output, source);

@@ -45,8 +45,9 @@ PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicato
 /// new files beside `output`, called after it.
 std::vector<std::string> output_sources(const PieceFiles& files, const std::filesystem::path& output);
 
-/// Throws std::invalid_argument where writing the pieces of `output` would overwrite those of another file, the input.
-void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output);
+/// Throws std::invalid_argument where writing the pieces of `output`, or `output` itself where it is a `single` file,
+/// would overwrite those of another file, the input.
+void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single);
 
 /// Writes the pieces with their points as they are now, and the parallel file: all of them beside their targets first,
 /// then, when every rank has done so, in their places, the parallel file last. Collective. Throws WriteError on all

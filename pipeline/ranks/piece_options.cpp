@@ -1,10 +1,12 @@
 #include "trismooth/pipeline/ranks/piece_options.h"
 
-#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
 
 namespace trismooth {
 
@@ -12,7 +14,7 @@ namespace {
 
 void refuse(bool is_given, const std::string& option, const std::string& way_out) {
   if (is_given) {
-    throw std::invalid_argument(option + " is not there for meshes in pieces yet; " + way_out);
+    throw std::invalid_argument(option + " is not there for meshes in pieces; " + way_out);
   }
 }
 
@@ -20,25 +22,48 @@ bool names_sets(const std::vector<std::string>& names) {
   return !names.empty() && names != std::vector<std::string>{"none"};
 }
 
+void require_output(const PipelineOptions& options, const std::filesystem::path& output) {
+  const bool is_in_pieces = names_parallel_file(output);
+  if (options.single) {
+    if (is_in_pieces) {
+      throw std::invalid_argument("--single writes one file, and " + output.string() + " is the name of a mesh in pieces");
+    }
+    if (!is_standard_stream(output)) {
+      output_format(output, std::nullopt, options.format);
+    }
+  } else if (!is_in_pieces || extension_of(output) != extension_of(options.input)) {
+    throw std::invalid_argument("a mesh in pieces is written as it is read: the name of the output has to end in " +
+                                extension_of(options.input) + ", and is " + output.string() +
+                                "; --single writes one file, with the whole mesh in the memory of rank 0");
+  }
+}
+
 }  // namespace
 
+std::string what_needs_whole_mesh(const PipelineOptions& options) {
+  return options.slide.along != Slide::off                ? "--slide"
+         : options.project                                ? "--project"
+         : options.geographic                             ? "--geographic"
+         : options.size_array                             ? "--size-array"
+         : options.fields == Fields::interpolate          ? "--fields interpolate"
+         : !options.field_arrays.empty()                  ? "--field-array"
+         : options.annotate || options.annotated.has_value() ? "--annotate"
+                                                          : "";
+}
+
 void require_piece_options(const PipelineOptions& options) {
-  const std::string as_one_file = "leave it out, or smooth the mesh as one file";
-  if (options.output &&
-      !(names_parallel_file(*options.output) && extension_of(*options.output) == extension_of(options.input))) {
-    throw std::invalid_argument("a mesh in pieces is written as it is read: the name of the output has to end in " +
-                                extension_of(options.input) + ", and is " + options.output->string());
+  if (options.written()) {
+    require_output(options, *options.written());
   }
-  refuse(options.format.has_value(), "--format", "the extension says it");
-  refuse(options.geographic, "--geographic", as_one_file);
-  refuse(options.project.has_value(), "--project", as_one_file);
-  refuse(options.slide.along != Slide::off, "--slide", as_one_file);
-  refuse(options.size_array.has_value(), "--size-array", as_one_file);
+  const std::string whole = what_needs_whole_mesh(options);
+  if (!whole.empty() && !options.gather) {
+    throw std::invalid_argument(whole +
+                                " is not done in pieces; --gather has rank 0 do it, with the whole mesh in its memory");
+  }
+  refuse(options.format && !options.single, "--format", "the extension says it");
+  refuse((options.annotate || options.annotated) && !options.single, "--annotate", "--single writes one file that has them");
   refuse(names_sets(options.fixed_sets), "--fixed-set", "files of VTK have no sets; hold vertices by --fixed-array");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");
-  refuse(options.fields == Fields::interpolate, "--fields interpolate", as_one_file);
-  refuse(!options.field_arrays.empty(), "--field-array", as_one_file);
-  refuse(options.annotate || options.annotated.has_value(), "--annotate", as_one_file);
   refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge", "the result is the same without it");
 }
 

@@ -14,9 +14,11 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/bisection.h"
+#include "trismooth/pipeline/ranks/gathered_run.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/piece_options.h"
 #include "trismooth/pipeline/ranks/rank_boundary.h"
@@ -30,6 +32,7 @@
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/shared_vertices.h"
 #include "trismooth/pipeline/ranks/vertex_numbers.h"
+#include "trismooth/pipeline/ranks/whole_mesh.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/quality/precision_loss.h"
@@ -61,14 +64,9 @@ class PieceRun {
       require_piece_options(options_);
     });
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
-    timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
-    timed(Stage::check_before, result_.timings_ms.check_before, [&] { check_before(); });
-    if (options_.output) {
-      begin(Stage::smooth);
-      warn();
-      smooth();
-      timed(Stage::check_after, result_.timings_ms.check_after, [&] { check_after(); });
-      timed(Stage::write, result_.timings_ms.write, [&] { write_pieces(files_, *options_.output, *ranks_, workers_); });
+    run_in_pieces();
+    if (!gathered_for_.empty()) {
+      run_with_whole_mesh();
     }
     result_.timings_ms.total = watch.milliseconds();
     result_.peak_memory_bytes = largest_memory_of_ranks(*ranks_);
@@ -76,6 +74,46 @@ class PieceRun {
   }
 
  private:
+  /// The stages behind reading, unless it turns out that the mesh has to be gathered.
+  void run_in_pieces() {
+    gathered_for_ = what_needs_whole_mesh(options_);
+    if (gathered_for_.empty() && options_.gather) {
+      gathered_for_ = what_is_not_joined(files_, *ranks_);
+    }
+    if (!gathered_for_.empty()) {
+      return;
+    }
+    timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
+    timed(Stage::check_before, result_.timings_ms.check_before, [&] { check_before(); });
+    if (!options_.output) {
+      return;
+    }
+    if (is_untangled()) {
+      gathered_for_ = "the untangling of inverted triangles";
+      return;
+    }
+    begin(Stage::smooth);
+    warn();
+    smooth();
+    timed(Stage::check_after, result_.timings_ms.check_after, [&] { check_after(); });
+    timed(Stage::write, result_.timings_ms.write, [&] { write(); });
+  }
+
+  /// The same by rank 0, with what the readers have said.
+  void run_with_whole_mesh() {
+    PipelineResult read = std::exchange(result_, {});
+    topology_.reset();
+    quality_.reset();
+    mesh_ = {};
+    result_ = run_gathered(files_, options_, *ranks_, workers_);
+    result_.timings_ms.read = read.timings_ms.read;
+    result_.losses.insert(result_.losses.begin(), read_losses_.begin(), read_losses_.end());
+    result_.notes.insert(result_.notes.begin(), read_notes_.begin(), read_notes_.end());
+    if (ranks_->size() > 1) {
+      note("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
+    }
+  }
+
   void begin(Stage stage) const {
     agree(*ranks_, [&] {
       if (options_.stage_started && options_.stage_started(stage) == Progress::stop) {
@@ -104,8 +142,8 @@ class PieceRun {
   void read() {
     files_ = read_pieces(options_.input, *ranks_, workers_);
     agree(*ranks_, [&] {
-      if (ranks_->rank() == 0 && options_.output) {
-        require_own_pieces(files_, *options_.output);
+      if (ranks_->rank() == 0 && options_.written()) {
+        require_own_pieces(files_, *options_.written(), options_.single);
       }
     });
     std::set<std::string> notes;
@@ -114,13 +152,14 @@ class PieceRun {
       notes.insert(piece.document.notes.begin(), piece.document.notes.end());
       losses.insert(piece.document.losses.begin(), piece.document.losses.end());
     }
-    result_.notes = texts_of_all(notes, *ranks_);
-    result_.losses = texts_of_all(losses, *ranks_);
+    // What is said of pieces is said of what one file loses.
+    if (options_.single) {
+      losses.merge(notes);
+    }
+    read_notes_ = options_.single ? std::vector<std::string>{} : texts_of_all(notes, *ranks_);
+    read_losses_ = texts_of_all(losses, *ranks_);
     number_vertices(files_, *ranks_);
     check_shared_vertices(files_, *ranks_);
-    mesh_ = join_pieces(files_, *ranks_);
-    result_.input.path = options_.input;
-    result_.input.format = files_.file.piece_format;
   }
 
   /// Where fewer ranks have read than there are, others get work all the same.
@@ -132,6 +171,11 @@ class PieceRun {
   }
 
   void connect() {
+    result_.notes = read_notes_;
+    result_.losses = read_losses_;
+    result_.input.path = options_.input;
+    result_.input.format = files_.file.piece_format;
+    mesh_ = join_pieces(files_, *ranks_);
     constraints_ = find_rank_constraints(files_, mesh_, options_.fixed_array, options_.fixed_ids, *ranks_);
     share_out();
     topology_.emplace(mesh_, constraints_.named, owners_, options_.input, ranks_, workers_);
@@ -267,20 +311,22 @@ class PieceRun {
     }
   }
 
-  void require_valid() {
+  /// Whether triangles are untangled, which is not done in pieces.
+  bool is_untangled() const {
     const auto broken = result_.before.inverted + result_.before.degenerate - repeating_;
+    const bool is_needed = options_.smoothing.untangles() && broken > 0;
     agree(*ranks_, [&] {
-      if (options_.smoothing.untangles() && broken > 0) {
+      if (is_needed && !options_.gather) {
         throw std::invalid_argument(
             std::to_string(broken) +
-            " triangles are inverted or degenerate, and meshes in pieces are not untangled yet; use --untangle off, or "
-            "smooth the mesh as one file");
+            " triangles are inverted or degenerate, and meshes are not untangled in pieces; --gather has rank 0 do "
+            "that, with the whole mesh in its memory, and --untangle off leaves them");
       }
     });
+    return is_needed;
   }
 
   void smooth() {
-    require_valid();
     points_ = mesh_.points();
     SmoothingResult smoothing = known_to_all([&] {
       const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles, mesh_.triangle_ids};
@@ -329,6 +375,23 @@ class PieceRun {
     }
   }
 
+  void write() {
+    if (!options_.single) {
+      write_pieces(files_, *options_.output, *ranks_, workers_);
+      return;
+    }
+    WholeMesh whole(files_, *ranks_);
+    std::set<std::string> losses(whole.document.losses.begin(), whole.document.losses.end());
+    agree(*ranks_, [&] {
+      if (ranks_->rank() == 0) {
+        const FileFormat target = output_format(*options_.output, whole.document.format, options_.format);
+        std::ranges::move(what_is_lost(whole.document, target), std::inserter(losses, losses.end()));
+        write_mesh(*options_.output, whole.document, AddedArrays{}, FileOptions{workers_.count(), options_.format});
+      }
+    });
+    std::ranges::move(texts_of_all(losses, *ranks_), std::back_inserter(result_.losses));
+  }
+
   void check_after() {
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
     const LocalFrame frame = topology_->frame_of(points, held_);
@@ -343,6 +406,9 @@ class PieceRun {
   Workers workers_;
   PipelineResult result_;
   PieceFiles files_;
+  std::vector<std::string> read_notes_;   ///< of the readers of all pieces
+  std::vector<std::string> read_losses_;  ///< likewise
+  std::string gathered_for_;              ///< what needs the whole mesh on one rank; empty: nothing does
   RankMesh mesh_;
   std::vector<std::int32_t> owners_;  ///< of the rank's vertices; empty: the lowest rank that has each
   RankConstraints constraints_;

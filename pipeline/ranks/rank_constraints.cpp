@@ -77,15 +77,17 @@ void hold_by_numbers(const std::filesystem::path& path, const RankMesh& mesh, co
   agree(ranks, [&] {
     const auto unknown = std::ranges::find(is_known, 0);
     if (unknown != is_known.end()) {
-      throw ReadError(path, "names vertex " +
-                                std::to_string(numbers[static_cast<std::size_t>(unknown - is_known.begin())]) +
-                                ", and no piece has a point of that global id");
+      throw unknown_vertex(path, numbers[static_cast<std::size_t>(unknown - is_known.begin())]);
     }
   });
   constraints.listed = std::ssize(numbers);
 }
 
 }  // namespace
+
+ReadError unknown_vertex(const std::filesystem::path& path, std::int64_t id) {
+  return {path, "names vertex " + std::to_string(id) + ", and no piece has a point of that global id"};
+}
 
 RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& mesh,
                                       const std::optional<std::string>& fixed_array,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/rank_mesh.h"
 
@@ -18,6 +19,9 @@ struct RankConstraints {
   std::vector<std::uint8_t> named;     ///< by_array, by a set of the file, or in the file of numbers
   std::int64_t listed = 0;             ///< different numbers in that file
 };
+
+/// The error of a file that names a vertex which no piece has.
+ReadError unknown_vertex(const std::filesystem::path& path, std::int64_t id);
 
 /// Finds them: by the point array `fixed_array` as find_fixed_array() does, and by the file `fixed_ids` of numbers in
 /// the whole mesh, which rank 0 reads. Collective. Throws std::invalid_argument and ReadError on all ranks.

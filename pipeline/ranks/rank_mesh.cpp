@@ -14,19 +14,28 @@ namespace trismooth {
 
 namespace {
 
+bool has_six_nodes(const Piece& piece) {
+  return !piece.mesh.quadratics.empty();
+}
+
 void require_straight(const PieceFiles& files) {
-  for (const Piece& piece : files.pieces) {
-    if (!piece.mesh.quadratics.empty()) {
-      throw std::invalid_argument(
-          piece.path.string() +
-          ": holds triangles of six nodes, which are not smoothed in pieces yet; smooth the mesh "
-          "as one file");
-    }
+  const auto piece = std::ranges::find_if(files.pieces, &has_six_nodes);
+  if (piece != files.pieces.end()) {
+    throw std::invalid_argument(piece->path.string() +
+                                ": holds triangles of six nodes, which are not smoothed in pieces; --gather has rank 0 "
+                                "do that, with the whole mesh in its memory");
   }
 }
 
-/// Of the vertices that cells use.
-void require_one_height(const PieceFiles& files, const mpi::Communicator& ranks) {
+/// The z of the vertices that cells use, from the lowest to the highest.
+struct Heights {
+  double lowest;
+  double highest;
+
+  bool differ() const { return lowest < highest; }
+};
+
+Heights heights_of(const PieceFiles& files, const mpi::Communicator& ranks) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   PartSums range;
   range.largest = {-infinity, -infinity};
@@ -39,13 +48,17 @@ void require_one_height(const PieceFiles& files, const mpi::Communicator& ranks)
     }
   }
   range = ranks.joined(range);
-  const double lowest = -range.largest[1];
-  const double highest = range.largest[0];
+  return {-range.largest[1], range.largest[0]};
+}
+
+void require_one_height(const PieceFiles& files, const mpi::Communicator& ranks) {
+  const Heights heights = heights_of(files, ranks);
   agree(ranks, [&] {
-    if (lowest < highest) {
-      throw ReadError(files.path, "z is " + shortest_digits(lowest) + " to " + shortest_digits(highest) +
-                                      "; a mesh in pieces must lie in a plane z = constant; others are smoothed as one "
-                                      "file");
+    if (heights.differ()) {
+      throw ReadError(files.path, "z is " + shortest_digits(heights.lowest) + " to " +
+                                      shortest_digits(heights.highest) +
+                                      "; in pieces a mesh is smoothed that lies in a plane z = constant; --gather has "
+                                      "rank 0 smooth others, with the whole mesh in its memory");
     }
   });
 }
@@ -63,6 +76,13 @@ std::vector<Point2<double>> RankMesh::points() const {
   std::vector<Point2<double>> points(stored.size());
   std::ranges::transform(stored, points.begin(), [](const auto& xyz) { return Point2<double>{xyz[0], xyz[1]}; });
   return points;
+}
+
+std::string what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks) {
+  if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
+    return "triangles of six nodes";
+  }
+  return heights_of(files, ranks).differ() ? "a mesh that lies in no plane z = constant" : "";
 }
 
 RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {

@@ -49,6 +49,8 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
   return holds;
 }
 
+}  // namespace
+
 AddedArrays annotations_of(RunState& run) {
   AddedArrays added;
   added.cell_arrays = metrics_of_cells(run);
@@ -59,8 +61,6 @@ AddedArrays annotations_of(RunState& run) {
   }
   return added;
 }
-
-}  // namespace
 
 std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) {
   return metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, run.document.cells.size(),

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trismooth/mesh_io/data_array.h"
+
+namespace trismooth {
+
+/// What is said of an array, which may be nothing (null), as words for other ranks.
+std::vector<std::string> words_of(const ArrayDescription* description);
+
+/// The description back from its words, which begin at `word`; that is behind them afterwards.
+std::shared_ptr<const ArrayDescription> description_of(std::vector<std::string>::const_iterator& word);
+
+}  // namespace trismooth

@@ -1,0 +1,105 @@
+#include "trismooth/pipeline/ranks/gathered_run.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/document_run.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/one_file_run.h"
+#include "trismooth/pipeline/ranks/rank_constraints.h"
+#include "trismooth/pipeline/ranks/shared_texts.h"
+#include "trismooth/pipeline/ranks/whole_mesh.h"
+
+namespace trismooth {
+
+namespace {
+
+/// A file of vertices to hold has their ids: where these are not the numbers of the document's points, the options name
+/// them otherwise.
+class HeldByIds {
+ public:
+  /// Throws ReadError.
+  HeldByIds(PipelineOptions& options, const std::vector<std::int64_t>& ids) : path_(options.fixed_ids) {
+    const bool are_numbers = ids.empty() || ids.back() + 1 == std::ssize(ids);
+    if (!path_ || are_numbers) {
+      return;
+    }
+    std::set<std::int32_t> points;
+    for (const std::int64_t id : read_vertex_numbers(*path_, ids.back() + 1)) {
+      const auto place = std::ranges::lower_bound(ids, id);
+      if (*place != id) {
+        throw unknown_vertex(*path_, id);
+      }
+      points.insert(static_cast<std::int32_t>(place - ids.begin()));
+    }
+    if (!points.empty()) {
+      options.fixed_vertices.assign(points.begin(), points.end());
+      options.fixed_ids.reset();
+      count_ = std::ssize(points);
+    }
+  }
+
+  void report(InputSummary& input) const {
+    if (count_ > 0) {
+      input.fixed_ids = *path_;
+      input.fixed_ids_vertices = count_;
+    }
+  }
+
+ private:
+  std::optional<std::filesystem::path> path_;
+  std::int64_t count_ = 0;
+};
+
+PipelineResult run_here(WholeMesh& whole, PipelineOptions options, AddedArrays& annotations) {
+  const HeldByIds held(options, whole.ids);
+  PipelineResult result = options.single ? run_pipeline_on(std::move(whole.document), options)
+                                         : run_on_document(whole.document, options, annotations);
+  held.report(result.input);
+  return result;
+}
+
+}  // namespace
+
+PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks,
+                            Workers& workers) {
+  WholeMesh whole(files, ranks);
+  AddedArrays annotations;
+  PipelineResult result;
+  std::exception_ptr error;
+  try {
+    result =
+        run_on_first(options, ranks, [&](const PipelineOptions& own) { return run_here(whole, own, annotations); });
+  } catch (const std::exception&) {
+    error = std::current_exception();
+  }
+  agree(ranks, [&] {
+    if (error) {
+      std::rethrow_exception(error);
+    }
+  });
+  if (options.single || !options.written()) {
+    return result;
+  }
+  const Stopwatch watch;
+  std::set<std::string> moved;
+  for (const InterpolatedField& field : result.fields) {
+    moved.insert(field.name);
+  }
+  whole.hand_back(files, texts_of_all(moved, ranks), ranks);
+  write_pieces(files, *options.written(), ranks, workers);
+  result.timings_ms.write += watch.milliseconds();
+  return result;
+}
+
+}  // namespace trismooth
