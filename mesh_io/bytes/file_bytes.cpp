@@ -2,83 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cstddef>
-#include <cstring>
 #include <new>
-#include <string>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "trismooth/mesh_io/bytes/input_file.h"
 #include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
 namespace {
-
-class InputFile {
- public:
-  explicit InputFile(const std::filesystem::path& path)
-      : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0) {
-      throw ReadError(path_, std::string("cannot be opened: ") + std::strerror(errno));
-    }
-  }
-  /// Of the file that is open under that number.
-  InputFile(const std::filesystem::path& path, int descriptor)
-      : path_(path), descriptor_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 0)) {
-    if (descriptor_ < 0) {
-      throw ReadError(path_, std::string("cannot be read: ") + std::strerror(errno));
-    }
-  }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-  ~InputFile() { ::close(descriptor_); }
-
-  /// Of a regular file; 0 of all else, whose size says nothing.
-  std::size_t size() const {
-    struct stat status {};
-    return ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
-  }
-
-  /// Reads up to `count` bytes from `offset` on; fewer where the file ends.
-  std::size_t read_at(std::byte* bytes, std::size_t count, std::size_t offset) const {
-    return read_all(count, [&](std::size_t done) {
-      return ::pread(descriptor_, bytes + done, count - done, static_cast<off_t>(offset + done));
-    });
-  }
-
-  /// The same from where the last call of it ended: for pipes too.
-  std::size_t read_on(std::byte* bytes, std::size_t count) const {
-    return read_all(count, [&](std::size_t done) { return ::read(descriptor_, bytes + done, count - done); });
-  }
-
-  void seek(std::size_t offset) const { ::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET); }
-
- private:
-  template <class Read>
-  std::size_t read_all(std::size_t count, const Read& read) const {
-    std::size_t done = 0;
-    while (done < count) {
-      const ssize_t got = read(done);
-      if (got == 0) {
-        break;
-      }
-      if (got > 0) {
-        done += static_cast<std::size_t>(got);
-      } else if (errno != EINTR) {
-        throw ReadError(path_, std::string("cannot be read: ") + std::strerror(errno));
-      }
-    }
-    return done;
-  }
-
-  const std::filesystem::path& path_;
-  int descriptor_;
-};
 
 /// The bytes that the file had when its size was asked for, or fewer.
 void read_known_size(const InputFile& file, const FileWorkers& workers, MemoryBlock& block) {

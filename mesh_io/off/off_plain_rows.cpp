@@ -93,7 +93,8 @@ std::optional<PlainRows::End> OffPlainRows::read_vertices(std::size_t offset, st
   return end;
 }
 
-std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::size_t count, MeshDocument& document) {
+std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::size_t count, std::size_t vertices,
+                                                       MeshDocument& document) {
   PlainNumbers first_face(rows_.text(), offset);
   std::size_t degree = 0;
   if (!first_face.next(degree) || degree < 3 || degree > rows_.text().size() - offset || !first_face.skip(degree)) {
@@ -110,13 +111,13 @@ std::optional<PlainRows::End> OffPlainRows::read_faces(std::size_t offset, std::
     shared_resize(cells.connectivity, corners, cells.offsets, count + 1, rows_.workers().workers);
     shared_resize(cells.types, count, colours, components * count, rows_.workers().workers);
   };
-  const auto vertices = static_cast<std::int32_t>(document.point_count());
+  const auto index_end = static_cast<std::int32_t>(vertices);
   const auto read_part = [&](PlainNumbers& numbers, const PlainListRows::Part& part) {
     std::size_t item = part.first_item;
     for (std::size_t face = part.first; face < part.last; ++face) {
       std::size_t corners = 0;
       if (!numbers.next(corners) || corners < 3 || corners > part.last_item - item ||
-          !read_indices(numbers, vertices, std::span(cells.connectivity).subspan(item, corners)) ||
+          !read_indices(numbers, index_end, std::span(cells.connectivity).subspan(item, corners)) ||
           !read_fields(numbers, std::span(colours).subspan(components * face, components))) {
         return false;
       }

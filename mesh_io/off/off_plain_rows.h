@@ -25,9 +25,10 @@ class OffPlainRows {
   std::optional<PlainRows::End> read_vertices(std::size_t offset, std::size_t count, const OffKeyword& keyword,
                                               MeshDocument& document, NumberSites& sites);
 
-  /// `count` faces, 1 or more, from `offset` on, where a line ends: to the cells of the document, which has none so
-  /// far, and a cell array of colours, if they have any.
-  std::optional<PlainRows::End> read_faces(std::size_t offset, std::size_t count, MeshDocument& document);
+  /// `count` faces, 1 or more, of `vertices` vertices, from `offset` on, where a line ends or begins: to the cells of
+  /// the document, which has none so far, and a cell array of colours, if they have any.
+  std::optional<PlainRows::End> read_faces(std::size_t offset, std::size_t count, std::size_t vertices,
+                                           MeshDocument& document);
 
  private:
   PlainRows rows_;

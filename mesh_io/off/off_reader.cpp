@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/off/off_binary_reader.h"
+#include "trismooth/mesh_io/off/off_header.h"
 #include "trismooth/mesh_io/off/off_keyword.h"
 #include "trismooth/mesh_io/off/off_plain_rows.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -68,40 +68,34 @@ class OffReader {
         plain_rows_(bytes, workers) {}
 
   std::pair<MeshDocument, NumberSites> read() {
-    read_keyword();
-    if (is_binary_) {
+    const OffHeader header = read_off_header(scanner_, scanner_.text().size());
+    keyword_ = header.keyword;
+    if (header.is_binary) {
       return read_binary_off(scanner_.path(), scanner_.text(), begin_of_binary_data(), keyword_, workers_);
     }
-    read_counts();
+    vertex_count_ = all_vertices_ = header.vertex_count;
+    face_count_ = header.face_count;
     read_vertices();
     read_faces();
     check_rest();
     return {std::move(document_), std::move(sites_)};
   }
 
- private:
-  void read_keyword() {
-    const std::string_view token = scanner_.peek_token();
-    if (const std::optional<OffKeyword> keyword = parse_off_keyword(token)) {
-      scanner_.next_token("the keyword OFF");
-      if (!keyword->is_supported()) {
-        scanner_.fail("unsupported OFF variant " + quoted(keyword->text));
-      }
-      keyword_ = *keyword;
-      // Some files have the first count glued to the keyword.
-      scanner_.seek(scanner_.token_offset() + keyword->text.size());
-      is_binary_ = !scanner_.at_end_of_line() && is_binary_word(scanner_.peek_token());
-    } else if (!parse_integer(token)) {
-      scanner_.next_token("the keyword OFF or the number of vertices");
-      scanner_.fail("is not an OFF file: expected the keyword OFF or the number of vertices, got " + quoted(token));
+  MeshDocument read_rows(const OffHeader& header, std::size_t vertices, std::size_t faces) {
+    keyword_ = header.keyword;
+    vertex_count_ = vertices;
+    face_count_ = faces;
+    all_vertices_ = header.vertex_count;
+    read_vertices();
+    read_faces();
+    if (!scanner_.at_end()) {
+      scanner_.next_token("the end of the rows");
+      scanner_.fail("expected the end of the rows");
     }
+    return std::move(document_);
   }
 
-  static bool is_binary_word(std::string_view token) {
-    return std::ranges::equal(token, std::string_view("BINARY"), {},
-                              [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  }
-
+ private:
   /// The data begin after the end of the line.
   std::size_t begin_of_binary_data() {
     scanner_.next_token("the word BINARY");
@@ -110,26 +104,6 @@ class OffReader {
     }
     scanner_.next_line();
     return scanner_.offset();
-  }
-
-  void read_counts() {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    vertex_count_ = static_cast<std::size_t>(scanner_.next_integer("the number of vertices", 0, most));
-    const bool on_one_line = !scanner_.at_end_of_line();
-    face_count_ = static_cast<std::size_t>(scanner_.next_integer("the number of faces", 0, most));
-    // The number of edges says nothing. Some files leave it out.
-    if (!(on_one_line && scanner_.at_end_of_line())) {
-      scanner_.next_integer("the number of edges", 0, std::numeric_limits<std::int64_t>::max());
-    }
-    if (!scanner_.at_end_of_line()) {
-      scanner_.next_token("the end of the line");
-      scanner_.fail("expected the end of the line after the counts");
-    }
-    // Every number takes a digit and a separator, except for the separator at the end of the file.
-    const std::size_t numbers_each = 3 + keyword_.least_extras();
-    require_room(scanner_.path(), "vertices", vertex_count_, 2 * numbers_each, bytes_left() + 1);
-    require_room(scanner_.path(), "faces", face_count_, 2 * least_face_numbers,
-                 bytes_left() + 1 - vertex_count_ * 2 * numbers_each);
   }
 
   void read_vertices() {
@@ -197,8 +171,9 @@ class OffReader {
   }
 
   void read_faces() {
-    const auto end =
-        face_count_ == 0 ? std::nullopt : plain_rows_.read_faces(scanner_.offset(), face_count_, document_);
+    const auto end = face_count_ == 0
+                         ? std::nullopt
+                         : plain_rows_.read_faces(scanner_.offset(), face_count_, all_vertices_, document_);
     if (end) {
       scanner_.resume(end->last_number, end->offset);
       return;
@@ -248,9 +223,9 @@ class OffReader {
   std::int32_t read_index(std::size_t face) {
     const std::string_view token = scanner_.next_token("a vertex index");
     const std::optional<std::int64_t> index = parse_integer(token);
-    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(vertex_count_)) {
+    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(all_vertices_)) {
       fail_face(face, "expected a vertex index, got " + quoted(token) + "; the file has " +
-                          std::to_string(vertex_count_) + " vertices, counted from 0");
+                          std::to_string(all_vertices_) + " vertices, counted from 0");
     }
     return static_cast<std::int32_t>(*index);
   }
@@ -297,22 +272,25 @@ class OffReader {
 
   std::size_t bytes_left() const { return scanner_.text().size() - scanner_.offset(); }
 
-  static constexpr std::size_t least_face_numbers = 4;  // the degree, and three vertices
-
   TextScanner scanner_;
   FileWorkers workers_;
   OffPlainRows plain_rows_;
   OffKeyword keyword_;
-  bool is_binary_ = false;
   bool has_vertex_colours_ = false;
   MeshDocument document_;
   NumberSites sites_;
-  std::size_t vertex_count_ = 0;
+  std::size_t vertex_count_ = 0;  ///< to be read
   std::size_t face_count_ = 0;
+  std::size_t all_vertices_ = 0;  ///< of the file
   Row row_{};
 };
 
 }  // namespace
+
+MeshDocument read_off_rows(const std::filesystem::path& path, std::string_view rows, const OffHeader& header,
+                           std::size_t vertices, std::size_t faces, const FileWorkers& workers) {
+  return OffReader(rows, path, workers).read_rows(header, vertices, faces);
+}
 
 MeshDocument read_off(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
   auto [document, sites] = OffReader(bytes, path, workers).read();
