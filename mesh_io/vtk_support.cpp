@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/new_parallel_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 
 // The one place that knows whether the build has VTK.
@@ -45,6 +46,11 @@ ParallelFile read_parallel_file(const std::filesystem::path& path, std::string_v
 std::string with_sources(std::string_view bytes, const ParallelFile& /*file*/,
                          std::span<const std::string> /*sources*/) {
   return std::string(bytes);
+}
+
+NewParallelFile make_parallel_file(FileFormat /*piece_format*/, const MeshDocument& /*document*/,
+                                   std::span<const std::string> /*sources*/) {
+  throw std::logic_error("this build has no VTK, and no pieces of .vtu and .vtp");
 }
 
 #endif

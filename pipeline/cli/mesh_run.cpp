@@ -83,7 +83,9 @@ void require_own_file(const std::filesystem::path& report, const PipelineOptions
 void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   const PipelineOptions& options = settings.pipeline;
   require_use_of_format(options.format, {options.input, options.written()});
-  if (!over_ranks || !names_parallel_file(options.input)) {
+  const bool is_in_pieces =
+      names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output));
+  if (!over_ranks || !is_in_pieces) {
     require_known_formats(options);
   }
   if (const auto& target = options.written(); target && !is_standard_stream(*target)) {
@@ -189,9 +191,10 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
                     })
       ->group(option_group::running);
   command
-      .add_flag("--single", settings.pipeline.single,
-                "Of a mesh in pieces over MPI ranks: write one file of any format, by rank 0, with the whole mesh in its "
-                "memory")
+      .add_flag(
+          "--single", settings.pipeline.single,
+          "Of a mesh in pieces over MPI ranks: write one file of any format, by rank 0, with the whole mesh in its "
+          "memory")
       ->group(option_group::running);
   command
       .add_flag("--gather", settings.pipeline.gather,

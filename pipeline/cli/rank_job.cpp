@@ -48,9 +48,11 @@ class MpiJob final : public RankJob {
       return {};
     }
     try {
-      return names_parallel_file(options.input) ? run_pieces(options, ranks_)
-             : ranks_->size() > 1               ? run_one_file(options, ranks_)
-                                                : run_pipeline(options);
+      const bool is_in_pieces =
+          names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output));
+      return is_in_pieces         ? run_pieces(options, ranks_)
+             : ranks_->size() > 1 ? run_one_file(options, ranks_)
+                                  : run_pipeline(options);
     } catch (const std::exception&) {
       if (rank() == 0) {
         throw;

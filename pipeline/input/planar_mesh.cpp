@@ -146,6 +146,15 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
 
 }  // namespace
 
+std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  if (type == cell_type::triangle_strip) {
+    std::int64_t count = 0;
+    for_each_strip_triangle(vertices, [&count](const Triangle&) { ++count; });
+    return count;
+  }
+  return (is_triangle(type, vertices) || is_quadratic(type, vertices)) && !repeats_a_vertex(vertices) ? 1 : 0;
+}
+
 Storage storage_of(const MeshDocument& document) {
   return document.moved_point_type() == ScalarType::float32 ? Storage::float32 : Storage::float64;
 }

@@ -16,8 +16,6 @@
 
 namespace trismooth {
 
-namespace {
-
 std::vector<PieceArray> arrays_of_piece(const MeshDocument& document) {
   std::vector<PieceArray> arrays{{PieceArray::Of::coordinates, document.point_type, 3, {}}};
   const auto add = [&](PieceArray::Of of, std::span<const DataArray> listed) {
@@ -29,6 +27,8 @@ std::vector<PieceArray> arrays_of_piece(const MeshDocument& document) {
   add(PieceArray::Of::cells, document.cell_arrays);
   return arrays;
 }
+
+namespace {
 
 std::string text_of_array(const PieceArray& array) {
   if (array.of == PieceArray::Of::coordinates) {

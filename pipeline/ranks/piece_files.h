@@ -38,6 +38,9 @@ struct PieceFiles {
   std::filesystem::path path_of(std::size_t piece) const { return piece_path(path, file.pieces[piece].source); }
 };
 
+/// The coordinates and the arrays of a piece.
+std::vector<PieceArray> arrays_of_piece(const MeshDocument& document);
+
 /// Reads it, and checks that all pieces have the same arrays. Collective. Throws ReadError on all ranks.
 PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers);
 

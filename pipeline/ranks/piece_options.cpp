@@ -24,14 +24,16 @@ bool names_sets(const std::vector<std::string>& names) {
 
 void require_output(const PipelineOptions& options, const std::filesystem::path& output) {
   const bool is_in_pieces = names_parallel_file(output);
+  const bool is_read_in_pieces = names_parallel_file(options.input);
   if (options.single) {
     if (is_in_pieces) {
-      throw std::invalid_argument("--single writes one file, and " + output.string() + " is the name of a mesh in pieces");
+      throw std::invalid_argument("--single writes one file, and " + output.string() +
+                                  " is the name of a mesh in pieces");
     }
     if (!is_standard_stream(output)) {
       output_format(output, std::nullopt, options.format);
     }
-  } else if (!is_in_pieces || extension_of(output) != extension_of(options.input)) {
+  } else if (is_read_in_pieces && (!is_in_pieces || extension_of(output) != extension_of(options.input))) {
     throw std::invalid_argument("a mesh in pieces is written as it is read: the name of the output has to end in " +
                                 extension_of(options.input) + ", and is " + output.string() +
                                 "; --single writes one file, with the whole mesh in the memory of rank 0");
@@ -41,14 +43,14 @@ void require_output(const PipelineOptions& options, const std::filesystem::path&
 }  // namespace
 
 std::string what_needs_whole_mesh(const PipelineOptions& options) {
-  return options.slide.along != Slide::off                ? "--slide"
-         : options.project                                ? "--project"
-         : options.geographic                             ? "--geographic"
-         : options.size_array                             ? "--size-array"
-         : options.fields == Fields::interpolate          ? "--fields interpolate"
-         : !options.field_arrays.empty()                  ? "--field-array"
+  return options.slide.along != Slide::off                   ? "--slide"
+         : options.project                                   ? "--project"
+         : options.geographic                                ? "--geographic"
+         : options.size_array                                ? "--size-array"
+         : options.fields == Fields::interpolate             ? "--fields interpolate"
+         : !options.field_arrays.empty()                     ? "--field-array"
          : options.annotate || options.annotated.has_value() ? "--annotate"
-                                                          : "";
+                                                             : "";
 }
 
 void require_piece_options(const PipelineOptions& options) {
@@ -60,9 +62,12 @@ void require_piece_options(const PipelineOptions& options) {
     throw std::invalid_argument(whole +
                                 " is not done in pieces; --gather has rank 0 do it, with the whole mesh in its memory");
   }
-  refuse(options.format && !options.single, "--format", "the extension says it");
-  refuse((options.annotate || options.annotated) && !options.single, "--annotate", "--single writes one file that has them");
-  refuse(names_sets(options.fixed_sets), "--fixed-set", "files of VTK have no sets; hold vertices by --fixed-array");
+  const bool is_read_in_pieces = names_parallel_file(options.input);
+  refuse(options.format && !options.single && is_read_in_pieces, "--format", "the extension says it");
+  refuse((options.annotate || options.annotated) && !options.single, "--annotate",
+         "--single writes one file that has them");
+  refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set",
+         "files of VTK have no sets; hold vertices by --fixed-array");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");
   refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge", "the result is the same without it");
 }

@@ -15,9 +15,11 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/bisection.h"
+#include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/gathered_run.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/piece_options.h"
@@ -140,12 +142,35 @@ class PieceRun {
   }
 
   void read() {
-    files_ = read_pieces(options_.input, *ranks_, workers_);
+    if (names_parallel_file(options_.input)) {
+      read_mesh_in_pieces();
+    } else {
+      read_one_file();
+    }
+  }
+
+  void require_output() const {
     agree(*ranks_, [&] {
       if (ranks_->rank() == 0 && options_.written()) {
         require_own_pieces(files_, *options_.written(), options_.single);
       }
     });
+  }
+
+  void read_one_file() {
+    FileInPieces read = read_in_pieces(options_, *ranks_, workers_);
+    files_ = std::move(read.files);
+    read_input_ = std::move(read.input);
+    read_notes_ = std::move(read.notes);
+    read_losses_ = std::move(read.losses);
+    require_output();
+  }
+
+  void read_mesh_in_pieces() {
+    files_ = read_pieces(options_.input, *ranks_, workers_);
+    require_output();
+    read_input_.path = options_.input;
+    read_input_.format = files_.file.piece_format;
     std::set<std::string> notes;
     std::set<std::string> losses;
     for (const Piece& piece : files_.pieces) {
@@ -173,8 +198,7 @@ class PieceRun {
   void connect() {
     result_.notes = read_notes_;
     result_.losses = read_losses_;
-    result_.input.path = options_.input;
-    result_.input.format = files_.file.piece_format;
+    result_.input = read_input_;
     mesh_ = join_pieces(files_, *ranks_);
     constraints_ = find_rank_constraints(files_, mesh_, options_.fixed_array, options_.fixed_ids, *ranks_);
     share_out();
@@ -406,6 +430,7 @@ class PieceRun {
   Workers workers_;
   PipelineResult result_;
   PieceFiles files_;
+  InputSummary read_input_;               ///< what is known when it was read
   std::vector<std::string> read_notes_;   ///< of the readers of all pieces
   std::vector<std::string> read_losses_;  ///< likewise
   std::string gathered_for_;              ///< what needs the whole mesh on one rank; empty: nothing does

@@ -1,0 +1,66 @@
+#include "trismooth/mesh_io/new_parallel_file.h"
+
+#include <bit>
+#include <cstddef>
+
+#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+
+namespace trismooth {
+
+namespace {
+
+/// "Float64" for float64, as VTK has it.
+std::string vtk_name_of(ScalarType type) {
+  std::string name(to_string(type));
+  if (name.starts_with("uint")) {
+    name.replace(0, 4, "UInt");
+  } else {
+    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+  }
+  return name;
+}
+
+std::string array_element(const std::string& name, ScalarType type, std::size_t components) {
+  return "      <PDataArray type=\"" + vtk_name_of(type) + "\" Name=\"" + escape_xml_attribute(name) +
+         "\" NumberOfComponents=\"" + std::to_string(components) + "\"/>\n";
+}
+
+std::string section(const std::string& element, std::span<const DataArray> arrays) {
+  std::string roles;
+  std::string text;
+  for (const DataArray& array : arrays) {
+    text += array_element(array.name, array.type, array.components);
+    if (array.description != nullptr) {
+      for (const std::string& role : array.description->roles) {
+        roles.append(" ").append(role).append("=\"").append(escape_xml_attribute(array.name)).append("\"");
+      }
+    }
+  }
+  return "    <" + element + roles + ">\n" + text + "    </" + element + ">\n";
+}
+
+}  // namespace
+
+NewParallelFile make_parallel_file(FileFormat piece_format, const MeshDocument& document,
+                                   std::span<const std::string> sources) {
+  const std::string grid = piece_format == FileFormat::vtu ? "PUnstructuredGrid" : "PPolyData";
+  NewParallelFile made;
+  made.file.piece_format = piece_format;
+  std::string& text = made.bytes;
+  text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + grid + "\" version=\"1.0\" byte_order=\"" +
+         (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian") +
+         "\" header_type=\"UInt64\">\n  <" + grid + " GhostLevel=\"0\">\n";
+  text += section("PPointData", document.point_arrays) + section("PCellData", document.cell_arrays);
+  text += "    <PPoints>\n" + array_element("Points", document.point_type, 3) + "    </PPoints>\n";
+  for (const std::string& source : sources) {
+    text += "    <Piece Source=\"";
+    const std::size_t begin = text.size();
+    text += escape_xml_attribute(source);
+    made.file.pieces.push_back({source, begin, text.size()});
+    text += "\"/>\n";
+  }
+  text += "  </" + grid + ">\n</VTKFile>\n";
+  return made;
+}
+
+}  // namespace trismooth

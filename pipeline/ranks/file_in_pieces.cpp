@@ -1,0 +1,106 @@
+#include "trismooth/pipeline/ranks/file_in_pieces.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/input/line_groups.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/point_sets.h"
+#include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/mesh_share.h"
+#include "trismooth/pipeline/ranks/range_reading.h"
+#include "trismooth/pipeline/ranks/shared_out.h"
+#include "trismooth/pipeline/ranks/shared_texts.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What the sets of a file hold, and what the report says of them.
+void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& share) {
+  const MeshDocument& document = share.document;
+  const PlanarMesh mesh = mesh_of_piece(document, options.input, workers);
+  const Regions regions = find_regions(document, mesh, options.region_arrays);
+  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, regions.of_triangle);
+  share.held_by_sets = std::move(sets.flags);
+  share.point_sets = std::move(sets.sets);
+  share.notes = std::move(sets.notes);
+  share.cell_sets = summarise_cell_sets(document);
+  share.line_groups = find_line_groups(document);
+}
+
+void require_carried(const PipelineOptions& options, const MeshDocument& document) {
+  if (!document.cell_labels.empty()) {
+    throw ReadError(options.input, "holds texts at cells ('" + document.cell_labels.front().name +
+                                       "'), which a mesh in pieces may not have yet");
+  }
+  if (options.output && !document.arrays_of_places.empty() && options.fields != Fields::keep) {
+    throw std::invalid_argument(
+        options.input.string() + ": the point array '" + document.arrays_of_places.front() +
+        "' says something of places, and its values follow the mesh where vertices move, which they do not in pieces "
+        "yet; use --fields keep, or write one file");
+  }
+}
+
+/// Of rank 0; the others have nothing.
+MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers) {
+  MeshShare share;
+  agree(ranks, [&] {
+    if (ranks.rank() == 0) {
+      share.document = read_mesh(options.input, FileOptions{workers.count(), options.format});
+      share.document.original.reset();
+      require_carried(options, share.document);
+      take_sets(options, workers, share);
+    }
+  });
+  return share;
+}
+
+}  // namespace
+
+FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers) {
+  FileInPieces read;
+  const bool asks_for_sets = !options.fixed_sets.empty();
+  std::optional<MeshShare> share = asks_for_sets ? std::nullopt : read_range(options.input, ranks, workers);
+  read.by_ranges = share.has_value();
+  if (!share) {
+    share = read_whole(options, ranks, workers);
+  }
+  MeshDocument& document = share->document;
+  read.input.path = shown_input(options.input);
+  read.input.format = document.format;
+  read.input.point_sets = std::move(share->point_sets);
+  read.input.cell_sets = std::move(share->cell_sets);
+  read.input.line_groups = std::move(share->line_groups);
+  std::vector<std::string> notes = std::move(share->notes);
+  std::set<std::string> said(document.notes.begin(), document.notes.end());
+  std::set<std::string> lost(document.losses.begin(), document.losses.end());
+  if (options.output && ranks.rank() == 0) {
+    std::ranges::move(what_is_lost(document, FileFormat::vtu), std::inserter(lost, lost.end()));
+    if (!document.periodic_pairs.empty()) {
+      lost.insert("pieces hold no pairs of points that are the same place of what repeats itself: " +
+                  std::to_string(document.periodic_pairs.size()) + " are not written");
+    }
+  }
+  read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
+                          options.output, ranks, workers, notes);
+  const std::vector<std::string> all_said = texts_of_all(said, ranks);
+  read.losses = texts_of_all(lost, ranks);
+  // What the reader says of the file is said of what another format loses.
+  std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
+  std::ranges::move(notes, std::back_inserter(read.notes));
+  if (!read.by_ranges && ranks.size() > 1) {
+    read.notes.push_back("rank 0 has read the file whole and handed it out: only OFF texts are read by ranges");
+  }
+  return read;
+}
+
+}  // namespace trismooth

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/ranks/piece_files.h"
+
+namespace trismooth {
+
+/// A file of one mesh, shared out among the ranks: one piece for each.
+struct FileInPieces {
+  PieceFiles files;
+  bool by_ranges = false;          ///< every rank has read its range of the file; else rank 0 has read all of it
+  InputSummary input;              ///< path, format and the groups that the file names
+  std::vector<std::string> notes;  ///< what the reader has to say, on all ranks
+  std::vector<std::string> losses;
+};
+
+/// Reads the file of the options, by ranges where that can be done (see read_range()), else on rank 0, which hands out
+/// what it has read. Collective. Throws on all ranks ReadError as read_mesh() does and std::invalid_argument as the
+/// stages of run_pipeline() do, also for a file with values that pieces cannot have follow the mesh.
+FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers);
+
+}  // namespace trismooth
