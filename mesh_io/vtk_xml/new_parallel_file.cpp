@@ -26,17 +26,17 @@ std::string array_element(const std::string& name, ScalarType type, std::size_t 
 }
 
 std::string section(const std::string& element, std::span<const DataArray> arrays) {
-  std::string roles;
+  std::string role_texts;
   std::string text;
   for (const DataArray& array : arrays) {
     text += array_element(array.name, array.type, array.components);
     if (array.description != nullptr) {
       for (const std::string& role : array.description->roles) {
-        roles.append(" ").append(role).append("=\"").append(escape_xml_attribute(array.name)).append("\"");
+        role_texts.append(" ").append(role).append("=\"").append(escape_xml_attribute(array.name)).append("\"");
       }
     }
   }
-  return "    <" + element + roles + ">\n" + text + "    </" + element + ">\n";
+  return "    <" + element + role_texts + ">\n" + text + "    </" + element + ">\n";
 }
 
 }  // namespace
