@@ -13,13 +13,14 @@ namespace trismooth {
 enum class Partition : std::uint8_t {
   keep,    ///< as the files have it: pieces, one block of them after the other; of one file, vertices likewise
   bisect,  ///< halved again and again, across the longer side of each half
+  metis    ///< by METIS, where the build has it: blocks of vertices with few edges between ranks
 };
 
 template <>
 struct EnumText<Partition> {
   static constexpr std::string_view what = "partition";
-  static constexpr std::array<std::pair<Partition, std::string_view>, 2> texts{
-      {{Partition::keep, "keep"}, {Partition::bisect, "bisect"}}};
+  static constexpr std::array<std::pair<Partition, std::string_view>, 3> texts{
+      {{Partition::keep, "keep"}, {Partition::bisect, "bisect"}, {Partition::metis, "metis"}}};
 };
 
 }  // namespace trismooth

@@ -11,9 +11,12 @@
 #include <mpi.h>
 
 #include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/pipeline/ranks/metis_parts.h"
 #include "trismooth/pipeline/ranks/one_file_run.h"
 #include "trismooth/pipeline/ranks/piece_run.h"
 #endif
+
+#include <stdexcept>
 
 namespace trismooth {
 
@@ -99,10 +102,15 @@ std::string mpi_text() {
   MPI_Get_library_version(library.data(), &length);
   library.resize(static_cast<std::size_t>(length));
   // (Some say more than which one they are.)
-  return library.substr(0, library.find_first_of(",\n")) + "; reads meshes in pieces (.pvtu, .pvtp)";
+  return library.substr(0, library.find_first_of(",\n")) + "; reads meshes in pieces (.pvtu, .pvtp)" +
+         (metis_version().empty() ? "" : "; partitions by METIS " + metis_version());
 }
 
 #else
+
+std::string metis_version() {
+  return {};
+}
 
 std::string mpi_text() {
   return "not in this build";
@@ -113,5 +121,11 @@ std::unique_ptr<RankJob> join_ranks(int /*argc*/, const char* const* /*argv*/) {
 }
 
 #endif
+
+void require_partition(Partition partition) {
+  if (partition == Partition::metis && metis_version().empty()) {
+    throw std::invalid_argument("this build has no METIS; bisect shares the mesh out without it");
+  }
+}
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "trismooth/pipeline/partition.h"
 #include "trismooth/pipeline/pipeline.h"
 
 namespace trismooth {
@@ -33,6 +34,9 @@ class RankJob {
 /// Joins the MPI job that a launcher (mpirun, srun) has made this process a rank of. A process without a launcher is a
 /// job by itself where an argument names a mesh in pieces. Null for others, and where the build has no MPI.
 std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv);
+
+/// Throws std::invalid_argument where the build cannot share a mesh out in that way.
+void require_partition(Partition partition);
 
 /// What of MPI the build has, for people.
 std::string mpi_text();

@@ -7,6 +7,7 @@
 #include "trismooth/pipeline/cli/backend_choice.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/rank_job.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_or_cpu.h"
 #include "trismooth/pipeline/cuda_support.h"
@@ -136,9 +137,12 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
   add_parsed_option(
       command, "--partition", alternatives<Partition>(),
       "How the ranks of an MPI job share the mesh out; the result is the same. keep: as the pieces are, of "
-      "one file blocks of vertices; bisect: halved again and again, across the longer side [keep, where "
-      "there is a piece for each rank, else bisect]",
-      [&settings](const std::string& text) { settings.run.pipeline.partition = parse_choice<Partition>(text); })
+      "one file blocks of vertices; bisect: halved again and again, across the longer side; metis: by METIS, "
+      "where the build has it [keep, where there is a piece for each rank, else bisect]",
+      [&settings](const std::string& text) {
+        settings.run.pipeline.partition = parse_choice<Partition>(text);
+        require_partition(*settings.run.pipeline.partition);
+      })
       ->group(option_group::running);
   add_enum_option(command, "--topology", options.topology,
                   "Who finds the neighbours; the result is the same. auto: the GPU where it smooths, else the host; "

@@ -18,18 +18,18 @@ std::uint64_t in_order(double coordinate) {
   return (bits & sign) != 0 ? ~bits : bits | sign;
 }
 
-/// Ranks that have not been told apart yet.
+/// Parts that have not been told apart yet.
 struct Group {
   int first;
   int count;
 };
 
-/// Cuts the points of all groups, each of more than one rank in two.
+/// Cuts the points of all groups, each of more than one part in two.
 class Level {
  public:
-  Level(std::span<const Point2<double>> points, const std::vector<Group>& groups, std::vector<std::int32_t>& group_of,
-        const mpi::Communicator& ranks)
-      : points_(points), groups_(groups), group_of_(group_of), ranks_(ranks) {}
+  Level(std::span<const Point2<double>> points, const std::vector<Group>& groups, double slack,
+        std::vector<std::int32_t>& group_of, const mpi::Communicator& ranks)
+      : points_(points), groups_(groups), slack_(slack), group_of_(group_of), ranks_(ranks) {}
 
   std::vector<Group> cut() {
     find_sides();
@@ -71,6 +71,13 @@ class Level {
       const double x = ends[4 * g] / 2 + ends[4 * g + 1] / 2;
       const double y = ends[4 * g + 2] / 2 + ends[4 * g + 3] / 2;
       along_y_.push_back(y > x ? 1 : 0);
+      const std::size_t side = 4 * g + (y > x ? 2 : 0);
+      // Above the bits in which the ends differ all keys of the group are the same.
+      const std::uint64_t last = in_order(ends[side]);
+      const int differing = 64 - std::countl_zero(last ^ in_order(-ends[side + 1]));
+      const bool is_cut = groups_[g].count > 1 && ends[side] >= -ends[side + 1];
+      bits_.push_back(is_cut ? differing : 0);
+      cuts_.push_back(differing == 64 ? all_bits : last | ((std::uint64_t{1} << static_cast<unsigned>(differing)) - 1));
     }
   }
 
@@ -85,43 +92,59 @@ class Level {
     return counts;
   }
 
-  /// The lowest cuts that leave the first halves of the groups enough points: bit by bit.
+  /// The lowest cuts that leave the first halves of the groups enough points, but for the slack: bit by bit.
   void find_cuts() {
-    constexpr std::uint64_t all_bits = std::numeric_limits<std::uint64_t>::max();
-    std::vector<std::int64_t> wanted = count_within(std::vector<std::uint64_t>(groups_.size(), all_bits));
+    std::vector<std::int64_t> within = count_within(cuts_);
+    std::vector<std::int64_t> wanted = within;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const int count = std::max(groups_[g].count, 1);
       const int lower = count - count / 2;
       wanted[g] = wanted[g] / count * lower + wanted[g] % count * lower / count;
     }
-    cuts_.assign(groups_.size(), all_bits);
-    for (int bit = 63; bit >= 0; --bit) {
+    for (int bit = std::ranges::max(bits_) - 1; bit >= 0; --bit) {
       std::vector<std::uint64_t> lower = cuts_;
-      for (std::uint64_t& cut : lower) {
-        cut ^= std::uint64_t{1} << static_cast<unsigned>(bit);
+      bool is_any_open = false;
+      for (std::size_t g = 0; g < lower.size(); ++g) {
+        const auto most = wanted[g] + static_cast<std::int64_t>(slack_ * static_cast<double>(wanted[g]));
+        if (bit < bits_[g] && within[g] > most) {
+          lower[g] ^= std::uint64_t{1} << static_cast<unsigned>(bit);
+          is_any_open = true;
+        }
+        is_any_open = is_any_open || (bits_[g] > 0 && bit >= bits_[g]);
+      }
+      if (!is_any_open) {
+        break;
       }
       const std::vector<std::int64_t> counts = count_within(lower);
       for (std::size_t g = 0; g < groups_.size(); ++g) {
-        cuts_[g] = counts[g] >= wanted[g] ? lower[g] : cuts_[g];
+        if (counts[g] >= wanted[g]) {
+          cuts_[g] = lower[g];
+          within[g] = counts[g];
+        }
       }
     }
   }
 
+  static constexpr std::uint64_t all_bits = std::numeric_limits<std::uint64_t>::max();
+
   std::span<const Point2<double>> points_;
   const std::vector<Group>& groups_;
+  double slack_;
   std::vector<std::int32_t>& group_of_;
   const mpi::Communicator& ranks_;
   std::vector<std::uint8_t> along_y_;
+  std::vector<int> bits_;  ///< of each group: the low bits of keys in which its cut is to be found
   std::vector<std::uint64_t> cuts_;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> bisected(std::span<const Point2<double>> points, const mpi::Communicator& ranks) {
-  std::vector<Group> groups{{0, ranks.size()}};
+std::vector<std::int32_t> bisected(std::span<const Point2<double>> points, int parts, double slack,
+                                   const mpi::Communicator& ranks) {
+  std::vector<Group> groups{{0, parts}};
   std::vector<std::int32_t> group_of(points.size(), 0);
   while (std::ranges::any_of(groups, [](const Group& group) { return group.count > 1; })) {
-    groups = Level(points, groups, group_of, ranks).cut();
+    groups = Level(points, groups, slack, group_of, ranks).cut();
   }
   std::ranges::transform(group_of, group_of.begin(),
                          [&](std::int32_t group) { return groups[static_cast<std::size_t>(group)].first; });

@@ -14,7 +14,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/smoothing/noted_smoother.h"
-#include "trismooth/pipeline/ranks/bisection.h"
+#include "trismooth/pipeline/ranks/vertex_owners.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
@@ -37,10 +37,11 @@ void share_command(RankCommand& command, const mpi::Communicator& ranks) {
 }
 
 /// How the vertices are shared out: as the ranks that have them do not, all being rank 0's, somebody has to say it.
-std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> points, Partition partition,
+std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> points,
+                                             std::span<const Triangle> triangles, Partition partition,
                                              const mpi::Communicator& ranks) {
-  if (partition == Partition::bisect) {
-    return bisected(points, ranks);
+  if (partition != Partition::keep) {
+    return find_owners(partition, {points, triangles, {}}, ranks);
   }
   std::vector<std::int32_t> owners(points.size());
   for (std::size_t v = 0; v < owners.size(); ++v) {
@@ -50,12 +51,12 @@ std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> poi
 }
 
 /// The mesh of rank 0, nothing on the others.
-struct WholeMesh {
+struct MeshOfFirst {
   std::span<const Triangle> triangles;
   std::span<const std::uint8_t> fixed;  ///< bits of namespace hold
 };
 
-SmoothingResult smooth_over_ranks(const WholeMesh& mesh, std::span<Point2<double>> points, Storage storage,
+SmoothingResult smooth_over_ranks(const MeshOfFirst& mesh, std::span<Point2<double>> points, Storage storage,
                                   const SmoothingOptions& options, Partition partition,
                                   const mpi::Communicator& ranks) {
   std::vector<std::int64_t> ids(points.size());
@@ -67,7 +68,7 @@ SmoothingResult smooth_over_ranks(const WholeMesh& mesh, std::span<Point2<double
     named[v] = (mesh.fixed[v] & ~hold::isolated) != 0 ? 1 : 0;
     in_other_cell[v] = mesh.fixed[v] & hold::other_cell;
   }
-  const std::vector<std::int32_t> owners = owners_of_one_file(points, partition, ranks);
+  const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.triangles, partition, ranks);
   const mpi::LocalMesh local{mesh.triangles, ids, owners};
   const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
   return mpi::Plan(ranks.handle(), local, constraints, options).smooth(PointView(points), storage);

@@ -18,7 +18,6 @@
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/ranks/agreement.h"
-#include "trismooth/pipeline/ranks/bisection.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/gathered_run.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
@@ -34,6 +33,7 @@
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/shared_vertices.h"
 #include "trismooth/pipeline/ranks/vertex_numbers.h"
+#include "trismooth/pipeline/ranks/vertex_owners.h"
 #include "trismooth/pipeline/ranks/whole_mesh.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
@@ -190,8 +190,9 @@ class PieceRun {
   /// Where fewer ranks have read than there are, others get work all the same.
   void share_out() {
     const bool has_enough = std::ssize(files_.file.pieces) >= ranks_->size();
-    if (options_.partition.value_or(has_enough ? Partition::keep : Partition::bisect) == Partition::bisect) {
-      owners_ = bisected(mesh_.points(), *ranks_);
+    const Partition partition = options_.partition.value_or(has_enough ? Partition::keep : Partition::bisect);
+    if (partition != Partition::keep) {
+      owners_ = find_owners(partition, {mesh_.points(), mesh_.triangles, mesh_.ghost_triangles}, *ranks_);
     }
   }
 

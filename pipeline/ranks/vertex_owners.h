@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/partition.h"
+
+namespace trismooth {
+
+/// What a rank has of a mesh that is to be shared out.
+struct ShareableMesh {
+  std::span<const Point2<double>> points;  ///< one a vertex; ranks agree on them
+  std::span<const Triangle> triangles;
+  std::span<const std::uint8_t> is_copy;  ///< one flag a triangle; empty: there are none
+};
+
+/// The rank that is to move each of the rank's vertices, whoever has it, by Partition::bisect or Partition::metis. With
+/// METIS, which is serial, points are bisected into many small blocks first, and rank 0 partitions the graph of these:
+/// no rank has more of the mesh. Of a mesh of few blocks a rank METIS has nothing to say: it is bisected. Collective:
+/// throws the same on all ranks.
+std::vector<std::int32_t> find_owners(Partition partition, const ShareableMesh& mesh, const mpi::Communicator& ranks);
+
+}  // namespace trismooth
