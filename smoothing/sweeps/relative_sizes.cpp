@@ -11,27 +11,48 @@
 
 namespace trismooth {
 
+namespace {
+
+void require_positive(std::span<const double> lengths, std::span<const std::uint8_t> fixed) {
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    if ((fixed[v] & hold::isolated) == 0 && (!(lengths[v] > 0) || !std::isfinite(lengths[v]))) {
+      throw std::invalid_argument("MeanRatioOptions::target_lengths: that of vertex " + std::to_string(v) +
+                                  " is not a positive number");
+    }
+  }
+}
+
+}  // namespace
+
+void require_target_lengths(const SmoothingOptions& options, std::span<const std::uint8_t> fixed) {
+  const std::span<const double> lengths = options.mean_ratio.target_lengths;
+  if (!options.aims_at_sizes()) {
+    return;
+  }
+  if (lengths.size() != fixed.size()) {
+    throw std::invalid_argument("MeanRatioOptions::target_lengths has " + std::to_string(lengths.size()) +
+                                " entries, expected " + std::to_string(fixed.size()) + " or none");
+  }
+  require_positive(lengths, fixed);
+}
+
 std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed,
                                   const Halo* halo) {
   const std::span<const double> lengths = options.mean_ratio.target_lengths;
   if (!options.aims_at_sizes()) {
     return {};
   }
-  // (Of a part without a vertex there is one too many, so that it aims at sizes with the others.)
-  if (halo == nullptr && lengths.size() != fixed.size()) {
-    throw std::invalid_argument("MeanRatioOptions::target_lengths has " + std::to_string(lengths.size()) +
-                                " entries, expected " + std::to_string(fixed.size()) + " or none");
+  if (halo == nullptr) {
+    require_target_lengths(options, fixed);
+  } else {
+    // (Of a part without a vertex there is one too many, so that it aims at sizes with the others.)
+    require_positive(lengths, fixed);
   }
   double largest = 0;
   for (std::size_t v = 0; v < fixed.size(); ++v) {
-    if ((fixed[v] & hold::isolated) != 0) {
-      continue;
+    if ((fixed[v] & hold::isolated) == 0) {
+      largest = std::max(largest, lengths[v]);
     }
-    if (!(lengths[v] > 0) || !std::isfinite(lengths[v])) {
-      throw std::invalid_argument("MeanRatioOptions::target_lengths: that of vertex " + std::to_string(v) +
-                                  " is not a positive number");
-    }
-    largest = std::max(largest, lengths[v]);
   }
   largest = -least_of_parts(halo, -largest);
   std::vector<double> inverses(lengths.size(), 1);
