@@ -5,6 +5,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/new_parallel_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/mesh_io/ranges/vtu_range.h"
 
 // The one place that knows whether the build has VTK.
 #ifdef TRISMOOTH_HAS_VTK
@@ -51,6 +52,15 @@ std::string with_sources(std::string_view bytes, const ParallelFile& /*file*/,
 NewParallelFile make_parallel_file(FileFormat /*piece_format*/, const MeshDocument& /*document*/,
                                    std::span<const std::string> /*sources*/) {
   throw std::logic_error("this build has no VTK, and no pieces of .vtu and .vtp");
+}
+
+VtuCounts count_vtu(const std::filesystem::path& path) {
+  throw ReadError(path, "is not read by ranges: this build has no VTK");
+}
+
+MeshDocument read_vtu_range(const std::filesystem::path& path, NumberRange /*points*/, NumberRange /*cells*/,
+                            bool /*with_fields*/, const FileWorkers& /*workers*/) {
+  throw ReadError(path, "is not read by ranges: this build has no VTK");
 }
 
 #endif

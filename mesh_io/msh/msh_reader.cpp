@@ -16,6 +16,7 @@
 #include "trismooth/mesh_io/msh/msh_data.h"
 #include "trismooth/mesh_io/msh/msh_elements.h"
 #include "trismooth/mesh_io/msh/msh_periodic.h"
+#include "trismooth/mesh_io/ranges/msh_range.h"
 #include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {
@@ -298,7 +299,7 @@ class MshReader {
     };
     if (nodes_.any_on_surfaces) {
       add(points_of_geometry, nodes_.on_points);
-      add("gmsh:curves", nodes_.on_curves);
+      add(curves_of_geometry, nodes_.on_curves);
     }
     std::ranges::sort(periodic_);
     periodic_.erase(std::unique(periodic_.begin(), periodic_.end()), periodic_.end());

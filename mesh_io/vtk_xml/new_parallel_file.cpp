@@ -25,7 +25,7 @@ std::string array_element(const std::string& name, ScalarType type, std::size_t 
          "\" NumberOfComponents=\"" + std::to_string(components) + "\"/>\n";
 }
 
-std::string section(const std::string& element, std::span<const DataArray> arrays) {
+std::string section_element(const std::string& element, std::span<const DataArray> arrays) {
   std::string role_texts;
   std::string text;
   for (const DataArray& array : arrays) {
@@ -50,7 +50,7 @@ NewParallelFile make_parallel_file(FileFormat piece_format, const MeshDocument& 
   text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + grid + "\" version=\"1.0\" byte_order=\"" +
          (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian") +
          "\" header_type=\"UInt64\">\n  <" + grid + " GhostLevel=\"0\">\n";
-  text += section("PPointData", document.point_arrays) + section("PCellData", document.cell_arrays);
+  text += section_element("PPointData", document.point_arrays) + section_element("PCellData", document.cell_arrays);
   text += "    <PPoints>\n" + array_element("Points", document.point_type, 3) + "    </PPoints>\n";
   for (const std::string& source : sources) {
     text += "    <Piece Source=\"";

@@ -10,14 +10,14 @@ namespace trismooth {
 
 namespace {
 
-using Words = std::vector<std::string>;
+using LayoutWords = std::vector<std::string>;
 
-void append_description(Words& words, const ArrayDescription* description) {
-  const Words told = words_of(description);
+void append_description(LayoutWords& words, const ArrayDescription* description) {
+  const LayoutWords told = words_of(description);
   words.insert(words.end(), told.begin(), told.end());
 }
 
-void append_arrays(Words& words, const std::vector<DataArray>& arrays) {
+void append_arrays(LayoutWords& words, const std::vector<DataArray>& arrays) {
   words.push_back(std::to_string(arrays.size()));
   for (const DataArray& array : arrays) {
     words.push_back(array.name);
@@ -27,7 +27,7 @@ void append_arrays(Words& words, const std::vector<DataArray>& arrays) {
   }
 }
 
-std::vector<DataArray> arrays_at(Words::const_iterator& word) {
+std::vector<DataArray> arrays_at(LayoutWords::const_iterator& word) {
   std::vector<DataArray> arrays(std::stoul(*word++));
   for (DataArray& array : arrays) {
     array.name = *word++;
@@ -39,7 +39,7 @@ std::vector<DataArray> arrays_at(Words::const_iterator& word) {
 }
 
 /// Each with a zero behind it; names in files have none.
-std::vector<char> as_bytes(const Words& words) {
+std::vector<char> bytes_of_words(const LayoutWords& words) {
   std::vector<char> bytes;
   for (const std::string& word : words) {
     bytes.insert(bytes.end(), word.begin(), word.end());
@@ -48,8 +48,8 @@ std::vector<char> as_bytes(const Words& words) {
   return bytes;
 }
 
-Words words_in(const std::vector<char>& bytes) {
-  Words words;
+LayoutWords words_in(const std::vector<char>& bytes) {
+  LayoutWords words;
   for (auto at = bytes.begin(); at != bytes.end();) {
     const auto end = std::find(at, bytes.end(), '\0');
     words.emplace_back(at, end);
@@ -61,20 +61,20 @@ Words words_in(const std::vector<char>& bytes) {
 }  // namespace
 
 std::vector<char> packed_point_layout(const MeshDocument& document) {
-  Words words{std::to_string(static_cast<unsigned>(document.point_type)), document.has_float32_axis ? "1" : "0"};
+  LayoutWords words{std::to_string(static_cast<unsigned>(document.point_type)), document.has_float32_axis ? "1" : "0"};
   append_description(words, document.points_description.get());
   append_arrays(words, document.point_arrays);
-  return as_bytes(words);
+  return bytes_of_words(words);
 }
 
 std::vector<char> packed_cell_layout(const MeshDocument& document) {
-  Words words;
+  LayoutWords words;
   append_arrays(words, document.cell_arrays);
-  return as_bytes(words);
+  return bytes_of_words(words);
 }
 
 void take_point_layout(const std::vector<char>& layout, MeshDocument& document) {
-  const Words words = words_in(layout);
+  const LayoutWords words = words_in(layout);
   auto word = words.begin();
   document.point_type = static_cast<ScalarType>(std::stoul(*word++));
   document.has_float32_axis = *word++ == "1";
@@ -83,7 +83,7 @@ void take_point_layout(const std::vector<char>& layout, MeshDocument& document) 
 }
 
 void take_cell_layout(const std::vector<char>& layout, MeshDocument& document) {
-  const Words words = words_in(layout);
+  const LayoutWords words = words_in(layout);
   auto word = words.begin();
   document.cell_arrays = arrays_at(word);
 }

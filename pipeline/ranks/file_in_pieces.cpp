@@ -16,7 +16,7 @@
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"
-#include "trismooth/pipeline/ranks/range_reading.h"
+#include "trismooth/pipeline/ranks/share_reading.h"
 #include "trismooth/pipeline/ranks/shared_out.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 
@@ -69,7 +69,7 @@ MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ra
 FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers) {
   FileInPieces read;
   const bool asks_for_sets = !options.fixed_sets.empty();
-  std::optional<MeshShare> share = asks_for_sets ? std::nullopt : read_range(options.input, ranks, workers);
+  std::optional<MeshShare> share = asks_for_sets ? std::nullopt : read_share(options.input, ranks, workers);
   read.by_ranges = share.has_value();
   if (!share) {
     share = read_whole(options, ranks, workers);
@@ -90,6 +90,14 @@ FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communica
                   std::to_string(document.periodic_pairs.size()) + " are not written");
     }
   }
+  const bool has_sets = ranks.any(!share->held_by_sets.empty() || !share->implied_by.empty());
+  agree(ranks, [&] {
+    if (options.gather && has_sets) {
+      throw std::invalid_argument(options.input.string() +
+                                  ": its sets hold vertices, of which --gather knows nothing where one file is written "
+                                  "in pieces; write one file, or use --fixed-set none");
+    }
+  });
   read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
                           options.output, ranks, workers, notes);
   const std::vector<std::string> all_said = texts_of_all(said, ranks);
@@ -98,7 +106,10 @@ FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communica
   std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
   std::ranges::move(notes, std::back_inserter(read.notes));
   if (!read.by_ranges && ranks.size() > 1) {
-    read.notes.push_back("rank 0 has read the file whole and handed it out: only OFF texts are read by ranges");
+    read.notes.push_back(
+        "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "
+        "appended "
+        "arrays, and binary MSH");
   }
   return read;
 }

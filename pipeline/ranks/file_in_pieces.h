@@ -20,7 +20,7 @@ struct FileInPieces {
   std::vector<std::string> losses;
 };
 
-/// Reads the file of the options, by ranges where that can be done (see read_range()), else on rank 0, which hands out
+/// Reads the file of the options, by ranges where that can be done (see read_share()), else on rank 0, which hands out
 /// what it has read. Collective. Throws on all ranks ReadError as read_mesh() does and std::invalid_argument as the
 /// stages of run_pipeline() do, also for a file with values that pieces cannot have follow the mesh.
 FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers);

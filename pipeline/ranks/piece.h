@@ -21,9 +21,10 @@ struct Piece {
   std::vector<std::int32_t> vertices;     ///< one a point: its number among those of the rank
 
   // Of pieces that one file was shared out in; else empty.
-  std::vector<std::int64_t> cell_ids;        ///< one a cell: its number in the file, ascending
-  std::vector<std::int64_t> triangle_ids;    ///< one a triangle of the mesh: its number in the file, ascending
-  std::vector<std::uint8_t> held_by_sets;    ///< one a point: 1 where a set of the file holds it; or none
+  std::vector<std::int64_t> cell_ids;      ///< one a cell: its number in the file, ascending
+  std::vector<std::int64_t> triangle_ids;  ///< one a triangle of the mesh: its number in the file, ascending
+  std::vector<std::uint8_t> held_by_sets;  ///< one a point, as MeshShare has it
+  std::vector<std::uint8_t> implied_by;    ///< likewise
 
   bool is_ghost(std::size_t triangle) const { return ghost_cells[static_cast<std::size_t>(mesh.cells[triangle])] != 0; }
 };

@@ -20,6 +20,7 @@
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/gathered_run.h"
+#include "trismooth/pipeline/ranks/implied_sets.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/piece_options.h"
 #include "trismooth/pipeline/ranks/rank_boundary.h"
@@ -206,6 +207,8 @@ class PieceRun {
     topology_.emplace(mesh_, constraints_.named, owners_, options_.input, ranks_, workers_);
     regions_ = find_rank_regions(files_, *topology_, options_.region_arrays);
     held_ = topology_->held(regions_.of_overlap, workers_);
+    std::ranges::move(settle_implied_sets(files_, mesh_, *topology_, held_),
+                      std::back_inserter(result_.input.point_sets));
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(mesh_.points());
     frame_ = topology_->frame_of(points, held_);
     local_ = entered(frame_, points).points;
@@ -356,7 +359,7 @@ class PieceRun {
     SmoothingResult smoothing = known_to_all([&] {
       const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles, mesh_.triangle_ids};
       const Constraints constraints{
-          .fixed = constraints_.named, .other_cells = mesh_.in_other_cell, .regions = regions_.of_mesh};
+          .fixed = constraints_.fixed, .other_cells = mesh_.in_other_cell, .regions = regions_.of_mesh};
       const Stopwatch watch;
       mpi::Plan plan(ranks_->handle(), local, constraints, options_.smoothing);
       result_.timings_ms.topology += watch.milliseconds();

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -17,6 +18,7 @@
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 
@@ -167,6 +169,12 @@ class RankValues {
   std::optional<std::int64_t> between_;
 };
 
+/// What a region is called; with the value where others are called the same.
+struct RegionName {
+  std::string plain;
+  std::string with_value;
+};
+
 class RankRegionFinder {
  public:
   RankRegionFinder(const PieceFiles& files, const RankTopology& topology)
@@ -254,16 +262,19 @@ class RankRegionFinder {
   void obey(const PieceArray& array, RankValues values, RegionReason reason) {
     regions_.arrays.push_back(
         {array.name, reason, static_cast<std::int32_t>(values.count()), values.vertices_between()});
-    const bool is_first = regions_.names.empty();
+    const bool is_first = names_.empty();
     const std::vector<std::uint64_t> all = values_of_all(values.keys());
     const std::vector<std::int32_t> numbers = places_in(all, values.keys());
-    std::vector<std::string> texts;
+    std::vector<RegionName> texts;
+    const ValueNames names = names_of_values(array.name);
     for (const std::uint64_t key : all) {
-      texts.push_back(text_of_key(key, values.type()));
+      const std::string value = text_of_key(key, values.type());
+      const std::string name = names.of(value);
+      texts.push_back(name.empty() ? RegionName{value, value} : RegionName{name, name + " (" + value + ")"});
     }
     if (is_first) {
       regions_.of_mesh = numbers;
-      regions_.names = std::move(texts);
+      names_ = std::move(texts);
       return;
     }
     // Together with what the arrays before it say: pairs, ascending by the first, then by the second.
@@ -274,14 +285,33 @@ class RankRegionFinder {
     }
     const std::vector<std::uint64_t> all_pairs = values_of_all(pairs);
     regions_.of_mesh = places_in(all_pairs, pairs);
-    std::vector<std::string> names;
+    std::vector<RegionName> pair_names;
     for (const std::uint64_t pair : all_pairs) {
-      names.push_back(regions_.names[pair / width] + ", " + texts[pair % width]);
+      const RegionName& first = names_[pair / width];
+      const RegionName& second = texts[pair % width];
+      pair_names.push_back({first.plain + ", " + second.plain, first.with_value + ", " + second.with_value});
     }
-    regions_.names = std::move(names);
+    names_ = std::move(pair_names);
+  }
+
+  /// What the file calls values of the array.
+  ValueNames names_of_values(const std::string& array) const {
+    for (const Piece& piece : files_.pieces) {
+      if (const DataArray* const values = find_array(piece.document.cell_arrays, array)) {
+        return {*values, 2};
+      }
+    }
+    return {{}, 2};
   }
 
   RankRegions take() {
+    std::map<std::string, int> uses;
+    for (const RegionName& name : names_) {
+      ++uses[name.plain];
+    }
+    for (RegionName& name : names_) {
+      regions_.names.push_back(uses[name.plain] > 1 ? std::move(name.with_value) : name.plain);
+    }
     if (!regions_.arrays.empty()) {
       regions_.of_overlap = topology_.of_triangles<std::int32_t>(regions_.of_mesh);
     }
@@ -330,6 +360,7 @@ class RankRegionFinder {
   const mpi::Communicator& ranks_;
   std::vector<const PieceArray*> candidates_;
   RankRegions regions_;
+  std::vector<RegionName> names_;
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ struct RankRegions {
   std::vector<RegionArray> arrays;       ///< the cell arrays that were obeyed, in the files' order
   std::vector<std::int32_t> of_mesh;     ///< one for each triangle of the RankMesh; empty where no array was obeyed
   std::vector<std::int32_t> of_overlap;  ///< one for each triangle of the overlap, likewise
-  std::vector<std::string> names;        ///< of each region: its value in the files; of several arrays, "1, 7"
+  std::vector<std::string> names;        ///< of each region, as Regions::names
   std::vector<std::string> notes;
 };
 

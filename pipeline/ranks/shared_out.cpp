@@ -271,12 +271,20 @@ class Sharing {
       array.bytes = {};
       array.owner.reset();
     }
-    if (ranks_.any(!share_.held_by_sets.empty())) {
-      share_.held_by_sets.resize(static_cast<std::size_t>(point_ranks_.size()), 0);
-      const std::vector<std::byte> held = rows_of_points(std::as_bytes(std::span(share_.held_by_sets)), 1);
-      piece_.held_by_sets.resize(held.size());
-      std::memcpy(piece_.held_by_sets.data(), held.data(), held.size());
+    piece_.held_by_sets = flags_of_points(share_.held_by_sets);
+    piece_.implied_by = flags_of_points(share_.implied_by);
+  }
+
+  /// None where no rank has any.
+  std::vector<std::uint8_t> flags_of_points(std::vector<std::uint8_t>& flags) const {
+    if (!ranks_.any(!flags.empty())) {
+      return {};
     }
+    flags.resize(point_ranks_.size(), 0);
+    const std::vector<std::byte> rows = rows_of_points(std::as_bytes(std::span(flags)), 1);
+    std::vector<std::uint8_t> sent(rows.size());
+    std::ranges::transform(rows, sent.begin(), [](std::byte flag) { return std::to_integer<std::uint8_t>(flag); });
+    return sent;
   }
 
   void number_corners() {

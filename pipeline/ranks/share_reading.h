@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <optional>
 
 #include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/ranges/number_range.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"
 
@@ -23,13 +26,8 @@ bool works_on_all(const mpi::Communicator& ranks, const Work& work) {
   return !ranks.any(!works);
 }
 
-/// The bytes or things [first, last) of `count` that are a rank's part, the same number for all but for one.
-struct RankRange {
-  std::uint64_t first;
-  std::uint64_t last;
-};
-
-inline RankRange range_of_rank(std::uint64_t count, const mpi::Communicator& ranks) {
+/// Which of `count` things are a rank's: equally many for all but for one.
+inline NumberRange range_of_rank(std::uint64_t count, const mpi::Communicator& ranks) {
   const auto size = static_cast<std::uint64_t>(ranks.size());
   const auto rank = static_cast<std::uint64_t>(ranks.rank());
   const std::uint64_t length = count / size;
@@ -41,11 +39,19 @@ inline RankRange range_of_rank(std::uint64_t count, const mpi::Communicator& ran
 /// Reads this rank's share of a file, if it is of a kind that can be read by ranges; nothing on all ranks where it is
 /// not, or where anything in it is unusual or wrong: the file is to be read whole then. Collective; throws nothing of
 /// the file.
-std::optional<MeshShare> read_range(const std::filesystem::path& path, const mpi::Communicator& ranks,
+std::optional<MeshShare> read_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                     Workers& workers);
 
 /// The same of an OFF text. A rank's lines are those that begin in its part of the bytes.
-std::optional<MeshShare> read_off_range(const std::filesystem::path& path, const mpi::Communicator& ranks,
+std::optional<MeshShare> read_off_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
+                                        Workers& workers);
+
+/// The same of a binary MSH file.
+std::optional<MeshShare> read_msh_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
+                                        Workers& workers);
+
+/// The same of a .vtu file whose arrays are raw in the appended section.
+std::optional<MeshShare> read_vtu_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                         Workers& workers);
 
 }  // namespace trismooth

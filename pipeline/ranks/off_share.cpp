@@ -7,11 +7,11 @@
 #include "trismooth/mesh_io/off/off_reader.h"
 #include "trismooth/mesh_io/ranges/line_ranges.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
-#include "trismooth/pipeline/ranks/range_reading.h"
+#include "trismooth/pipeline/ranks/share_reading.h"
 
 namespace trismooth {
 
-std::optional<MeshShare> read_off_range(const std::filesystem::path& path, const mpi::Communicator& ranks,
+std::optional<MeshShare> read_off_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                         Workers& workers) {
   constexpr std::size_t head_bytes = std::size_t{1} << 16;
   const FileWorkers file_workers(workers);

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/ranks/range_reading.h"
+#include "trismooth/pipeline/ranks/share_reading.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +20,8 @@ namespace {
 std::optional<FileFormat> range_format_of(const std::filesystem::path& path) {
   constexpr std::size_t head_bytes = std::size_t{1} << 16;
   const std::optional<FileFormat> format = format_of(path);
-  if (is_standard_stream(path) || format != FileFormat::off) {
+  if (is_standard_stream(path) ||
+      !(format == FileFormat::off || format == FileFormat::vtu || format == FileFormat::msh)) {
     return std::nullopt;
   }
   const InputFile file(path);
@@ -41,7 +42,7 @@ bool has_one_layout(const MeshDocument& document, const mpi::Communicator& ranks
 
 }  // namespace
 
-std::optional<MeshShare> read_range(const std::filesystem::path& path, const mpi::Communicator& ranks,
+std::optional<MeshShare> read_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                     Workers& workers) {
   std::optional<FileFormat> format;
   const bool is_known = works_on_all(ranks, [&] {
@@ -51,7 +52,9 @@ std::optional<MeshShare> read_range(const std::filesystem::path& path, const mpi
   if (!is_known) {
     return std::nullopt;
   }
-  std::optional<MeshShare> share = read_off_range(path, ranks, workers);
+  std::optional<MeshShare> share = format == FileFormat::off   ? read_off_share(path, ranks, workers)
+                                   : format == FileFormat::vtu ? read_vtu_share(path, ranks, workers)
+                                                               : read_msh_share(path, ranks, workers);
   if (!share || !has_one_layout(share->document, ranks)) {
     return std::nullopt;
   }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trismooth/pipeline/file_groups.h"
+#include "trismooth/pipeline/ranks/piece_files.h"
+#include "trismooth/pipeline/ranks/rank_mesh.h"
+#include "trismooth/pipeline/ranks/rank_topology.h"
+
+namespace trismooth {
+
+/// Leaves the implied sets of the file (Piece::implied_by) what nothing else of the mesh holds, as find_held_sets()
+/// does: `held`, why each vertex of the overlap is held, gets hold::named where such a set has the vertex and it is
+/// inside the mesh, of no line or point cell and not between regions. The sets that hold any, on all ranks. Collective.
+std::vector<FilePointSet> settle_implied_sets(const PieceFiles& files, const RankMesh& mesh,
+                                              const RankTopology& topology, std::vector<std::uint8_t>& held);
+
+}  // namespace trismooth

@@ -1,0 +1,290 @@
+"""one_file_in_ranges.py PROGRAM: a file that no rank reads whole gets the coordinates and the report of the serial run,
+and its points, cells and arrays are in the pieces that are written, each where its number says."""
+
+import glob
+import os
+import random
+import unittest
+
+import pieces
+import ranks_tool
+import raw_vtu
+from same_as_one_file import without_run
+
+SHARED = os.environ.get("TRISMOOTH_SHARED_MESHES", "/work/shared/meshes")
+
+
+class OneFileInRanges(ranks_tool.RanksTest):
+    def report_of(self, report):
+        """But for what only one of the runs has to say."""
+        return {key: value for key, value in without_run(report).items() if key not in ("notes", "losses")}
+
+    def check(self, name, ranks, *options, whole=None):
+        """The run over ranks says what the serial run says; returns what it says."""
+        whole = whole or self.report("smooth", name, "serial.vtu", *options)
+        report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
+        self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"], f"{name}, {ranks} ranks, {options}")
+        self.assertEqual(self.report_of(report), self.report_of(whole), f"{name}, {ranks} ranks, {options}")
+        return report
+
+    def assert_by_ranges(self, report, by_ranges=True):
+        said = [note for note in report["notes"] if "handed it out" in note]
+        self.assertEqual(len(said), 0 if by_ranges else 1, report["notes"])
+
+    def gathered(self):
+        """The arrays of all pieces in the order of the file, and how many points more than one piece has."""
+        points, cells = {}, {}
+        for source in pieces.sources(self.path("out.pvtu")):
+            arrays = raw_vtu.read(self.path(source))
+            ids = arrays[("PointData", "GlobalPointIds")]
+            numbers = arrays[("CellData", "GlobalCellIds")]
+            self.assertEqual(sorted(ids), list(ids))
+            self.assertEqual(sorted(numbers), list(numbers))
+            for i, point in enumerate(ids):
+                row = [arrays[("Points", "Points")][i]] + [
+                    values[i] for (section, name), values in arrays.items() if section == "PointData"]
+                self.assertEqual(points.setdefault(point, row), row)
+            connectivity = arrays[("Cells", "connectivity")]
+            first = 0
+            for c, end in enumerate(arrays[("Cells", "offsets")]):
+                self.assertNotIn(numbers[c], cells)
+                cells[numbers[c]] = ([ids[v] for v in connectivity[first:end]], arrays[("Cells", "types")][c], [
+                    values[c] for (section, name), values in arrays.items() if section == "CellData"])
+                first = end
+        return points, cells
+
+    def assert_pieces(self, mesh):
+        """Every point and cell is there, with its values, at the place of the serial run."""
+        serial = raw_vtu.read(self.path("serial.vtu"))
+        points, cells = self.gathered()
+        self.assertEqual(sorted(points), list(range(len(mesh.points))))
+        self.assertEqual(sorted(cells), list(range(len(mesh.cells))))
+        for v, row in points.items():
+            self.assertEqual(row[0], serial[("Points", "Points")][v])
+            self.assertEqual(row[1:-1], [values[v] for values in mesh.point_arrays.values()])
+        for c, (corners, kind, row) in cells.items():
+            self.assertEqual((corners, kind), (mesh.cells[c], mesh.types[c]))
+            self.assertEqual(row[:-1], [values[c] for values in mesh.cell_arrays.values()])
+
+    def test_off(self):
+        self.run_tool("generate", "random.off", "--vertices", 2000)
+        mesh = pieces.read_off(self.path("random.off"))
+        whole = self.report("smooth", "random.off", "serial.vtu")
+        for ranks in (0, 1, 2, 3, 5):
+            self.assert_by_ranges(self.check("random.off", ranks, whole=whole))
+            self.assert_pieces(mesh)
+        self.assert_by_ranges(self.check("random.off", 3, "--partition", "keep"))
+        self.assert_pieces(mesh)
+
+    def write_off(self, name, mesh, end="\n", comments=False, colours=False, keyword="OFF"):
+        dice = random.Random(7)
+        lines = [keyword, f"{len(mesh.points)} {len(mesh.cells)} 0"]
+        for x, y, z in mesh.points:
+            lines.append(f"{x!r} {y!r} {z!r}" + (" 10 20 30" if colours else ""))
+        for cell in mesh.cells:
+            lines.append(" ".join(map(str, [len(cell), *cell])) + (f" {dice.randrange(255)} 1 2" if colours else ""))
+        if comments:
+            with_more = []
+            for line in lines:
+                with_more.append(line + ("  # 1 2 3" if dice.random() < 0.1 else "\t " if dice.random() < 0.1 else ""))
+                while dice.random() < 0.2:
+                    with_more.append(dice.choice(["", "   ", "# 3 0 1 2", "\t# OFF"]))
+            lines = with_more
+        self.write(name, end.join(lines) + dice.choice(["", end]))
+
+    def mixed(self):
+        """Triangles listed either way, quadrilaterals, a point of no cell, points and cells in any order."""
+        mesh = self.random_mesh(900)
+        dice = random.Random(5)
+        new = list(range(len(mesh.points) + 1))
+        dice.shuffle(new)
+        points = [None] * len(new)
+        for v, point in enumerate([*mesh.points, (0.5, 0.5, 0.0)]):
+            points[new[v]] = point
+        cells = [[new[v] for v in (cell if dice.random() < 0.6 else cell[::-1])] for cell in mesh.cells
+                 if dice.random() > 0.02]
+        dice.shuffle(cells)
+        mixed = pieces.Mesh(points, cells)
+        mixed.point_arrays = {"height": [3.25 * x + y for x, y, _ in points], "mark": list(range(len(points)))}
+        mixed.cell_arrays = {"load": [dice.random() for _ in cells],
+                             "region": [7 if points[cell[0]][1] < 0.5 else -1 for cell in cells]}
+        return mixed
+
+    def test_off_of_any_looks(self):
+        mesh = self.mixed()
+        for number, looks in enumerate([{}, {"end": "\r\n"}, {"end": "\r"}, {"comments": True},
+                                        {"comments": True, "end": "\r\n"}, {"colours": True, "keyword": "COFF"},
+                                        {"colours": True, "comments": True}]):
+            name = f"looks_{number}.off"
+            self.write_off(name, mesh, **looks)
+            whole = self.report("smooth", name, "serial.vtu")
+            for ranks in (1, 3, 5):
+                with self.subTest(looks=looks, ranks=ranks):
+                    self.assert_by_ranges(self.check(name, ranks, whole=whole))
+
+    def test_off_of_other_layouts(self):
+        """What does not have a row in every line is read whole, and still shared out."""
+        mesh = self.mixed()
+        self.write_off("rows.off", mesh)
+        words = self.read("rows.off").split()
+        self.write("words.off", b"OFF\n" + b" ".join(words[1:4]) + b"\n" + b"\n".join(words[4:]))
+        self.assert_by_ranges(self.check("words.off", 3), by_ranges=False)
+        self.write_off("colours.off", mesh, colours=True)
+        lines = self.read("colours.off").decode().splitlines()
+        lines[-1] = " ".join(lines[-1].split()[:4])
+        self.write("uneven.off", "\n".join(lines))
+        self.assert_by_ranges(self.check("uneven.off", 3), by_ranges=False)
+
+    def test_options(self):
+        self.write_off("mixed.off", self.mixed())
+        self.write("ids.txt", "3 17 200 40")
+        for options in (["--method", "mean-ratio", "--untangle", "off"], ["--precision", "single", "--form", "a"],
+                        ["--method", "laplacian"], ["--fixed-ids", "ids.txt"]):
+            for ranks in (1, 3):
+                self.check("mixed.off", ranks, *options)
+
+    def test_vtu(self):
+        mesh = self.mixed()
+        forms = [raw_vtu.Form(), raw_vtu.Form(wide=False, index="Int32"), raw_vtu.Form(big=True),
+                 raw_vtu.Form(compressed=True), raw_vtu.Form(compressed=True, wide=False, big=True, index="UInt32"),
+                 raw_vtu.Form(compressed=True, block=32768), raw_vtu.Form(point="Float32")]
+        for number, form in enumerate(forms):
+            name = f"form_{number}.vtu"
+            raw_vtu.write(self.path(name), mesh, form, field=[1.5, 2.5, 3.5])
+            whole = self.report("smooth", name, "ignored.vtu")
+            for ranks in (1, 2, 3, 5):
+                with self.subTest(form=form, ranks=ranks):
+                    self.assert_by_ranges(self.check(name, ranks, whole=whole))
+                    points, cells = self.gathered()
+                    self.assertEqual([points[v][1:-1] for v in range(len(mesh.points))],
+                                     [[values[v] for values in mesh.point_arrays.values()] for v in range(len(mesh.points))])
+                    self.assertEqual([cells[c][0] for c in range(len(mesh.cells))], mesh.cells)
+                    self.assertEqual([cells[c][2][:-1] for c in range(len(mesh.cells))],
+                                     [[values[c] for values in mesh.cell_arrays.values()] for c in range(len(mesh.cells))])
+                    fields = [raw_vtu.read(self.path(source)).get(("FieldData", "field"))
+                              for source in pieces.sources(self.path("out.pvtu"))]
+                    self.assertEqual(fields, [[1.5, 2.5, 3.5]] + [None] * (len(fields) - 1))
+
+    def test_what_is_read_whole(self):
+        mesh = self.mixed()
+        pieces.write_vtu(self.path("text.vtu"), mesh)
+        self.run_tool("smooth", "text.vtu", "legacy.vtk", "--quiet")
+        for name in ("text.vtu", "legacy.vtk"):
+            whole = self.report("smooth", name, "serial.vtu")
+            for ranks in (2, 3):
+                self.assert_by_ranges(self.check(name, ranks, whole=whole), by_ranges=False)
+
+    def test_pieces_are_read_again(self):
+        self.write_off("mixed.off", self.mixed())
+        first = self.report_over(3, "smooth", "mixed.off", "out.pvtu", "--max-sweeps", "3")
+        again = self.report_over(2, "quality", "out.pvtu")
+        self.assertEqual(again["input"]["vertices"], first["input"]["vertices"])
+        self.assertEqual(again["before"]["inverted"], first["after"]["inverted"])
+        self.run_tool("smooth", "mixed.off", "serial.off", "--max-sweeps", "3", "--quiet")
+        self.assertEqual(self.report_over(2, "smooth", "out.pvtu", "again.pvtu")["coordinates_hash"],
+                         self.report("smooth", "serial.off", "again.off")["coordinates_hash"])
+
+    def test_arrays_that_are_called_as_numbers_are(self):
+        mesh = self.mixed()
+        mesh.point_arrays["GlobalPointIds"] = [7] * len(mesh.points)
+        mesh.cell_arrays["GlobalCellIds"] = list(range(len(mesh.cells)))[::-1]
+        raw_vtu.write(self.path("named.vtu"), mesh, raw_vtu.Form())
+        report = self.check("named.vtu", 3)
+        self.assertEqual(sum("GlobalPointIds_of_file" in note for note in report["notes"]), 1, report["notes"])
+        arrays = raw_vtu.read(self.path("out_1.vtu"))
+        self.assertEqual(set(arrays[("PointData", "GlobalPointIds_of_file")]), {7})
+        self.run_over(2, "quality", "out.pvtu")
+
+    def test_more_ranks_than_cells(self):
+        self.write("two.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+        self.write("none.off", "OFF\n0 0 0\n")
+        self.write("points.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n1 1 0\n")
+        for name in ("two.off", "none.off", "points.off"):
+            whole = self.report("smooth", name, "serial.vtu")
+            for ranks in (1, 5):
+                report = self.report_over(ranks, "smooth", name, "out.pvtu")
+                self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"], name)
+                self.run_over(2, "quality", "out.pvtu")
+
+    def test_shared_meshes(self):
+        for path in sorted(glob.glob(os.path.join(SHARED, "*.*"))):
+            if path.endswith(".md"):
+                continue
+            serial = self.run_tool("smooth", path, "serial.vtu", "--quiet", "--report", "report.json", "--untangle", "off",
+                                   expect=None)
+            if serial.code != 0:
+                continue
+            whole = self.read_report()
+            for ranks in (1, 2, 3, 5):
+                with self.subTest(path=path, ranks=ranks):
+                    self.check(path, ranks, "--untangle", "off", whole=whole)
+
+    def refused(self, name, *words, ranks=(1, 3, 5), options=(), output="out.pvtu"):
+        """One error, the one of the serial run, and nothing is written."""
+        serial = self.run_tool("smooth", name, "serial.vtu", *options, expect=None)
+        self.assertNotEqual(serial.code, 0)
+        before = self.read(name)
+        for count in ranks:
+            outcome = self.run_over(count, "smooth", name, output, *options, expect=serial.code)
+            self.assertEqual(self.errors_of(outcome), self.errors_of(serial), f"{count} ranks")
+            for word in words:
+                self.assertIn(word, self.errors_of(outcome)[0])
+            self.assertEqual([file for file in os.listdir(self.folder) if file.startswith("out")], [])
+            self.assert_no_temporary_files()
+        self.assertEqual(self.read(name), before)
+
+    def test_bad_off(self):
+        mesh = self.mixed()
+        self.write_off("good.off", mesh)
+        lines = self.read("good.off").decode().splitlines()
+        last_third = 2 + len(lines) * 5 // 6
+
+        def written(name, changed):
+            self.write(name, "\n".join(changed) + "\n")
+            return name
+
+        self.refused(written("cut.off", lines[:-5]), "expected")
+        self.write("bytes.off", self.read("good.off")[:-7])
+        self.refused("bytes.off")
+        self.refused(written("word.off", [*lines[:last_third], "3 1 two 3", *lines[last_third + 1:]]),
+                     f":{last_third + 1}:", "two")
+        self.refused(written("index.off", [*lines[:last_third], f"3 1 2 {len(mesh.points)}", *lines[last_third + 1:]]),
+                     f":{last_third + 1}:", "vertex index")
+        self.refused(written("number.off", [*lines[:300], "0.5 1e999 0", *lines[301:]]), ":301:")
+        self.refused(written("more.off", [*lines, "3 0 1 2"]), "end of the file")
+        self.refused(written("counts.off", ["OFF", "1000000 10 0", *lines[2:]]), "vertices")
+        self.refused(written("solid.off", ["OFF", "4 1 0", "0 0 0", "1 0 0", "0 1 0", "1 1 0.5", "4 0 1 2 3"]))
+        self.refused(written("empty.off", []))
+
+    def test_bad_vtu(self):
+        mesh = self.mixed()
+        for form in (raw_vtu.Form(), raw_vtu.Form(compressed=True)):
+            raw_vtu.write(self.path("good.vtu"), mesh, form)
+            content = self.read("good.vtu")
+            self.write("cut.vtu", content[:len(content) * 3 // 4])
+            self.refused("cut.vtu")
+            self.write("short.vtu", content.replace(b'NumberOfCells="', b'NumberOfCells="9'))
+            self.refused("short.vtu")
+            mesh_with_bad_corner = self.mixed()
+            mesh_with_bad_corner.cells[-10] = [0, 1, len(mesh.points) + 5]
+            raw_vtu.write(self.path("corner.vtu"), mesh_with_bad_corner, form)
+            self.refused("corner.vtu")
+
+    def test_refused_options(self):
+        self.write_off("mixed.off", self.mixed())
+        for options in (["--slide", "straight"], ["--annotate"]):
+            outcome = self.run_over(2, "smooth", "mixed.off", "out.pvtu", *options, expect=2)
+            self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
+
+    def test_output_over_input(self):
+        self.write_off("mixed.off", self.mixed())
+        os.rename(self.path("mixed.off"), self.path("x_1.vtu"))
+        raw_vtu.write(self.path("x_1.vtu"), self.mixed(), raw_vtu.Form())
+        before = self.read("x_1.vtu")
+        outcome = self.run_over(3, "smooth", "x_1.vtu", "x.pvtu", expect=2)
+        self.assertIn("is one of the input", self.errors_of(outcome)[0])
+        self.assertEqual(self.read("x_1.vtu"), before)
+
+
+if __name__ == "__main__":
+    ranks_tool.main()
