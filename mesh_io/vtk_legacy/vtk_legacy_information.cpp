@@ -16,8 +16,9 @@ struct Key {
 
 using enum InformationKind;
 
-/// The keys of these kinds in the modules of VTK 9.1 that read and write mesh files, in the order of location and name.
-constexpr auto keys = std::to_array<Key>({
+/// The known_keys of these kinds in the modules of VTK 9.1 that read and write mesh files, in the order of location and
+/// name.
+constexpr auto known_keys = std::to_array<Key>({
     {"vtkAbstractArray", "DISCRETE_VALUE_SAMPLE_PARAMETERS", numbers},
     {"vtkAbstractArray", "GUI_HIDE", number},
     {"vtkAlgorithm", "CAN_HANDLE_PIECE_REQUEST", number},
@@ -123,14 +124,14 @@ constexpr auto keys = std::to_array<Key>({
 constexpr bool comes_before(const Key& a, const Key& b) {
   return std::tie(a.location, a.name) < std::tie(b.location, b.name);
 }
-static_assert(std::ranges::is_sorted(keys, comes_before));
+static_assert(std::ranges::is_sorted(known_keys, comes_before));
 
 }  // namespace
 
 std::optional<InformationKind> vtk_legacy_information_kind(std::string_view name, std::string_view location) {
   const Key wanted{location, name, {}};
-  const auto* const found = std::ranges::lower_bound(keys, wanted, comes_before);
-  return found == keys.end() || comes_before(wanted, *found) ? std::nullopt : std::optional(found->kind);
+  const auto* const found = std::ranges::lower_bound(known_keys, wanted, comes_before);
+  return found == known_keys.end() || comes_before(wanted, *found) ? std::nullopt : std::optional(found->kind);
 }
 
 }  // namespace trismooth

@@ -16,7 +16,7 @@ namespace trismooth {
 namespace {
 
 /// About what a number takes as text.
-constexpr std::size_t number_bytes = 16;
+constexpr std::size_t legacy_number_bytes = 16;
 
 bool is_finite(const DataArray& array) {
   return visit_scalar_type(array.type, [&](auto zero) {
@@ -35,7 +35,7 @@ bool are_finite(std::span<const DataArray> arrays) {
 
 template <class T>
 void write_points_as(VtkLegacyOutput& output, std::span<const double> points) {
-  output.numbers(points.size() / 3, 3 * number_bytes, [points](VtkLegacyNumbers& numbers, std::size_t point) {
+  output.numbers(points.size() / 3, 3 * legacy_number_bytes, [points](VtkLegacyNumbers& numbers, std::size_t point) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       numbers.append(static_cast<T>(points[3 * point + axis]), axis == 2 ? '\n' : ' ');
     }
@@ -56,7 +56,7 @@ void write_points(VtkLegacyOutput& output, const MeshDocument& document) {
 void write_cells(VtkLegacyOutput& output, const CellList& cells) {
   output.text("CELLS " + std::to_string(cells.size()) + " " + std::to_string(cells.size() + cells.connectivity.size()) +
               "\n");
-  output.numbers(cells.size(), 2 * number_bytes, [&cells](VtkLegacyNumbers& numbers, std::size_t cell) {
+  output.numbers(cells.size(), 2 * legacy_number_bytes, [&cells](VtkLegacyNumbers& numbers, std::size_t cell) {
     const std::span<const std::int32_t> vertices = cells[cell];
     numbers.append(static_cast<std::int32_t>(vertices.size()), vertices.empty() ? '\n' : ' ');
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -121,7 +121,7 @@ void VtkLegacyOutput::field(std::span<const DataArray> arrays, std::span<const s
 void VtkLegacyOutput::values(const DataArray& array) {
   visit_scalar_type(array.type, [&](auto zero) {
     const auto values = array.as<decltype(zero)>();
-    this->numbers(values.size(), number_bytes, [&](VtkLegacyNumbers& numbers, std::size_t i) {
+    this->numbers(values.size(), legacy_number_bytes, [&](VtkLegacyNumbers& numbers, std::size_t i) {
       numbers.append(values[i], (i + 1) % array.components == 0 ? '\n' : ' ');
     });
   });
