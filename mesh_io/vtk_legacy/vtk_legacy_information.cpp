@@ -16,7 +16,7 @@ struct Key {
 
 using enum InformationKind;
 
-/// The known_keys of these kinds in the modules of VTK 9.1 that read and write mesh files, in the order of location and
+/// The keys of these kinds in the modules of VTK 9.1 that read and write mesh files, in the order of location and
 /// name.
 constexpr auto known_keys = std::to_array<Key>({
     {"vtkAbstractArray", "DISCRETE_VALUE_SAMPLE_PARAMETERS", numbers},
