@@ -74,8 +74,8 @@ struct PipelineOptions {
   /// How the mesh is shared out among the ranks of an MPI job, where the program runs in one. Absent: pieces are kept
   /// where there are at least as many as ranks, all else is bisected.
   std::optional<Partition> partition;
-  /// Of a mesh in pieces: what is not done in pieces, rank 0 does for all, with the whole mesh in its memory. Else it is
-  /// refused.
+  /// Of a mesh in pieces: what is not done in pieces, rank 0 does for all, with the whole mesh in its memory. Else it
+  /// is refused.
   bool gather = false;
   /// Of a mesh in pieces: the output is one file of any format, which rank 0 writes, with the whole mesh in its memory.
   bool single = false;

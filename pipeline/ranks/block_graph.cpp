@@ -80,7 +80,9 @@ BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, std::span<con
   }
   graph.offsets.assign(graph.blocks.size() + 1, 0);
   for (const Weight& w : weights) {
-    const auto place = [&](std::int32_t block) { return std::ranges::lower_bound(graph.blocks, block) - graph.blocks.begin(); };
+    const auto place = [&](std::int32_t block) {
+      return std::ranges::lower_bound(graph.blocks, block) - graph.blocks.begin();
+    };
     if (w.first != w.second) {
       graph.neighbours.push_back(static_cast<std::int32_t>(place(w.second)));
       graph.edges_between.push_back(w.weight);

@@ -18,8 +18,8 @@ struct BlockGraph {
   std::vector<std::int64_t> edges_between;  ///< for each neighbour: sides of triangles that are cut between the two
 };
 
-/// The graph, on rank 0; empty on the others. `block_of`: of each of the rank's vertices, the same on all ranks that have
-/// one; a vertex that several ranks have weighs as often. Triangles that `is_copy` marks have no say. Collective.
+/// The graph, on rank 0; empty on the others. `block_of`: of each of the rank's vertices, the same on all ranks that
+/// have one; a vertex that several ranks have weighs as often. Triangles that `is_copy` marks have no say. Collective.
 /// Complexity: n log n in the rank's triangles between blocks; on rank 0 in those of all.
 BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, std::span<const Triangle> triangles,
                            std::span<const std::uint8_t> is_copy, const mpi::Communicator& ranks);

@@ -8,9 +8,9 @@
 namespace trismooth {
 
 /// The stages of run_pipeline() behind reading for a mesh in pieces, with the whole mesh in the memory of rank 0, which
-/// does all but the sweeps for all: coordinates and figures are those of the mesh as one file, whatever the options. The
-/// output is the pieces, or with PipelineOptions::single one file. Piece::ids are known. Collective: throws the same on
-/// all ranks. The result is rank 0's, that of other ranks is empty.
+/// does all but the sweeps for all: coordinates and figures are those of the mesh as one file, whatever the options.
+/// The output is the pieces, or with PipelineOptions::single one file. Piece::ids are known. Collective: throws the
+/// same on all ranks. The result is rank 0's, that of other ranks is empty.
 PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks,
                             Workers& workers);
 

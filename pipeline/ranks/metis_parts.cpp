@@ -53,9 +53,9 @@ std::vector<std::int32_t> metis_parts(const BlockGraph& graph, int parts) {
   options[METIS_OPTION_SEED] = 1;
   std::vector<idx_t> part_of(graph.blocks.size());
   idx_t cut = 0;
-  const int status = METIS_PartGraphKway(&vertices, &constraints, offsets.data(), neighbours.data(), weights.data(),
-                                         nullptr, edge_weights.data(), &count, nullptr, nullptr, options.data(), &cut,
-                                         part_of.data());
+  const int status =
+      METIS_PartGraphKway(&vertices, &constraints, offsets.data(), neighbours.data(), weights.data(), nullptr,
+                          edge_weights.data(), &count, nullptr, nullptr, options.data(), &cut, part_of.data());
   if (status == METIS_ERROR_MEMORY) {
     throw std::bad_alloc();
   }

@@ -8,9 +8,9 @@
 
 namespace trismooth {
 
-/// Calls `run` on rank 0, with these options and, of several ranks, a backend whose sweeps all make; the others take part until it
-/// returns or throws, on rank 0 alone. What is not done in pieces (sliding, untangling) rank 0 does alone, and says so.
-/// Collective; the result of other ranks is empty.
+/// Calls `run` on rank 0, with these options and, of several ranks, a backend whose sweeps all make; the others take
+/// part until it returns or throws, on rank 0 alone. What is not done in pieces (sliding, untangling) rank 0 does
+/// alone, and says so. Collective; the result of other ranks is empty.
 PipelineResult run_on_first(const PipelineOptions& options, const mpi::Communicator& ranks,
                             const std::function<PipelineResult(const PipelineOptions&)>& run);
 

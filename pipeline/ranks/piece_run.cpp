@@ -39,6 +39,7 @@
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/quality/precision_loss.h"
+#include "trismooth/smoothing/backend_choice.h"
 
 namespace trismooth {
 
@@ -114,6 +115,10 @@ class PieceRun {
     result_.notes.insert(result_.notes.begin(), read_notes_.begin(), read_notes_.end());
     if (ranks_->size() > 1) {
       note("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
+      if (result_.smoothing) {
+        std::string& said = result_.smoothing->backend_note;
+        said = joined_notes(said, result_.notes.back());
+      }
     }
   }
 

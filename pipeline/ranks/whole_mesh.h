@@ -12,9 +12,9 @@
 namespace trismooth {
 
 /// A mesh in pieces as one document, which rank 0 has: the one place where a rank holds the whole mesh. Its points are
-/// in the order of their ids, its cells in that of their numbers, copies left out; a point that several pieces have is the
-/// one of the lowest piece that has a cell of its own there. Arrays are those that all pieces have, but for what marks
-/// copies, and those of the whole mesh (fields) that are the same in all pieces.
+/// in the order of their ids, its cells in that of their numbers, copies left out; a point that several pieces have is
+/// the one of the lowest piece that has a cell of its own there. Arrays are those that all pieces have, but for what
+/// marks copies, and those of the whole mesh (fields) that are the same in all pieces.
 class WholeMesh {
  public:
   /// Piece::ids are known. Collective. Throws ReadError on all ranks for more points or cells than 32 bits number.
