@@ -157,7 +157,9 @@ void require_known_formats(const PipelineOptions& options) {
                     "is a mesh in pieces, which the program reads where it is built with MPI (-DTRISMOOTH_MPI=ON)");
   }
   if (output && names_parallel_file(*output)) {
-    throw WriteError(*output, "is the name of a mesh in pieces, which is written only where one is read");
+    throw WriteError(
+        *output,
+        "is the name of a mesh in pieces, which the program writes where it is built with MPI (-DTRISMOOTH_MPI=ON)");
   }
   const auto says_nothing = [&options](const std::filesystem::path& path) {
     return !options.format && !is_standard_stream(path) && !format_of(path);

@@ -380,7 +380,7 @@ TEST_CASE("a mesh that was turned over is reported as it is turned now") {
   CHECK(trismooth::run_pipeline(again).before.metrics[0].min == result.after->metrics[0].min);
 }
 
-TEST_CASE("a mesh in pieces is for the program over MPI ranks, and is written only where one is read") {
+TEST_CASE("a mesh in pieces is for the program over MPI ranks alone") {
   const auto refusal = [](const PipelineOptions& options) -> std::string {
     try {
       trismooth::run_pipeline(options);
