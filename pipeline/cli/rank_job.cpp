@@ -53,9 +53,10 @@ class MpiJob final : public RankJob {
     try {
       const bool is_in_pieces =
           names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output));
-      return is_in_pieces         ? run_pieces(options, ranks_)
-             : ranks_->size() > 1 ? run_one_file(options, ranks_)
-                                  : run_pipeline(options);
+      if (is_in_pieces) {
+        return run_pieces(options, ranks_);
+      }
+      return ranks_->size() > 1 ? run_file(options) : run_pipeline(options);
     } catch (const std::exception&) {
       if (rank() == 0) {
         throw;
@@ -74,6 +75,20 @@ class MpiJob final : public RankJob {
   }
 
  private:
+  /// Of one file, which no rank need have as a whole where it is only looked at.
+  PipelineResult run_file(const PipelineOptions& options) {
+    if (!options.written()) {
+      try {
+        return run_by_ranges(options, ranks_);
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const std::exception&) {
+        // It is a file for one rank, or wrong in a way that reading it as a whole tells.
+      }
+    }
+    return run_one_file(options, ranks_);
+  }
+
   /// What rank 0 says of whether there is a run.
   bool starts(bool own) {
     int starts = own ? 1 : 0;

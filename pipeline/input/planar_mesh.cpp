@@ -134,10 +134,7 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
   sort_cells(document, mesh, workers);
-  if (mesh.triangles.empty() && document.cells.size() > 0) {
-    throw ReadError(path, "holds " + counted(static_cast<std::int64_t>(document.cells.size()), "cell") +
-                              " but no triangle; only triangle meshes can be smoothed");
-  }
+  require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path);
   if (mesh.triangles.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
   }
@@ -153,6 +150,12 @@ std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> ve
     return count;
   }
   return (is_triangle(type, vertices) || is_quadratic(type, vertices)) && !repeats_a_vertex(vertices) ? 1 : 0;
+}
+
+void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path) {
+  if (triangles == 0 && cells > 0) {
+    throw ReadError(path, "holds " + counted(cells, "cell") + " but no triangle; only triangle meshes can be smoothed");
+  }
 }
 
 Storage storage_of(const MeshDocument& document) {

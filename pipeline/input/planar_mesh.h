@@ -59,6 +59,9 @@ struct PlanarMesh {
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 
+/// Throws ReadError naming `path` for a mesh of that many cells, of which none is a triangle.
+void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path);
+
 /// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
 void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path);
 

@@ -66,12 +66,17 @@ MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ra
 
 }  // namespace
 
-FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers) {
+FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading, const mpi::Communicator& ranks,
+                            Workers& workers) {
   FileInPieces read;
+  // Files that are read by ranges have no sets to name.
   const bool asks_for_sets = !options.fixed_sets.empty();
   std::optional<MeshShare> share = asks_for_sets ? std::nullopt : read_share(options.input, ranks, workers);
-  read.by_ranges = share.has_value();
-  if (!share) {
+  const bool by_ranges = share.has_value();
+  if (!by_ranges) {
+    if (reading == FileReading::by_ranges) {
+      throw mpi::KnownToAll{std::make_exception_ptr(ReadError(options.input, "is not read by ranges, but as a whole"))};
+    }
     share = read_whole(options, ranks, workers);
   }
   MeshDocument& document = share->document;
@@ -105,7 +110,7 @@ FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communica
   // What the reader says of the file is said of what another format loses.
   std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
   std::ranges::move(notes, std::back_inserter(read.notes));
-  if (!read.by_ranges && ranks.size() > 1) {
+  if (!by_ranges && ranks.size() > 1) {
     read.notes.push_back(
         "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "
         "appended "

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,10 +11,15 @@
 
 namespace trismooth {
 
+/// How a file of one mesh may be read.
+enum class FileReading : std::uint8_t {
+  any,       ///< by ranges, or else by rank 0, which has the whole mesh for a while
+  by_ranges  ///< in no other way
+};
+
 /// A file of one mesh, shared out among the ranks: one piece for each.
 struct FileInPieces {
   PieceFiles files;
-  bool by_ranges = false;          ///< every rank has read its range of the file; else rank 0 has read all of it
   InputSummary input;              ///< path, format and the groups that the file names
   std::vector<std::string> notes;  ///< what the reader has to say, on all ranks
   std::vector<std::string> losses;
@@ -23,6 +28,7 @@ struct FileInPieces {
 /// Reads the file of the options, by ranges where that can be done (see read_share()), else on rank 0, which hands out
 /// what it has read. Collective. Throws on all ranks ReadError as read_mesh() does and std::invalid_argument as the
 /// stages of run_pipeline() do, also for a file with values that pieces cannot have follow the mesh.
-FileInPieces read_in_pieces(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers);
+FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading, const mpi::Communicator& ranks,
+                            Workers& workers);
 
 }  // namespace trismooth

@@ -20,7 +20,9 @@ OwnCells count_own_cells(const Piece& piece) {
     if (has_triangles[c] == 0) {
       const bool is_triangular = cells.types[c] == cell_type::triangle || cells.types[c] == cell_type::polygon;
       ++count.others;
-      count.repeating += is_triangular && cells[c].size() == 3 ? 1 : 0;
+      if (is_triangular && cells[c].size() == 3 && count.repeating++ == 0) {
+        count.first_repeating = static_cast<std::int64_t>(c);
+      }
     }
   }
   return count;

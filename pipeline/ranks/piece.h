@@ -33,8 +33,9 @@ struct Piece {
 struct OwnCells {
   std::int64_t triangles = 0;  ///< those of strips count one by one
   std::int64_t cells = 0;
-  std::int64_t others = 0;     ///< that are no triangles
-  std::int64_t repeating = 0;  ///< those of them that are triangles but for a vertex that they repeat
+  std::int64_t others = 0;            ///< that are no triangles
+  std::int64_t repeating = 0;         ///< those of them that are triangles but for a vertex that they repeat
+  std::int64_t first_repeating = -1;  ///< the first of these, or none
 };
 
 /// Counts them. Complexity: linear.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,8 +57,12 @@ std::int64_t largest_memory_of_ranks(const mpi::Communicator& ranks) {
 /// One run: the stages in their order, as those of run_pipeline().
 class PieceRun {
  public:
-  PieceRun(PipelineOptions options, std::shared_ptr<const mpi::Communicator> ranks)
-      : options_(std::move(options)), ranks_(std::move(ranks)), workers_(ranks_->threads(options_.smoothing.threads)) {
+  /// `reading`: of an input that is not in pieces.
+  PieceRun(PipelineOptions options, FileReading reading, std::shared_ptr<const mpi::Communicator> ranks)
+      : options_(std::move(options)),
+        reading_(reading),
+        ranks_(std::move(ranks)),
+        workers_(ranks_->threads(options_.smoothing.threads)) {
     options_.smoothing.threads = workers_.count();
   }
 
@@ -164,7 +169,7 @@ class PieceRun {
   }
 
   void read_one_file() {
-    FileInPieces read = read_in_pieces(options_, *ranks_, workers_);
+    FileInPieces read = read_in_pieces(options_, reading_, *ranks_, workers_);
     files_ = std::move(read.files);
     read_input_ = std::move(read.input);
     read_notes_ = std::move(read.notes);
@@ -225,23 +230,24 @@ class PieceRun {
     InputSummary& input = result_.input;
     const mpi::Overlap& overlap = topology_->overlap();
     OwnCells cells;
+    std::int64_t first_repeating = std::numeric_limits<std::int64_t>::max();
     for (const Piece& piece : files_.pieces) {
       const OwnCells of_piece = count_own_cells(piece);
+      if (of_piece.first_repeating >= 0 && !piece.cell_ids.empty()) {
+        first_repeating = std::min(first_repeating, piece.cell_ids[static_cast<std::size_t>(of_piece.first_repeating)]);
+      }
       cells.others += of_piece.others;
       cells.repeating += of_piece.repeating;
       cells.cells += of_piece.cells;
     }
     first_cell_ = ranks_->sum_before(cells.cells);
     repeating_ = ranks_->sum(cells.repeating);
+    MPI_Allreduce(MPI_IN_PLACE, &first_repeating, 1, MPI_INT64_T, MPI_MIN, ranks_->handle());
+    const bool is_known = first_repeating < std::numeric_limits<std::int64_t>::max();
     input.other_cells = ranks_->sum(cells.others);
     const std::int64_t cell_count = ranks_->sum(cells.cells);
     input.triangles = topology_->triangle_count();
-    agree(*ranks_, [&] {
-      if (input.triangles == 0 && cell_count > 0) {
-        throw ReadError(options_.input, "holds " + std::to_string(cell_count) +
-                                            " cells but no triangle; only triangle meshes can be smoothed");
-      }
-    });
+    agree(*ranks_, [&] { require_triangles(input.triangles, cell_count, options_.input); });
     ReasonCounts reasons{};
     const std::vector<std::uint8_t> by_array = topology_->of_vertices<std::uint8_t>(constraints_.by_array);
     std::int64_t vertices = 0;
@@ -276,8 +282,10 @@ class PieceRun {
     if (cell_count == 0) {
       note("the pieces hold no cells: nothing to smooth");
     }
-    std::ranges::copy(notes_of_other_cells(input.other_cells, repeating_, std::nullopt),
-                      std::back_inserter(result_.notes));
+    std::ranges::copy(
+        notes_of_other_cells(input.other_cells, repeating_,
+                             is_known ? std::optional(static_cast<std::size_t>(first_repeating)) : std::nullopt),
+        std::back_inserter(result_.notes));
     std::ranges::copy(notes_of_irregular_vertices(reasons), std::back_inserter(result_.notes));
     if (options_.fixed_ids && constraints_.listed == 0) {
       say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
@@ -435,6 +443,7 @@ class PieceRun {
   }
 
   PipelineOptions options_;
+  FileReading reading_;
   std::shared_ptr<const mpi::Communicator> ranks_;
   Workers workers_;
   PipelineResult result_;
@@ -462,7 +471,11 @@ class PieceRun {
 }  // namespace
 
 PipelineResult run_pieces(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
-  return ranks->together([&] { return PieceRun(options, ranks).run(); });
+  return ranks->together([&] { return PieceRun(options, FileReading::any, ranks).run(); });
+}
+
+PipelineResult run_by_ranges(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
+  return ranks->together([&] { return PieceRun(options, FileReading::by_ranges, ranks).run(); });
 }
 
 }  // namespace trismooth

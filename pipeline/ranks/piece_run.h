@@ -12,6 +12,10 @@ namespace trismooth {
 /// mesh as one file, with its vertices in the order of their global ids. Callbacks of the options are called where they
 /// are set. Collective: throws the same on all ranks, what run_pipeline() throws, and std::invalid_argument for options
 /// that are not there for pieces. The result is complete on every rank, but for timings, which are the rank's.
+/// An input that is one file is shared out first: read by ranges, or else by rank 0 as a whole, which a note says.
 PipelineResult run_pieces(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks);
+
+/// The same of an input that is one file and can be read by ranges. Throws ReadError for others.
+PipelineResult run_by_ranges(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks);
 
 }  // namespace trismooth

@@ -45,9 +45,11 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
     }
   }
   triangle_count_ = ranks_->sum(std::ssize(own_triangles_));
+  // A rank without triangles has no ids, whatever others have.
+  const std::int64_t first_id = ranks_->sum_before(std::ssize(own_triangles_));
   if (mesh.triangle_ids.empty()) {
     own_ids_.resize(own_triangles_.size());
-    std::iota(own_ids_.begin(), own_ids_.end(), ranks_->sum_before(std::ssize(own_triangles_)));
+    std::iota(own_ids_.begin(), own_ids_.end(), first_id);
   } else {
     for (const std::int32_t t : own_triangles_) {
       own_ids_.push_back(mesh.triangle_ids[static_cast<std::size_t>(t)]);
