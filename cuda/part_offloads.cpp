@@ -117,7 +117,7 @@ class PartSweeps final : public SweepOffload<T> {
   }
   ~PartSweeps() override {
     // What is freed belongs to that device.
-    cudaSetDevice(device_);
+    after_.begin(device_);
   }
 
   void begin(std::span<const Point2<T>> points, const MeanRatioTargets<T>& targets) override {
@@ -234,6 +234,7 @@ class PartSweeps final : public SweepOffload<T> {
     }
   }
 
+  DeviceAtEnd after_;  ///< the last to go
   int device_;
   const HostRings& rings_;
   const SmoothingOptions& options_;
@@ -256,11 +257,7 @@ class PartSweeps final : public SweepOffload<T> {
 
 class PartOffloads final : public SweepOffloads {
  public:
-  explicit PartOffloads(const MeshPart& part) {
-    require_device();
-    int devices = 0;
-    TRISMOOTH_CUDA_CHECK(cudaGetDeviceCount(&devices));
-    device_ = part.place_on_machine % devices;
+  explicit PartOffloads(int device) : device_(device) {
     const DeviceScope scope(device_);
     name_ = require_device();
   }
@@ -277,14 +274,21 @@ class PartOffloads final : public SweepOffloads {
   std::string device() const override { return name_; }
 
  private:
-  int device_ = 0;
+  int device_;
   std::string name_;
 };
 
 }  // namespace
 
 std::unique_ptr<SweepOffloads> part_offloads(const MeshPart& part) {
-  return std::make_unique<PartOffloads>(part);
+  require_device();
+  int devices = 0;
+  TRISMOOTH_CUDA_CHECK(cudaGetDeviceCount(&devices));
+  return part_offloads_on(part.place_on_machine % devices);
+}
+
+std::unique_ptr<SweepOffloads> part_offloads_on(int device) {
+  return std::make_unique<PartOffloads>(device);
 }
 
 }  // namespace trismooth::cuda

@@ -29,7 +29,7 @@ std::string device_problem() {
 
 CudaSupport cuda_support() {
   return {&cuda::backend(), cuda::has_cdp(), &device_problem,
-          [] { return cuda_lines(cuda::survey_devices(), cuda::has_cdp()); }};
+          [] { return cuda_lines(cuda::survey_devices(), cuda::has_cdp()); }, &cuda::backend_on};
 }
 
 #else

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 
 #include "trismooth/smoothing/backend.h"
@@ -15,6 +17,8 @@ struct CudaSupport {
   std::function<std::string()> problem;
   /// What was found, for `trismooth info`: see cuda_lines().
   std::function<std::string()> lines;
+  /// The backend for devices by number, which share out every mesh: cuda::backend_on().
+  std::function<std::unique_ptr<Backend>(std::span<const int>)> on_devices = {};
 };
 
 /// That of this build. Asks no driver before `problem` or `lines` are called.

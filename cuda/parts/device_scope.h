@@ -21,4 +21,23 @@ class DeviceScope {
   int before_ = 0;
 };
 
+/// For an object that has memory of a device: a member before all others, which go after begin() has made that device
+/// current, and before it makes current again what was so.
+class DeviceAtEnd {
+ public:
+  DeviceAtEnd() = default;
+  DeviceAtEnd(const DeviceAtEnd&) = delete;
+  DeviceAtEnd& operator=(const DeviceAtEnd&) = delete;
+  ~DeviceAtEnd() { cudaSetDevice(before_); }
+
+  /// To be called by the object's destructor. Errors are those of earlier calls, which have been told.
+  void begin(int device) {
+    cudaGetDevice(&before_);
+    cudaSetDevice(device);
+  }
+
+ private:
+  int before_ = 0;
+};
+
 }  // namespace trismooth::cuda

@@ -10,6 +10,7 @@
 #include <random>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "trismooth/base/splitmix64.h"
 #include "trismooth/cuda/parts/nccl.h"
@@ -63,33 +64,76 @@ V of_first_part(const MeshPart& part, const V& own) {
   return std::bit_cast<V>(words);
 }
 
-/// Which processes are the parts, in which order: the same number for all of them, and for no other processes.
+int current_device() {
+  int device = 0;
+  TRISMOOTH_CUDA_CHECK(cudaGetDevice(&device));
+  return device;
+}
+
+/// A number for the current device, the same in all processes, and another one for every other device, of whichever
+/// machine.
+std::uint64_t identity_of_device() {
+  cudaDeviceProp properties{};
+  TRISMOOTH_CUDA_CHECK(cudaGetDeviceProperties(&properties, current_device()));
+  std::uint64_t identity = 0;
+  for (const char byte : properties.uuid.bytes) {
+    identity = splitmix64(identity + static_cast<unsigned char>(byte));
+  }
+  return identity;
+}
+
+/// Whether two parts have the same device, which NCCL refuses.
+bool share_a_device(const MeshPart& part) {
+  std::vector<std::uint64_t> devices(static_cast<std::size_t>(part.count));
+  devices[static_cast<std::size_t>(part.number)] = identity_of_device();
+  constexpr std::size_t at_a_time = PartSums{}.sums.size();
+  for (std::size_t first = 0; first < devices.size(); first += at_a_time) {
+    const std::size_t count = std::min(at_a_time, devices.size() - first);
+    PartSums sums;
+    std::copy_n(devices.begin() + static_cast<std::ptrdiff_t>(first), count, sums.sums.begin());
+    part.links->join(sums);
+    std::copy_n(sums.sums.begin(), count, devices.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  std::ranges::sort(devices);
+  return std::ranges::adjacent_find(devices) != devices.end();
+}
+
+/// Which processes, and which of their devices, are the parts, in which order: the same number for all of them, and for
+/// no others.
 std::uint64_t group_of(const MeshPart& part) {
   static const std::uint64_t process =
       (static_cast<std::uint64_t>(std::random_device()()) << 32U) ^ std::random_device()();
   PartSums sums;
-  sums.sums[0] = static_cast<std::int64_t>(splitmix64(process + static_cast<std::uint64_t>(part.number)));
+  sums.sums[0] = static_cast<std::int64_t>(splitmix64(splitmix64(process + static_cast<std::uint64_t>(part.number)) +
+                                                      static_cast<std::uint64_t>(current_device())));
   part.links->join(sums);
   return static_cast<std::uint64_t>(sums.sums[0]);
 }
 
-/// NCCL's communicator of these processes. It takes NCCL about a second to make one: it is kept for all plans, to the
-/// end of the process. Plans that are used in the same order on all parts, as they have to be, may share it.
+/// NCCL's communicator of these parts. It takes NCCL about a second to make one: it is kept for all plans, to the end
+/// of the process. Plans that are used in the same order on all parts, as they have to be, may share it.
 nccl::Communicator communicator_of(const nccl::Library& library, const MeshPart& part) {
-  static std::mutex making;
-  static std::map<std::uint64_t, nccl::Communicator> made;
-  const std::uint64_t group = group_of(part);
+  static std::mutex looking;
+  static std::map<std::pair<std::uint64_t, int>, nccl::Communicator> made;  // by group and part
+  const std::pair key(group_of(part), part.number);
   nccl::UniqueId id{};
   if (part.number == 0) {
     library.check(library.get_unique_id(&id), "ncclGetUniqueId");
   }
   id = of_first_part(part, id);
-  const std::lock_guard lock(making);
-  const auto [place, is_new] = made.try_emplace(group, nullptr);
-  if (is_new) {
-    library.check(library.comm_init_rank(&place->second, part.count, id, part.number), "ncclCommInitRank");
+  const auto known = [&]() -> nccl::Communicator {
+    const std::lock_guard lock(looking);
+    const auto place = made.find(key);
+    return place == made.end() ? nullptr : place->second;
+  };
+  nccl::Communicator communicator = known();
+  if (communicator == nullptr) {
+    // It waits for the other parts, which may be threads of this process: they must not wait for a lock meanwhile.
+    library.check(library.comm_init_rank(&communicator, part.count, id, part.number), "ncclCommInitRank");
+    const std::lock_guard lock(looking);
+    made.emplace(key, communicator);
   }
-  return place->second;
+  return communicator;
 }
 
 /// From device to device.
@@ -203,15 +247,12 @@ class HostTransport final : public GhostTransport {
 
 std::unique_ptr<GhostTransport> make_ghost_transport(const MeshPart& part) {
   const nccl::Library* const library = nccl::library();
-  int devices = 0;
-  TRISMOOTH_CUDA_CHECK(cudaGetDeviceCount(&devices));
   const char* const wanted = std::getenv("TRISMOOTH_GHOSTS");
   const bool goes_by_host = wanted != nullptr && std::string_view(wanted) == "host";
-  // NCCL refuses two ranks on one device.
   PartSums sums;
-  sums.sums[0] = library == nullptr || part.place_on_machine >= devices || part.count == 1 || goes_by_host ? 1 : 0;
+  sums.sums[0] = library == nullptr || part.count == 1 || goes_by_host ? 1 : 0;
   part.links->join(sums);
-  if (sums.sums[0] > 0) {
+  if (sums.sums[0] > 0 || share_a_device(part)) {
     return std::make_unique<HostTransport>(part);
   }
   return std::make_unique<NcclTransport>(*library, part);

@@ -53,6 +53,20 @@ void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrC
   }
 }
 
+std::unique_ptr<Backend> choose_devices(std::span<const int> devices, BackendChoice choice, const CudaSupport& cuda,
+                                        SmoothingOptions& options) {
+  if (choice == BackendChoice::cpu) {
+    throw std::invalid_argument("'--devices' is for the CUDA backend; leave it out, or '--backend cpu'");
+  }
+  if (devices.size() > 1 && (options.order == Order::unordered || options.execution != Execution::resident)) {
+    throw std::invalid_argument("'--order unordered' and the executions of the paper are for one device");
+  }
+  require_cuda(cuda, options);
+  std::unique_ptr<Backend> backend = cuda.on_devices(devices);
+  options.backend = backend.get();
+  return backend;
+}
+
 void choose_backend_of_ranks(BackendChoice choice, const CudaSupport& cuda, SmoothingOptions& options) {
   if (choice == BackendChoice::cuda && cuda.backend == nullptr) {
     throw_no_cuda();

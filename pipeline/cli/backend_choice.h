@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 
 #include "trismooth/base/enum_text.h"
 #include "trismooth/pipeline/cuda_or_cpu.h"
@@ -26,8 +28,14 @@ struct EnumText<BackendChoice> {
 void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrCpu& automatic,
                     SmoothingOptions& options);
 
-/// The same for the ranks of an MPI job: the CPU, unless CUDA is asked for. Whether each has a device is found out by
-/// all of them together, when they smooth.
+/// The backend for the devices that the user names by their numbers, to which `options.backend` is set: the caller
+/// keeps it. Throws as choose_backend() does where it is BackendChoice::cuda, std::invalid_argument for
+/// BackendChoice::cpu and where several devices are to do what one alone does.
+std::unique_ptr<Backend> choose_devices(std::span<const int> devices, BackendChoice choice, const CudaSupport& cuda,
+                                        SmoothingOptions& options);
+
+/// choose_backend() for the ranks of an MPI job: the CPU, unless CUDA is asked for. Whether each has a device is found
+/// out by all of them together, when they smooth.
 void choose_backend_of_ranks(BackendChoice choice, const CudaSupport& cuda, SmoothingOptions& options);
 
 }  // namespace trismooth

@@ -57,19 +57,16 @@ std::int64_t parse_size(std::string_view text) {
   return parse_count(text, least_random_mesh_vertices, max_random_mesh_vertices);
 }
 
-/// The parts of "a,b,c", each parsed; every value counts once.
-template <class Parse>
-auto parse_list(std::string_view text, const Parse& parse) {
-  std::vector<decltype(parse(text))> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto value = parse(text.substr(begin, end - begin));
-    if (std::ranges::find(values, value) == values.end()) {
-      values.push_back(value);
+/// Every value counts once.
+template <class Value>
+std::vector<Value> without_repeats(const std::vector<Value>& values) {
+  std::vector<Value> distinct;
+  for (const Value& value : values) {
+    if (std::ranges::find(distinct, value) == distinct.end()) {
+      distinct.push_back(value);
     }
-    begin = end + 1;
   }
-  return values;
+  return distinct;
 }
 
 double parse_seconds(const std::string& text) {
@@ -197,16 +194,17 @@ Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environmen
   const auto settings = std::make_shared<BenchSettings>();
   experiments::ExperimentOptions& options = settings->experiment;
   CLI::App& command = *app.add_subcommand("bench", "Repeat the paper's experiments on this machine");
-  add_parsed_option(command, "--sizes", "N,N,...",
-                    "Vertices of the meshes, with K and M for thousands and millions [1K,5K,10K,50K,100K, the paper's]",
-                    [&options](const std::string& text) { options.sizes = parse_list(text, &parse_size); });
+  add_parsed_option(
+      command, "--sizes", "N,N,...",
+      "Vertices of the meshes, with K and M for thousands and millions [1K,5K,10K,50K,100K, the paper's]",
+      [&options](const std::string& text) { options.sizes = without_repeats(parse_list(text, &parse_size)); });
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; single is the paper's");
   add_parsed_option(
       command, "--versions", "V,V,...",
       "Of " + valid_texts<experiments::Version>() +
           ": the paper's serial program, the CPU backend, the paper's GPU and CDP versions, the resident version [all]",
       [&options](const std::string& text) {
-        options.versions = parse_list(text, &parse_choice<experiments::Version>);
+        options.versions = without_repeats(parse_list(text, &parse_choice<experiments::Version>));
       });
   add_parsed_option(command, "--runs", "N", "Runs of each, one more to warm up [7]",
                     [&options](const std::string& text) { options.runs = parse_integer(text, 1, most_runs); });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -34,6 +36,18 @@ std::int64_t parse_count(std::string_view text, std::int64_t lowest, std::int64_
 
 /// The finite number that `text` states. Throws std::invalid_argument. Independent of the locale.
 double parse_finite(std::string_view text);
+
+/// The parts of "a,b,c", each parsed.
+template <class Parse>
+auto parse_list(std::string_view text, const Parse& parse) {
+  std::vector<decltype(parse(text))> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    values.push_back(parse(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return values;
+}
 
 /// The values of an enumeration as help shows them: "a|b".
 template <class Enum>

@@ -1,6 +1,10 @@
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,6 +32,7 @@ namespace {
 struct SmoothSettings {
   MeshRunSettings run;
   BackendChoice backend = BackendChoice::automatic;
+  std::vector<int> devices;  ///< by number; empty: the backend's choice
   Switch guard = Switch::on;
 };
 
@@ -135,6 +140,15 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
                   free_vertices_for_cuda))
       ->group(option_group::running);
   add_parsed_option(
+      command, "--devices", "N,N,...",
+      "CUDA devices to smooth on, by the numbers that `trismooth info` shows; several share the mesh out, and "
+      "the result is the same. With --backend cuda, which may be left out [the first]",
+      [&settings](const std::string& text) {
+        settings.devices = parse_list(
+            text, [](std::string_view number) { return parse_integer(number, 0, std::numeric_limits<int>::max()); });
+      })
+      ->group(option_group::running);
+  add_parsed_option(
       command, "--partition", alternatives<Partition>(),
       "How the ranks of an MPI job share the mesh out; the result is the same. keep: as the pieces are, of "
       "one file blocks of vertices; bisect: halved again and again, across the longer side; metis: by METIS, "
@@ -185,8 +199,14 @@ ExitCode run_smooth(SmoothSettings settings, const CommandEnvironment& environme
   options.slide.validate();
   const CudaSupport cuda = environment.cuda();
   const CudaOrCpu automatic(cuda);
+  std::unique_ptr<Backend> on_devices;
+  if (environment.over_ranks && !settings.devices.empty()) {
+    throw std::invalid_argument("'--devices' is for one process: over MPI ranks each takes a device of its own");
+  }
   if (environment.over_ranks) {
     choose_backend_of_ranks(settings.backend, cuda, options.smoothing);
+  } else if (!settings.devices.empty()) {
+    on_devices = choose_devices(settings.devices, settings.backend, cuda, options.smoothing);
   } else {
     choose_backend(settings.backend, cuda, automatic, options.smoothing);
   }

@@ -1,7 +1,9 @@
 #include "trismooth/pipeline/cli/command_line.h"
 
 #include <filesystem>
+#include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -160,6 +162,11 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--power", "1.5"}, "--power"},
       {{"smooth", "a.off", "b.off", "--layout", "x"}, "valid are aos, soa"},
       {{"smooth", "a.off", "b.off", "--backend", "x"}, "valid are auto, cpu, cuda"},
+      {{"smooth", "a.off", "b.off", "--devices", ""}, "--devices"},
+      {{"smooth", "a.off", "b.off", "--devices", "0,-1"}, "--devices"},
+      {{"smooth", "a.off", "b.off", "--devices", "0;1"}, "'0;1'"},
+      {{"smooth", "a.off", "b.off", "--devices", "0", "--backend", "cpu"}, "'--devices' is for the CUDA backend"},
+      {{"smooth", "a.off", "b.off", "--devices", "0,1", "--execution", "cdp"}, "for one device"},
       {{"smooth", "a.off", "b.off", "--execution", "x"}, "valid are resident, single-block, cdp"},
       {{"smooth", "a.off", "b.off", "--order", "x"}, "valid are colour, unordered"},
       {{"smooth", "a.off", "b.off", "--topology", "x"}, "valid are auto, host, halfedge, device"},
@@ -233,6 +240,37 @@ TEST_CASE("CUDA that cannot be had is answered with 5 and what to do, before any
   CHECK(call_on("", {"--backend", "cpu"}).options->smoothing.backend == nullptr);
   CHECK(call_on("", {"--backend", "cuda"}).options->smoothing.backend == &backend);
   CHECK(call_on("", {"--order", "unordered", "--execution", "single-block"}).options->smoothing.backend == &backend);
+}
+
+TEST_CASE("devices that are named are those of the backend, as they are listed") {
+  const fakes::FakeBackend all;
+  CudaSupport cuda = cuda_with(all, "");
+  const trismooth::Backend* made = nullptr;
+  std::vector<int> asked;
+  cuda.on_devices = [&](std::span<const int> devices) {
+    asked.assign(devices.begin(), devices.end());
+    auto backend = std::make_unique<fakes::FakeBackend>();
+    made = backend.get();
+    return backend;
+  };
+  const auto result = [](const PipelineOptions&) { return sample::result(); };
+  const Outcome several = call({"smooth", "a.off", "b.off", "--devices", "2,0,2"}, result, false, cuda);
+  CHECK(several.code == 0);
+  CHECK(several.options->smoothing.backend == made);
+  CHECK(asked == std::vector<int>{2, 0, 2});
+  CHECK(call({"smooth", "a.off", "b.off", "--devices", "1", "--backend", "cuda", "--execution", "single-block"}, result, false,
+             cuda)
+            .code == 0);
+  CHECK(asked == std::vector<int>{1});
+
+  cuda.on_devices = [](std::span<const int>) -> std::unique_ptr<trismooth::Backend> {
+    throw trismooth::DeviceError("CUDA: there is no device 7");
+  };
+  const Outcome missing = call({"smooth", "a.off", "b.off", "--devices", "7"}, result, false, cuda);
+  CHECK(missing.code == 5);
+  CHECK(missing.says("there is no device 7"));
+  CHECK_FALSE(missing.options.has_value());
+  CHECK(call({"smooth", "a.off", "b.off", "--devices", "0"}, result).code == 5);
 }
 
 TEST_CASE("where neither input nor output is of a known format, both are told, as a fault of the input") {
