@@ -27,7 +27,7 @@ struct Group {
 /// Cuts the points of all groups, each of more than one part in two.
 class Level {
  public:
-  Level(std::span<const Point2<double>> points, const std::vector<Group>& groups, double slack,
+  Level(std::span<const Point2<double>> points, const std::vector<Group>& groups, BisectionSlack slack,
         std::vector<std::int32_t>& group_of, const mpi::Communicator& ranks)
       : points_(points), groups_(groups), slack_(slack), group_of_(group_of), ranks_(ranks) {}
 
@@ -105,7 +105,8 @@ class Level {
       std::vector<std::uint64_t> lower = cuts_;
       bool is_any_open = false;
       for (std::size_t g = 0; g < lower.size(); ++g) {
-        const auto most = wanted[g] + static_cast<std::int64_t>(slack_ * static_cast<double>(wanted[g]));
+        const double slack = groups_[g].count <= slack_.most_parts ? slack_.part : 0;
+        const auto most = wanted[g] + static_cast<std::int64_t>(slack * static_cast<double>(wanted[g]));
         if (bit < bits_[g] && within[g] > most) {
           lower[g] ^= std::uint64_t{1} << static_cast<unsigned>(bit);
           is_any_open = true;
@@ -129,7 +130,7 @@ class Level {
 
   std::span<const Point2<double>> points_;
   const std::vector<Group>& groups_;
-  double slack_;
+  BisectionSlack slack_;
   std::vector<std::int32_t>& group_of_;
   const mpi::Communicator& ranks_;
   std::vector<std::uint8_t> along_y_;
@@ -139,8 +140,8 @@ class Level {
 
 }  // namespace
 
-std::vector<std::int32_t> bisected(std::span<const Point2<double>> points, int parts, double slack,
-                                   const mpi::Communicator& ranks) {
+std::vector<std::int32_t> bisected(std::span<const Point2<double>> points, int parts, const mpi::Communicator& ranks,
+                                   BisectionSlack slack) {
   std::vector<Group> groups{{0, parts}};
   std::vector<std::int32_t> group_of(points.size(), 0);
   while (std::ranges::any_of(groups, [](const Group& group) { return group.count > 1; })) {

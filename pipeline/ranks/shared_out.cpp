@@ -139,7 +139,7 @@ class Sharing {
     for (std::size_t p = 0; p < points; ++p) {
       flat[p] = {document_.points[3 * p], document_.points[3 * p + 1]};
     }
-    point_ranks_ = bisected(flat, ranks_.size(), 0, ranks_);
+    point_ranks_ = bisected(flat, ranks_.size(), ranks_);
     flat = {};
     // The rank of each cell's first corner, which whoever has read that point knows.
     auto asked = mpi::lists_by_rank<std::int32_t>(ranks_);

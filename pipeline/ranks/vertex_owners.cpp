@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/bisection.h"
@@ -12,46 +14,73 @@ namespace trismooth {
 
 namespace {
 
-constexpr int blocks_a_rank = 256;
+/// Sides of triangles between blocks of different parts, counted from both.
+std::int64_t cut_of(const BlockGraph& graph, std::span<const std::int32_t> part_of) {
+  std::int64_t cut = 0;
+  for (std::size_t i = 0; i < part_of.size(); ++i) {
+    for (auto n = static_cast<std::size_t>(graph.offsets[i]); n < static_cast<std::size_t>(graph.offsets[i + 1]); ++n) {
+      cut += part_of[static_cast<std::size_t>(graph.neighbours[n])] != part_of[i] ? graph.edges_between[n] : 0;
+    }
+  }
+  return cut;
+}
 
-/// The rank of each block, on all ranks.
-std::vector<std::int32_t> ranks_of_blocks(std::span<const std::int32_t> block_of, const ShareableMesh& mesh, int blocks,
+/// The rank of each block of the graph, by METIS where that cuts less than `bisection`, else that. On rank 0, where the
+/// graph is; empty elsewhere. Collective.
+std::vector<std::int32_t> ranks_of_blocks(const BlockGraph& graph, std::vector<std::int32_t> bisection,
                                           const mpi::Communicator& ranks) {
   constexpr std::size_t few_blocks_a_rank = 8;
-  const BlockGraph graph = graph_of_blocks(block_of, mesh.triangles, mesh.is_copy, ranks);
-  std::vector<std::int32_t> rank_of;
   agree(ranks, [&] {
-    if (ranks.rank() > 0) {
+    const auto size = static_cast<std::size_t>(ranks.size());
+    if (graph.blocks.size() < few_blocks_a_rank * size || graph.neighbours.empty()) {
       return;
     }
-    const auto size = static_cast<std::size_t>(ranks.size());
-    for (int block = 0; block < blocks; ++block) {
-      rank_of.push_back(block / blocks_a_rank);
-    }
-    if (graph.blocks.size() >= few_blocks_a_rank * size && !graph.neighbours.empty()) {
-      const std::vector<std::int32_t> parts = metis_parts(graph, ranks.size());
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        rank_of[static_cast<std::size_t>(graph.blocks[i])] = parts[i];
-      }
+    std::vector<std::int32_t> found = metis_parts(graph, ranks.size());
+    if (cut_of(graph, found) < cut_of(graph, bisection)) {
+      bisection = std::move(found);
     }
   });
+  return bisection;
+}
+
+/// Of a mesh that rank 0 has: every vertex is a block.
+std::vector<std::int32_t> owners_of_whole(const ShareableMesh& mesh, const mpi::Communicator& ranks) {
+  std::vector<std::int32_t> numbers(mesh.points.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const BlockGraph graph = graph_of_blocks(numbers, mesh.triangles, mesh.is_copy, ranks);
+  return ranks_of_blocks(graph, bisected(mesh.points, ranks.size(), ranks), ranks);
+}
+
+/// Borders of parts follow those of blocks, which may be a longer way than bisection's.
+std::vector<std::int32_t> owners_of_blocks(const ShareableMesh& mesh, const mpi::Communicator& ranks) {
+  constexpr int most_blocks = 1 << 20;  // that rank 0 partitions, unless ranks would have too few
+  const int blocks_a_rank = std::clamp(most_blocks / ranks.size(), 64, 1024);
+  const int blocks = ranks.size() * blocks_a_rank;
+  std::vector<std::int32_t> owners = bisected(mesh.points, blocks, ranks, {1.0 / 16, blocks_a_rank});
+  const BlockGraph graph = graph_of_blocks(owners, mesh.triangles, mesh.is_copy, ranks);
+  std::vector<std::int32_t> rank_of_found;
+  for (const std::int32_t block : graph.blocks) {
+    rank_of_found.push_back(block / blocks_a_rank);
+  }
+  rank_of_found = ranks_of_blocks(graph, std::move(rank_of_found), ranks);
+  std::vector<std::int32_t> rank_of(static_cast<std::size_t>(blocks), 0);
+  for (std::size_t i = 0; i < rank_of_found.size(); ++i) {
+    rank_of[static_cast<std::size_t>(graph.blocks[i])] = rank_of_found[i];
+  }
   ranks.broadcast(rank_of);
-  return rank_of;
+  std::ranges::transform(owners, owners.begin(),
+                         [&](std::int32_t block) { return rank_of[static_cast<std::size_t>(block)]; });
+  return owners;
 }
 
 }  // namespace
 
 std::vector<std::int32_t> find_owners(Partition partition, const ShareableMesh& mesh, const mpi::Communicator& ranks) {
   if (partition != Partition::metis || ranks.size() == 1) {
-    return bisected(mesh.points, ranks.size(), 0, ranks);
+    return bisected(mesh.points, ranks.size(), ranks);
   }
-  constexpr double slack = 1.0 / 16;
-  const int blocks = ranks.size() * blocks_a_rank;
-  std::vector<std::int32_t> owners = bisected(mesh.points, blocks, slack, ranks);
-  const std::vector<std::int32_t> rank_of = ranks_of_blocks(owners, mesh, blocks, ranks);
-  std::ranges::transform(owners, owners.begin(),
-                         [&](std::int32_t block) { return rank_of[static_cast<std::size_t>(block)]; });
-  return owners;
+  const bool others_have_any = ranks.any(ranks.rank() > 0 && !mesh.points.empty());
+  return others_have_any ? owners_of_blocks(mesh, ranks) : owners_of_whole(mesh, ranks);
 }
 
 }  // namespace trismooth

@@ -18,10 +18,10 @@ struct ShareableMesh {
   std::span<const std::uint8_t> is_copy;  ///< one flag a triangle; empty: there are none
 };
 
-/// The rank that is to move each of the rank's vertices, whoever has it, by Partition::bisect or Partition::metis. With
-/// METIS, which is serial, points are bisected into many small blocks first, and rank 0 partitions the graph of these:
-/// no rank has more of the mesh. Of a mesh of few blocks a rank METIS has nothing to say: it is bisected. Collective:
-/// throws the same on all ranks.
+/// The rank that is to move each of the rank's vertices, whoever has it, by Partition::bisect or Partition::metis.
+/// METIS is serial. Where rank 0 has the whole mesh it partitions its vertices; else points are bisected into many small
+/// blocks, and rank 0 partitions the graph of these: no rank has more of the mesh. Where that cuts no fewer edges than
+/// bisection, or there are few blocks a rank, the mesh is bisected. Collective: throws the same on all ranks.
 std::vector<std::int32_t> find_owners(Partition partition, const ShareableMesh& mesh, const mpi::Communicator& ranks);
 
 }  // namespace trismooth
