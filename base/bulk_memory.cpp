@@ -1,5 +1,7 @@
 #include "trismooth/base/bulk_memory.h"
 
+#include <cstdint>
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -11,27 +13,61 @@ namespace {
 constexpr std::size_t large_page = std::size_t{1} << 21U;
 constexpr std::size_t many_bytes = large_page;
 
+#ifdef __linux__
+
+/// Rounded up to large pages.
+constexpr std::size_t mapped_bytes(std::size_t bytes) {
+  return (bytes + large_page - 1) / large_page * large_page;
+}
+
+/// From the system, and back to it as soon as it is released: the C library keeps what is freed, in pieces into which
+/// the next array may not fit.
+void* memory_of_system(std::size_t bytes) {
+  const std::size_t mapped = mapped_bytes(bytes);
+  void* const first = ::mmap(nullptr, mapped + large_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (first == MAP_FAILED) {
+    throw std::bad_alloc();
+  }
+  // What is before the large pages and behind them goes back at once.
+  auto* const begin = static_cast<std::byte*>(first);
+  const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(begin) % large_page) % large_page;
+  if (before > 0) {
+    ::munmap(begin, before);
+  }
+  ::munmap(begin + before + mapped, large_page - before);
+  std::byte* const memory = begin + before;
+#ifdef MADV_HUGEPAGE
+  // A system that has no large pages says so, and gives its usual ones. Whole pages alone: the rest is never used.
+  static_cast<void>(::madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE));
+#endif
+  return memory;
+}
+
+#endif
+
 }  // namespace
 
 void* bulk_memory(std::size_t bytes) {
   if (bytes < many_bytes) {
     return ::operator new(bytes);
   }
-  void* const memory = ::operator new (bytes, std::align_val_t{large_page});
-#ifdef MADV_HUGEPAGE
-  // Whole pages of it alone: the last part shares its page with others. A system that has no large pages says so, and
-  // gives its usual ones.
-  static_cast<void>(::madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE));
+#ifdef __linux__
+  return memory_of_system(bytes);
+#else
+  return ::operator new (bytes, std::align_val_t{large_page});
 #endif
-  return memory;
 }
 
 void release_bulk_memory(void* memory, std::size_t bytes) noexcept {
   if (bytes < many_bytes) {
     ::operator delete(memory);
-  } else {
-    ::operator delete (memory, std::align_val_t{large_page});
+    return;
   }
+#ifdef __linux__
+  ::munmap(memory, mapped_bytes(bytes));
+#else
+  ::operator delete (memory, std::align_val_t{large_page});
+#endif
 }
 
 }  // namespace trismooth
