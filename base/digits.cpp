@@ -32,4 +32,8 @@ std::string shortest_digits(double value) {
   return digits_of(value, std::chars_format::fixed);
 }
 
+std::string shortest_text(double value) {
+  return digits_of(value);
+}
+
 }  // namespace trismooth

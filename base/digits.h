@@ -18,4 +18,7 @@ std::string general_digits(double value, int digits);
 /// The fewest digits that stand for this value and no other, without an exponent: "12.5".
 std::string shortest_digits(double value);
 
+/// The fewest characters that stand for this value and no other: "12.5", "1e+300".
+std::string shortest_text(double value);
+
 }  // namespace trismooth
