@@ -9,7 +9,6 @@
 #include <string>
 
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/errors.h"
 
 namespace trismooth::mpi {
 
@@ -34,45 +33,29 @@ void join_sums(void* in, void* inout, int* count, MPI_Datatype* /*type*/) {
   }
 }
 
-/// What kind of error goes to the other ranks.
-enum class ErrorKind : int { invalid_argument, mesh, device, out_of_memory, other };
-
+/// An error on its way to other ranks: of the kind of this number, or of none of them.
 struct Failure {
-  ErrorKind kind = ErrorKind::other;
+  std::size_t kind = 0;
   std::string message;
 };
 
-Failure failure_of(const std::exception_ptr& error) {
+Failure failure_of(const std::exception_ptr& error, std::span<const ErrorKind> kinds) {
   try {
     std::rethrow_exception(error);
-  } catch (const std::invalid_argument& e) {
-    return {ErrorKind::invalid_argument, e.what()};
-  } catch (const MeshError& e) {
-    return {ErrorKind::mesh, e.what()};
-  } catch (const DeviceError& e) {
-    return {ErrorKind::device, e.what()};
-  } catch (const std::bad_alloc&) {
-    return {ErrorKind::out_of_memory, "out of memory"};
   } catch (const std::exception& e) {
-    return {ErrorKind::other, e.what()};
+    const auto kind = std::ranges::find_if(kinds, [&](const ErrorKind& known) { return known.includes(e); });
+    const bool is_known = kind != kinds.end();
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
+    return {static_cast<std::size_t>(kind - kinds.begin()),
+            is_known ? kind->message_of(e) : (is_memory ? "out of memory" : e.what())};
   } catch (...) {
-    return {ErrorKind::other, "an exception that is no std::exception"};
+    return {kinds.size(), "an exception that is no std::exception"};
   }
 }
 
-std::exception_ptr error_of(const Failure& failure) {
-  switch (failure.kind) {
-    case ErrorKind::invalid_argument:
-      return std::make_exception_ptr(std::invalid_argument(failure.message));
-    case ErrorKind::mesh:
-      return std::make_exception_ptr(MeshError(failure.message));
-    case ErrorKind::device:
-      return std::make_exception_ptr(DeviceError(failure.message));
-    case ErrorKind::out_of_memory:
-    case ErrorKind::other:
-      break;
-  }
-  return std::make_exception_ptr(std::runtime_error(failure.message));
+std::exception_ptr error_of(const Failure& failure, std::span<const ErrorKind> kinds) {
+  return failure.kind < kinds.size() ? kinds[failure.kind].made_of(failure.message)
+                                     : std::make_exception_ptr(std::runtime_error(failure.message));
 }
 
 int narrow(std::int64_t count) {
@@ -139,7 +122,7 @@ std::int64_t Communicator::sum_before(std::int64_t own) const {
   return rank_ == 0 ? 0 : before;
 }
 
-void Communicator::on_all(const std::function<void()>& work) const {
+void Communicator::on_all(const std::function<void()>& work, const ErrorKinds& errors) const {
   std::exception_ptr error;
   try {
     work();
@@ -153,8 +136,8 @@ void Communicator::on_all(const std::function<void()>& work) const {
   }
   Failure failure;
   if (failed == rank_) {
-    failure = failure_of(error);
-    if (size_ > 1) {
+    failure = failure_of(error, errors.kinds);
+    if (errors.names_rank && size_ > 1) {
       failure.message = "rank " + std::to_string(rank_) + ": " + failure.message;
     }
   }
@@ -162,10 +145,10 @@ void Communicator::on_all(const std::function<void()>& work) const {
   check(MPI_Bcast(&kind, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
   int length = static_cast<int>(failure.message.size());
   check(MPI_Bcast(&length, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
-  failure.kind = static_cast<ErrorKind>(kind);
+  failure.kind = static_cast<std::size_t>(kind);
   failure.message.resize(static_cast<std::size_t>(length));
   check(MPI_Bcast(failure.message.data(), length, MPI_CHAR, failed, communicator_), "MPI_Bcast");
-  throw KnownToAll(error_of(failure));
+  throw KnownToAll(error_of(failure, errors.kinds));
 }
 
 std::vector<std::int64_t> Communicator::exchanged_counts(std::span<const std::int64_t> counts) const {

@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include "trismooth/mpi/error_kinds.h"
 #include "trismooth/smoothing/parts/part_links.h"
 
 namespace trismooth::mpi {
@@ -51,8 +52,8 @@ class Communicator {
   std::int64_t sum_before(std::int64_t own) const;
 
   /// Calls `work` on every rank, which is to do nothing collective. If it throws anywhere, this throws KnownToAll
-  /// everywhere: the error of the lowest of these ranks, which it names.
-  void on_all(const std::function<void()>& work) const;
+  /// everywhere: the error of the lowest of these ranks, as `errors` say.
+  void on_all(const std::function<void()>& work, const ErrorKinds& errors = library_errors()) const;
 
   /// How much comes from every rank, where `counts` go to each.
   std::vector<std::int64_t> exchanged_counts(std::span<const std::int64_t> counts) const;

@@ -1,13 +1,13 @@
 #include "trismooth/pipeline/ranks/agreement.h"
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <new>
 #include <stdexcept>
 #include <string>
 
-#include <mpi.h>
-
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mpi/error_kinds.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/smoothing/errors.h"
 
@@ -15,88 +15,56 @@ namespace trismooth {
 
 namespace {
 
-enum class ErrorKind : std::uint8_t { read, write, mesh, device, invalid_argument, cancelled, out_of_memory, other };
+constexpr char between = '\0';  // the name of a file and what is said of it
 
-struct Failure {
-  ErrorKind kind = ErrorKind::other;
-  std::string message;
-};
-
-Failure failure_of(const std::exception_ptr& error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const ReadError& e) {
-    return {ErrorKind::read, e.what()};
-  } catch (const WriteError& e) {
-    return {ErrorKind::write, e.what()};
-  } catch (const MeshError& e) {
-    return {ErrorKind::mesh, e.what()};
-  } catch (const DeviceError& e) {
-    return {ErrorKind::device, e.what()};
-  } catch (const std::invalid_argument& e) {
-    return {ErrorKind::invalid_argument, e.what()};
-  } catch (const Cancelled& e) {
-    return {ErrorKind::cancelled, e.what()};
-  } catch (const std::bad_alloc&) {
-    return {ErrorKind::out_of_memory, {}};
-  } catch (const std::exception& e) {
-    return {ErrorKind::other, e.what()};
-  }
+/// The file is all that stands before the message, and may have any character in its name.
+mpi::ErrorKind write_error_kind() {
+  mpi::ErrorKind kind = mpi::error_kind<std::runtime_error>();
+  kind.includes = [](const std::exception& error) { return dynamic_cast<const WriteError*>(&error) != nullptr; };
+  kind.message_of = [](const std::exception& error) {
+    const std::string& reason = static_cast<const WriteError&>(error).reason;
+    std::string text = error.what();
+    const std::size_t colon = text.size() - reason.size() - 2;
+    return text.substr(0, colon) + between + reason;
+  };
+  kind.made_of = [](const std::string& message) {
+    const std::size_t end = message.find(between);
+    return std::make_exception_ptr(WriteError(message.substr(0, end), message.substr(end + 1)));
+  };
+  return kind;
 }
 
-/// Of a file: its name stands in front of the message, which made it that way.
+/// Of which nobody needs more than the text: that of the file and its line ends at a colon.
+mpi::ErrorKind read_error_kind() {
+  mpi::ErrorKind kind = mpi::error_kind<std::runtime_error>();
+  kind.includes = [](const std::exception& error) { return dynamic_cast<const ReadError*>(&error) != nullptr; };
+  kind.made_of = [](const std::string& message) {
+    const std::size_t colon = message.find(": ");
+    return std::make_exception_ptr(ReadError(message.substr(0, colon), message.substr(colon + 2)));
+  };
+  return kind;
+}
+
+/// That of an error without a message of its own.
 template <class Error>
-std::exception_ptr of_file(const std::string& text) {
-  const std::size_t colon = text.find(": ");
-  return std::make_exception_ptr(colon == text.npos ? Error({}, text)
-                                                    : Error(text.substr(0, colon), text.substr(colon + 2)));
-}
-
-std::exception_ptr error_of(const Failure& failure) {
-  switch (failure.kind) {
-    case ErrorKind::read:
-      return of_file<ReadError>(failure.message);
-    case ErrorKind::write:
-      return of_file<WriteError>(failure.message);
-    case ErrorKind::mesh:
-      return std::make_exception_ptr(MeshError(failure.message));
-    case ErrorKind::device:
-      return std::make_exception_ptr(DeviceError(failure.message));
-    case ErrorKind::invalid_argument:
-      return std::make_exception_ptr(std::invalid_argument(failure.message));
-    case ErrorKind::cancelled:
-      return std::make_exception_ptr(Cancelled());
-    case ErrorKind::out_of_memory:
-      return std::make_exception_ptr(std::bad_alloc());
-    case ErrorKind::other:
-      break;
-  }
-  return std::make_exception_ptr(std::runtime_error(failure.message));
+mpi::ErrorKind plain_kind() {
+  mpi::ErrorKind kind = mpi::error_kind<std::runtime_error>();
+  kind.includes = [](const std::exception& error) { return dynamic_cast<const Error*>(&error) != nullptr; };
+  kind.made_of = [](const std::string& /*message*/) { return std::make_exception_ptr(Error()); };
+  return kind;
 }
 
 }  // namespace
 
 void agree(const mpi::Communicator& ranks, const std::function<void()>& work) {
-  std::exception_ptr error;
-  try {
-    work();
-  } catch (...) {
-    error = std::current_exception();
-  }
-  int failed = error ? ranks.rank() : ranks.size();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, ranks.handle());
-  if (failed == ranks.size()) {
-    return;
-  }
-  const Failure own = failed == ranks.rank() ? failure_of(error) : Failure{};
-  auto kind = static_cast<int>(own.kind);
-  auto length = static_cast<int>(own.message.size());
-  MPI_Bcast(&kind, 1, MPI_INT, failed, ranks.handle());
-  MPI_Bcast(&length, 1, MPI_INT, failed, ranks.handle());
-  std::string message = own.message;
-  message.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(message.data(), length, MPI_CHAR, failed, ranks.handle());
-  throw mpi::KnownToAll{error_of({static_cast<ErrorKind>(kind), message})};
+  static const std::array kinds{read_error_kind(),
+                                write_error_kind(),
+                                mpi::error_kind<MeshError>(),
+                                mpi::error_kind<DeviceError>(),
+                                mpi::error_kind<std::invalid_argument>(),
+                                plain_kind<Cancelled>(),
+                                plain_kind<std::bad_alloc>()};
+  ranks.on_all(work, {kinds});
 }
 
 }  // namespace trismooth
