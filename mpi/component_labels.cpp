@@ -56,6 +56,8 @@ std::vector<std::vector<ComponentLink>> find_links(const Overlap& overlap, const
   return links;
 }
 
+constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();  // no triangle
+
 /// What a rank's triangles of one component say, on the way to the rank that adds it up.
 struct SentVotes {
   std::int64_t label;
@@ -63,7 +65,7 @@ struct SentVotes {
 };
 
 /// Votes against the lowest triangle here, turned into votes against that of the label.
-OrientationVotes against_label(OrientationVotes votes, std::uint8_t parity, std::span<const std::int64_t> ids) {
+OrientationVotes against_label(OrientationVotes votes, std::uint8_t parity, const AscendingIds& ids) {
   if (votes.first != OrientationVotes::nobody) {
     const auto triangle = static_cast<std::size_t>(votes.first / 2);
     votes.first = 2 * ids[triangle] + (votes.first % 2);
@@ -88,10 +90,12 @@ void add(OrientationVotes& all, const OrientationVotes& some) {
 
 ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponents& components,
                                  const Communicator& ranks)
-    : labels_(static_cast<std::size_t>(components.components), {std::numeric_limits<std::int64_t>::max(), 0}) {
+    : labels_(static_cast<std::size_t>(components.components), {none, 0}) {
   for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
-    ComponentLabel& label = labels_[static_cast<std::size_t>(components.component[t])];
-    label.triangle = std::min(label.triangle, overlap.triangle_ids[t]);
+    // The first one has the lowest id.
+    if (ComponentLabel& label = labels_[static_cast<std::size_t>(components.component[t])]; label.triangle == none) {
+      label.triangle = overlap.triangle_ids[t];
+    }
   }
   const std::vector<std::vector<ComponentLink>> links = find_links(overlap, components, ranks);
   LabelForest forest(labels_, ranks);

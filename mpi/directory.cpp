@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/splitmix64.h"
 
 namespace trismooth::mpi {
@@ -27,8 +28,8 @@ struct HeardClaim {
 };
 
 /// The claims of all ranks, those of an id behind each other, the lowest rank first.
-std::vector<HeardClaim> sorted_claims(const ByRank<Claim>& heard) {
-  std::vector<HeardClaim> claims;
+BulkVector<HeardClaim> sorted_claims(const ByRank<Claim>& heard) {
+  BulkVector<HeardClaim> claims;
   std::size_t count = 0;
   for (const std::vector<Claim>& of_rank : heard) {
     count += of_rank.size();
@@ -67,7 +68,7 @@ std::vector<std::int32_t> owners_of(std::span<const std::int64_t> ids, std::span
         {ids[v], claimed.empty() ? nobody : claimed[v]});
   }
   ByRank<Claim> heard = communicator.exchanged(std::move(claims));
-  const std::vector<HeardClaim> sorted = sorted_claims(heard);
+  const BulkVector<HeardClaim> sorted = sorted_claims(heard);
   auto answers = lists_by_rank<std::int32_t>(communicator);
   for (std::size_t r = 0; r < heard.size(); ++r) {
     answers[r].resize(heard[r].size());

@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/mesh_size.h"
-#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/links.h"
+#include "trismooth/mpi/local_mesh_checks.h"
+#include "trismooth/mpi/triangle_exchange.h"
 
 namespace trismooth::mpi {
 
@@ -23,71 +22,11 @@ namespace {
 
 constexpr std::int64_t overlap_grain = 16384;
 
-/// A triangle on its way to those who own its vertices.
-struct SentTriangle {
-  std::int64_t id;
-  std::array<std::int64_t, 3> vertices;
-  std::array<std::int32_t, 3> owners;
-  std::int32_t region;
-};
-
-/// A triangle at own vertices: the caller's number `place`, or -1 - i for the i-th that was received.
-struct KeptTriangle {
-  std::int64_t id;
-  std::int32_t place;
-};
-
 /// A vertex on its way to its owner.
 struct SentVertex {
   std::int64_t id;
   std::uint8_t named;
 };
-
-void require_length(std::size_t length, std::size_t expected, const char* what, const char* of) {
-  if (length != expected) {
-    throw std::invalid_argument(std::string(what) + " has " + std::to_string(length) +
-                                " entries, expected one for each of " + std::to_string(expected) + " " + of);
-  }
-}
-
-void check_ids(std::span<const std::int64_t> ids) {
-  const auto require_not_negative = [&](std::size_t v) {
-    if (ids[v] < 0) {
-      throw std::invalid_argument("vertex_ids: that of local vertex " + std::to_string(v) + " is " +
-                                  std::to_string(ids[v]) + ", and must not be negative");
-    }
-  };
-  if (std::ranges::is_sorted(ids, std::less_equal<>())) {
-    if (!ids.empty()) {
-      require_not_negative(0);
-    }
-    return;
-  }
-  std::vector<std::pair<std::int64_t, std::size_t>> order;
-  for (std::size_t v = 0; v < ids.size(); ++v) {
-    require_not_negative(v);
-    order.emplace_back(ids[v], v);
-  }
-  std::ranges::sort(order);
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (order[i].first == order[i - 1].first) {
-      throw std::invalid_argument("vertex_ids: local vertices " + std::to_string(order[i - 1].second) + " and " +
-                                  std::to_string(order[i].second) + " have the same id " +
-                                  std::to_string(order[i].first));
-    }
-  }
-}
-
-void check_triangle_ids(std::span<const std::int64_t> ids) {
-  // Votes for orientations have one bit more.
-  constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max() / 4;
-  for (std::size_t t = 0; t < ids.size(); ++t) {
-    if (ids[t] < 0 || ids[t] > largest) {
-      throw std::invalid_argument("triangle_ids: that of local triangle " + std::to_string(t) + " is " +
-                                  std::to_string(ids[t]) + ", and must be from 0 to " + std::to_string(largest));
-    }
-  }
-}
 
 class OverlapBuilder {
  public:
@@ -102,19 +41,21 @@ class OverlapBuilder {
         links_(std::make_shared<Links>(std::move(communicator))) {}
 
   Overlap run() {
-    ranks_.on_all([&] { check(); });
+    ranks_.on_all([&] { check_local_mesh(mesh_, triangles_, constraints_, ranks_.size()); });
     require_agreement();
     owners_ = owners_of(mesh_.vertex_ids, mesh_.owners, ranks_);
     if (is_gathered_) {
       std::ranges::fill(owners_, 0);
     }
     send_vertices();
-    send_triangles();
+    around_ = exchange_triangles(mesh_, triangles_, has_triangle_ids_, constraints_.regions, owners_, ranks_);
+    overlap_.triangle_ids = std::move(around_.ids);
     overlap_.part.links = links_;
     number_vertices();
-    list_callers();
+    join_flags();
     list_triangles();
     ranks_.on_all([&] { check_repeated(); });
+    list_callers();
     meet_neighbours();
     if (is_gathered_) {
       gather_lines();
@@ -123,31 +64,6 @@ class OverlapBuilder {
   }
 
  private:
-  void check() const {
-    check_mesh_size(std::ssize(mesh_.vertex_ids), std::ssize(triangles_));
-    const auto vertices = static_cast<std::int32_t>(mesh_.vertex_ids.size());
-    check_triangles(vertices, triangles_);
-    check_constraints(constraints_, vertices, std::ssize(triangles_));
-    check_ids(mesh_.vertex_ids);
-    if (!mesh_.owners.empty()) {
-      require_length(mesh_.owners.size(), mesh_.vertex_ids.size(), "owners", "local vertices");
-      for (std::size_t v = 0; v < mesh_.owners.size(); ++v) {
-        if (mesh_.owners[v] < 0 || mesh_.owners[v] >= ranks_.size()) {
-          throw std::invalid_argument("owners: that of local vertex " + std::to_string(v) + " is " +
-                                      std::to_string(mesh_.owners[v]) + ", and the ranks are 0 to " +
-                                      std::to_string(ranks_.size() - 1));
-        }
-      }
-    }
-    if (!mesh_.ghost_triangles.empty()) {
-      require_length(mesh_.ghost_triangles.size(), triangles_.size(), "ghost_triangles", "local triangles");
-    }
-    if (!mesh_.triangle_ids.empty()) {
-      require_length(mesh_.triangle_ids.size(), triangles_.size(), "triangle_ids", "local triangles");
-      check_triangle_ids(mesh_.triangle_ids);
-    }
-  }
-
   /// What some ranks have and others not is an oversight: a rank without triangles or vertices does not count.
   void require_agreement() {
     const auto none_or_all = [&](bool has, bool could, const char* what) {
@@ -179,107 +95,45 @@ class OverlapBuilder {
         named_[static_cast<std::size_t>(v)] |= hold::line;
       }
     }
-    overlap_.to_owners = lists_by_rank<std::int32_t>(ranks_);
+    to_owners_ = lists_by_rank<std::int32_t>(ranks_);
     auto sent = lists_by_rank<SentVertex>(ranks_);
-    overlap_.to_owners[static_cast<std::size_t>(ranks_.rank())].reserve(
-        static_cast<std::size_t>(std::ranges::count(owners_, ranks_.rank())));
     for (std::size_t v = 0; v < named_.size(); ++v) {
-      const auto owner = static_cast<std::size_t>(owners_[v]);
-      overlap_.to_owners[owner].push_back(static_cast<std::int32_t>(v));
       if (owners_[v] != ranks_.rank()) {
+        const auto owner = static_cast<std::size_t>(owners_[v]);
+        to_owners_[owner].push_back(static_cast<std::int32_t>(v));
         sent[owner].push_back({mesh_.vertex_ids[v], named_[v]});
       }
     }
     listed_ = ranks_.exchanged(std::move(sent));
   }
 
-  bool is_copy(std::size_t t) const { return !mesh_.ghost_triangles.empty() && mesh_.ghost_triangles[t] != 0; }
-
-  /// Keeps the triangles at own vertices, and sends those at the others' to them.
-  void send_triangles() {
-    std::int64_t count = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      count += is_copy(t) ? 0 : 1;
-    }
-    std::int64_t next_id = ranks_.sum_before(count);
-    if (has_triangle_ids_) {
-      std::vector<std::int64_t> ids;
-      for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        if (!is_copy(t)) {
-          ids.push_back(mesh_.triangle_ids[t]);
-        }
-      }
-      require_unique(ids, "triangle_ids", ranks_);
-    }
-    is_at_kept_.assign(mesh_.vertex_ids.size(), 0);
-    kept_.reserve(static_cast<std::size_t>(count));
-    auto sent = lists_by_rank<SentTriangle>(ranks_);
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (is_copy(t)) {
-        continue;
-      }
-      const std::int64_t id = has_triangle_ids_ ? mesh_.triangle_ids[t] : next_id++;
-      std::array<std::int32_t, 3> owners{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        owners[i] = owners_[static_cast<std::size_t>(triangles_[t][i])];
-      }
-      for (std::size_t i = 0; i < 3; ++i) {
-        const bool is_told = (i > 0 && owners[i] == owners[0]) || (i > 1 && owners[i] == owners[1]);
-        if (is_told) {
-          continue;
-        }
-        if (owners[i] == ranks_.rank()) {
-          keep(t, id);
-        } else {
-          sent[static_cast<std::size_t>(owners[i])].push_back(sent_triangle(t, id, owners));
-        }
-      }
-    }
-    const ByRank<SentTriangle> from = ranks_.exchanged(std::move(sent));
-    for (std::size_t r = 0; r < from.size(); ++r) {
-      received_.insert(received_.end(), from[r].begin(), from[r].end());
-      sources_.insert(sources_.end(), from[r].size(), static_cast<std::int32_t>(r));
-    }
-  }
-
-  void keep(std::size_t t, std::int64_t id) {
-    kept_.push_back({id, static_cast<std::int32_t>(t)});
-    for (const std::int32_t v : triangles_[t]) {
-      is_at_kept_[static_cast<std::size_t>(v)] = 1;
-    }
-  }
-
-  SentTriangle sent_triangle(std::size_t t, std::int64_t id, const std::array<std::int32_t, 3>& owners) const {
-    SentTriangle triangle{id, {}, owners, has_regions_ ? constraints_.regions[t] : 0};
-    for (std::size_t i = 0; i < 3; ++i) {
-      triangle.vertices[i] = mesh_.vertex_ids[static_cast<std::size_t>(triangles_[t][i])];
-    }
-    return triangle;
-  }
-
   /// Own vertices, whoever has them, and the corners of all triangles here.
   void number_vertices() {
-    std::vector<std::pair<std::int64_t, std::int32_t>> vertices;  // and their owners
-    vertices.reserve(mesh_.vertex_ids.size());
+    std::size_t most = mesh_.vertex_ids.size() + around_.foreign.size();
+    for (const auto& of_rank : listed_) {
+      most += of_rank.size();
+    }
+    std::vector<std::uint8_t> is_corner(mesh_.vertex_ids.size(), 0);  // of a triangle here
+    for (const std::int32_t place : around_.places) {
+      for (std::size_t k = 0; k < 3 && place >= 0; ++k) {
+        is_corner[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(place)][k])] = 1;
+      }
+    }
+    BulkVector<OwnedId> vertices;
+    vertices.reserve(most);
     for (std::size_t v = 0; v < mesh_.vertex_ids.size(); ++v) {
-      if (owners_[v] == ranks_.rank() || is_at_kept_[v] != 0) {
-        vertices.emplace_back(mesh_.vertex_ids[v], owners_[v]);
+      if (owners_[v] == ranks_.rank() || is_corner[v] != 0) {
+        vertices.push_back({mesh_.vertex_ids[v], owners_[v]});
       }
     }
     for (const auto& of_rank : listed_) {
       for (const SentVertex& vertex : of_rank) {
-        vertices.emplace_back(vertex.id, ranks_.rank());
+        vertices.push_back({vertex.id, ranks_.rank()});
       }
     }
-    for (const SentTriangle& triangle : received_) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        vertices.emplace_back(triangle.vertices[i], triangle.owners[i]);
-      }
-    }
-    if (!std::ranges::is_sorted(vertices)) {
-      std::ranges::sort(vertices);
-    }
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    vertices.insert(vertices.end(), around_.foreign.begin(), around_.foreign.end());
+    around_.foreign = {};
+    sort_uniquely(vertices);
     overlap_.ids.reserve(vertices.size());
     overlap_.owners.reserve(vertices.size());
     overlap_.part.ghosts.reserve(vertices.size());
@@ -301,55 +155,51 @@ class OverlapBuilder {
     });
   }
 
-  /// Who has which own vertices, and what they say of them.
-  void list_callers() {
+  /// What those who list own vertices say of them.
+  void join_flags() {
     overlap_.named.assign(overlap_.ids.size(), 0);
-    overlap_.from_callers = lists_by_rank<std::int32_t>(ranks_);
+    from_callers_ = lists_by_rank<std::int32_t>(ranks_);
     for (std::size_t r = 0; r < listed_.size(); ++r) {
       for (const SentVertex& vertex : listed_[r]) {
         const std::int32_t v = number_of(vertex.id);
         overlap_.named[static_cast<std::size_t>(v)] |= vertex.named;
-        overlap_.from_callers[r].push_back(v);
+        from_callers_[r].push_back(v);
       }
     }
-    const auto own = static_cast<std::size_t>(ranks_.rank());
-    overlap_.from_callers[own].reserve(overlap_.to_owners[own].size());
-    for (const std::int32_t local : overlap_.to_owners[own]) {
-      const std::int32_t v = number_of_local_[static_cast<std::size_t>(local)];
-      overlap_.named[static_cast<std::size_t>(v)] |= named_[static_cast<std::size_t>(local)];
-      overlap_.from_callers[own].push_back(v);
+    for (std::size_t v = 0; v < named_.size(); ++v) {
+      if (owners_[v] == ranks_.rank()) {
+        overlap_.named[static_cast<std::size_t>(number_of_local_[v])] |= named_[v];
+      }
     }
     listed_ = {};
     named_ = {};
   }
 
-  /// Those that were kept and those that came, in the order of their ids.
   void list_triangles() {
-    for (std::size_t i = 0; i < received_.size(); ++i) {
-      kept_.push_back({received_[i].id, -1 - static_cast<std::int32_t>(i)});
-    }
-    const auto id_of = [](const KeptTriangle& triangle) { return triangle.id; };
-    if (!std::ranges::is_sorted(kept_, {}, id_of)) {
-      std::ranges::sort(kept_, {}, id_of);
-    }
-    overlap_.triangles.resize(kept_.size());
-    overlap_.triangle_ids.resize(kept_.size());
-    overlap_.regions.resize(has_regions_ ? kept_.size() : 0);
-    workers_.for_blocks(std::ssize(kept_), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
+    overlap_.triangles.resize(around_.places.size());
+    overlap_.regions.resize(has_regions_ ? around_.places.size() : 0);
+    workers_.for_blocks(std::ssize(around_.places), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-        const auto [id, place] = kept_[i];
-        overlap_.triangle_ids[i] = id;
+        const std::int32_t place = around_.places[i];
         for (std::size_t k = 0; k < 3; ++k) {
           overlap_.triangles[i][k] =
               place >= 0 ? number_of_local_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(place)][k])]
-                         : number_of(received_[static_cast<std::size_t>(-1 - place)].vertices[k]);
+                         : number_of(around_.received[received_number(place)].vertices[k]);
         }
         if (has_regions_) {
           overlap_.regions[i] = place >= 0 ? constraints_.regions[static_cast<std::size_t>(place)]
-                                           : received_[static_cast<std::size_t>(-1 - place)].region;
+                                           : around_.received[received_number(place)].region;
         }
       }
     });
+  }
+
+  /// Who lists which own vertices.
+  void list_callers() {
+    for (std::size_t v = 0; v < number_of_local_.size(); ++v) {
+      number_of_local_[v] = owners_[v] == ranks_.rank() ? number_of_local_[v] : Callers::not_own;
+    }
+    overlap_.callers = Callers(std::move(number_of_local_), std::move(to_owners_), std::move(from_callers_));
   }
 
   std::int32_t number_of(std::int64_t id) const {
@@ -359,24 +209,25 @@ class OverlapBuilder {
   /// A triangle that two ranks have was not called a copy by either. (Where triangles have ids, one that is there twice
   /// is meant to be.)
   void check_repeated() const {
-    if (has_triangle_ids_ || received_.empty()) {
+    if (has_triangle_ids_ || around_.received.empty()) {
       return;
     }
     std::vector<std::uint8_t> is_at_received(overlap_.ids.size(), 0);
-    for (std::size_t i = 0; i < kept_.size(); ++i) {
-      for (std::size_t k = 0; k < 3 && kept_[i].place < 0; ++k) {
+    for (std::size_t i = 0; i < around_.places.size(); ++i) {
+      for (std::size_t k = 0; k < 3 && around_.places[i] < 0; ++k) {
         is_at_received[static_cast<std::size_t>(overlap_.triangles[i][k])] = 1;
       }
     }
     using Corners = std::array<std::int32_t, 3>;
     std::vector<std::pair<Corners, std::int32_t>> sorted;  // and the rank that has it
-    for (std::size_t i = 0; i < kept_.size(); ++i) {
+    for (std::size_t i = 0; i < around_.places.size(); ++i) {
       Corners corners = overlap_.triangles[i];
       if (std::ranges::all_of(corners,
                               [&](std::int32_t v) { return is_at_received[static_cast<std::size_t>(v)] != 0; })) {
         std::ranges::sort(corners);
-        sorted.emplace_back(
-            corners, kept_[i].place >= 0 ? ranks_.rank() : sources_[static_cast<std::size_t>(-1 - kept_[i].place)]);
+        sorted.emplace_back(corners, around_.places[i] >= 0
+                                         ? ranks_.rank()
+                                         : around_.received[received_number(around_.places[i])].source);
       }
     }
     std::ranges::sort(sorted);
@@ -463,14 +314,13 @@ class OverlapBuilder {
   std::shared_ptr<Links> links_;
   bool has_triangle_ids_ = false;
   bool has_regions_ = false;
-  std::vector<std::int32_t> owners_;           ///< of local vertices
-  std::vector<std::uint8_t> named_;            ///< of local vertices, as Overlap::named
-  std::vector<std::uint8_t> is_at_kept_;       ///< of local vertices: corners of kept triangles
-  std::vector<std::int32_t> number_of_local_;  ///< in the overlap; of local vertices that are there
-  ByRank<SentVertex> listed_;                  ///< own vertices that other ranks have
-  std::vector<KeptTriangle> kept_;
-  std::vector<SentTriangle> received_;
-  std::vector<std::int32_t> sources_;  ///< of received triangles: ranks
+  std::vector<std::int32_t> owners_;          ///< of local vertices
+  std::vector<std::uint8_t> named_;           ///< of local vertices, as Overlap::named
+  BulkVector<std::int32_t> number_of_local_;  ///< in the overlap; of local vertices that are there
+  ByRank<std::int32_t> to_owners_;            ///< as Callers has them
+  ByRank<std::int32_t> from_callers_;         ///< likewise
+  ByRank<SentVertex> listed_;                 ///< own vertices that other ranks have
+  TrianglesAround around_;
   Overlap overlap_;
 };
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/mpi/ascending_ids.h"
+#include "trismooth/mpi/callers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/local_mesh.h"
 #include "trismooth/smoothing/constraints.h"
@@ -26,7 +28,7 @@ struct Overlap {
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;  ///< ranks
   std::vector<Triangle> triangles;
-  std::vector<std::int64_t> triangle_ids;
+  AscendingIds triangle_ids;
   std::vector<std::int32_t> regions;  ///< one a triangle; empty: nobody has any
   /// One a vertex, bits hold::named and hold::other_cell; of ghosts 0.
   std::vector<std::uint8_t> named;
@@ -37,8 +39,7 @@ struct Overlap {
   std::vector<std::int32_t> line_tags;
   std::vector<std::int32_t> links;
 
-  ByRank<std::int32_t> to_owners;     ///< local vertices of the caller, by the rank that owns them
-  ByRank<std::int32_t> from_callers;  ///< own vertices, by the rank that has them, in the order of its list
+  Callers callers;
 
   bool is_own(std::int32_t v) const { return part.ghosts[static_cast<std::size_t>(v)] == 0; }
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(ids.size()); }

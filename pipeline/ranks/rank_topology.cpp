@@ -9,6 +9,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mpi/component_labels.h"
+#include "trismooth/mpi/shared_frame.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
@@ -140,24 +141,12 @@ std::vector<std::uint8_t> RankTopology::held(std::span<const std::int32_t> regio
       held[v] |= overlap_.named[v];
     }
   });
-  update_ghosts(std::span(held));
+  mpi::GhostValues(overlap_.part).update(std::span(held));
   return held;
 }
 
 LocalFrame RankTopology::frame_of(std::span<const Point2<double>> points, std::span<const std::uint8_t> held) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  PartSums low;
-  PartSums high;
-  low.largest = high.largest = {-infinity, -infinity};
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!hold::is_unused(held[v])) {
-      low.largest = {std::max(low.largest[0], -points[v].x), std::max(low.largest[1], -points[v].y)};
-      high.largest = {std::max(high.largest[0], points[v].x), std::max(high.largest[1], points[v].y)};
-    }
-  }
-  low = ranks_->joined(low);
-  high = ranks_->joined(high);
-  return local_frame({-low.largest[0], -low.largest[1]}, {high.largest[0], high.largest[1]});
+  return mpi::shared_frame(points, held, *ranks_);
 }
 
 std::vector<std::uint8_t> RankTopology::reversed(std::span<const Point2<double>> local, Workers& workers) const {

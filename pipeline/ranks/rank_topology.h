@@ -11,6 +11,7 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
+#include "trismooth/mpi/ghost_values.h"
 #include "trismooth/mpi/overlap.h"
 #include "trismooth/pipeline/ranks/rank_mesh.h"
 
@@ -33,25 +34,17 @@ class RankTopology {
   /// numbers whose bits are joined.
   template <class V>
   std::vector<V> of_vertices(std::span<const V> values) const {
-    auto sent = mpi::lists_by_rank<V>(*ranks_);
-    for (std::size_t r = 0; r < sent.size(); ++r) {
-      for (const std::int32_t v : overlap_.to_owners[r]) {
-        sent[r].push_back(values[static_cast<std::size_t>(v)]);
-      }
-    }
-    const mpi::ByRank<V> received = ranks_->exchanged(sent);
     std::vector<V> all(overlap_.ids.size());
-    for (std::size_t r = 0; r < received.size(); ++r) {
-      for (std::size_t i = 0; i < received[r].size(); ++i) {
-        V& value = all[static_cast<std::size_t>(overlap_.from_callers[r][i])];
-        if constexpr (std::is_integral_v<V>) {
-          value = static_cast<V>(value | received[r][i]);
-        } else {
-          value = received[r][i];
-        }
+    const auto join = [](std::int32_t /*v*/, V& value, const V& other) {
+      if constexpr (std::is_integral_v<V>) {
+        value = static_cast<V>(value | other);
+      } else {
+        value = other;
       }
-    }
-    update_ghosts(std::span(all));
+    };
+    Workers one(1);
+    overlap_.callers.bring_to_owners(values, std::span(all), join, *ranks_, one);
+    mpi::GhostValues(overlap_.part).update(std::span(all));
     return all;
   }
 
@@ -90,13 +83,6 @@ class RankTopology {
   std::vector<std::uint8_t> reversed(std::span<const Point2<double>> local, Workers& workers) const;
 
  private:
-  template <class V>
-  void update_ghosts(std::span<V> values) const {
-    VertexMessages messages = overlap_.part.messages();
-    const VertexExchange exchange = overlap_.part.ghost_exchange();
-    messages.start(exchange, std::span<const V>(values));
-    messages.finish<V>(exchange, [&](std::int32_t v, const V& value) { values[static_cast<std::size_t>(v)] = value; });
-  }
   /// For each triangle of the overlap the rank in whose pieces it is.
   std::vector<std::int32_t> holders_of_triangles() const;
   void ask_for_triangles();

@@ -57,6 +57,8 @@ struct Job {
   std::vector<double> lengths;
   bool is_float = false;
   int numbers = 2;  ///< of a point
+  double height = 0;
+  double slope = 0;  ///< of heights along x
 
   Job() {
     options.threads = 1;
@@ -89,7 +91,7 @@ void smooth(Plan& plan, const Job& job, Outcome& outcome) {
   for (std::size_t i = 0; i < job.piece.xy.size(); i += 2) {
     numbers.insert(numbers.end(), {static_cast<T>(job.piece.xy[i]), static_cast<T>(job.piece.xy[i + 1])});
     if (job.numbers == 3) {
-      numbers.push_back(0);
+      numbers.push_back(static_cast<T>(job.height + job.slope * job.piece.xy[i]));
     }
   }
   const std::vector<T> before = numbers;
@@ -328,6 +330,28 @@ TEST_CASE("points that differ, or are none, on one rank are refused on all") {
                      [](Job& job) { job.numbers = 3; });
 }
 
+TEST_CASE("heights that differ are refused on all") {
+  const Change heights = [](Job& job) {
+    job.numbers = 3;
+    job.height = 3;
+  };
+  CHECK(fault(
+            "MeshError", {"z runs from", "must be the same everywhere"},
+            [&](Job& job) {
+              heights(job);
+              job.slope = 1;
+            },
+            nothing) == "");
+  check_disagreement(
+      "invalid_argument", {"disagree about z of the vertex of id"}, [](Job& job) { job.height = 3.5; }, heights);
+  // A slope that is none to the digits that count.
+  Job job;
+  heights(job);
+  job.slope = 1e-9;
+  const Outcome outcome = run(job);
+  CHECK(said_by_any(outcome.error + (outcome.has_moved ? "" : "nothing has moved")) == "");
+}
+
 TEST_CASE("a one-sided surface over all ranks is refused on all") {
   for (const std::int32_t length : {3, 12, 40}) {
     RandomMesh band;
@@ -403,6 +427,16 @@ TEST_CASE("target lengths that are missing, none or different on one rank are re
       "invalid_argument",
       {"target_lengths", "disagree about the vertex of id " + std::to_string(columns_a_rank * spoiled())},
       [](Job& job) { job.lengths[shared_vertex(job.piece)] = 2; }, lengths);
+}
+
+TEST_CASE("target lengths that the method does not look at do not matter, however many they are") {
+  const Outcome expected = run(Job());
+  Job job;
+  if (rank() == spoiled()) {
+    job.lengths = {1};
+  }
+  const Outcome outcome = run(job);
+  CHECK(said_by_any(outcome.error + (same_bits(outcome.xy, expected.xy) ? "" : "other points")) == "");
 }
 
 TEST_CASE("what is not done in pieces is refused on all, with what to do instead") {

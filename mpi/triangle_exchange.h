@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/mpi/ascending_ids.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/mpi/local_mesh.h"
+
+namespace trismooth::mpi {
+
+/// A triangle that another rank has sent.
+struct ReceivedTriangle {
+  std::int64_t id;
+  std::array<std::int64_t, 3> vertices;
+  std::int32_t region;
+  std::int32_t source;  ///< the rank
+};
+
+/// A vertex and the rank that owns it.
+struct OwnedId {
+  std::int64_t id;
+  std::int32_t owner;
+
+  auto operator<=>(const OwnedId&) const = default;
+};
+
+/// Sorts them, and leaves each there once.
+void sort_uniquely(BulkVector<OwnedId>& vertices);
+
+/// What stands for the i-th triangle that was received, where those of the caller have their numbers.
+constexpr std::int32_t received_place(std::size_t i) {
+  return -1 - static_cast<std::int32_t>(i);
+}
+/// The other way.
+constexpr std::size_t received_number(std::int32_t place) {
+  return static_cast<std::size_t>(-1 - place);
+}
+
+/// All triangles around a rank's own vertices, in the order of their ids.
+struct TrianglesAround {
+  BulkVector<std::int32_t> places;  ///< the caller's number of each, or received_place()
+  AscendingIds ids;
+  BulkVector<ReceivedTriangle> received;
+  BulkVector<OwnedId> foreign;  ///< the corners of received ones that other ranks own
+};
+
+/// Sends the triangles of all ranks to the owners of their corners. `triangles`: those of `mesh`, whose copies
+/// are left out.
+/// `has_ids`: they have ids, on all ranks; else they are numbered rank by rank. `regions`: one a triangle, or none.
+/// `owners`: the rank that owns each local vertex. Collective. Throws std::invalid_argument on all ranks for an id that
+/// is there twice. Complexity: linear in what the rank has and receives, n log n where ids do not ascend.
+TrianglesAround exchange_triangles(const LocalMesh& mesh, std::span<const Triangle> triangles, bool has_ids,
+                                   std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
+                                   const Communicator& ranks);
+
+}  // namespace trismooth::mpi
