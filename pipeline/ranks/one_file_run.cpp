@@ -13,11 +13,11 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/mpi/plan.h"
-#include "trismooth/smoothing/noted_smoother.h"
 #include "trismooth/pipeline/ranks/vertex_owners.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/noted_smoother.h"
 
 namespace trismooth {
 
