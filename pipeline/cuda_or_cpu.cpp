@@ -11,9 +11,9 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/noted_smoother.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/noted_smoother.h"
 
 namespace trismooth {
 
