@@ -81,7 +81,7 @@ TEST_CASE("what slides is the work of the first device, with the same bits") {
 }
 
 TEST_CASE("a large mesh that devices share has the bits of the CPU, by every method, form and precision") {
-  const auto grid = distorted_meshes::displaced(160, 0.4, 7);
+  const auto grid = distorted_meshes::displaced(160, 0.25, 7);
   for (std::uint64_t index = 0; index < combinations; ++index) {
     SmoothingOptions options = combination(index);
     options.threads = 0;
@@ -102,7 +102,7 @@ TEST_CASE("a large mesh that devices share has the bits of the CPU, by every met
 }
 
 TEST_CASE("two threads may smooth on the same devices at the same time") {
-  const auto grid = distorted_meshes::displaced(60, 0.4, 3);
+  const auto grid = distorted_meshes::displaced(60, 0.25, 3);
   SmoothingOptions options;
   std::vector<double> expected = grid.xy();
   trismooth::smooth(trismooth::xy_points(expected), grid.indices(), options);
