@@ -19,9 +19,9 @@ struct ShareableMesh {
 };
 
 /// The rank that is to move each of the rank's vertices, whoever has it, by Partition::bisect or Partition::metis.
-/// METIS is serial. Where rank 0 has the whole mesh it partitions its vertices; else points are bisected into many small
-/// blocks, and rank 0 partitions the graph of these: no rank has more of the mesh. Where that cuts no fewer edges than
-/// bisection, or there are few blocks a rank, the mesh is bisected. Collective: throws the same on all ranks.
+/// METIS is serial. Where rank 0 has the whole mesh it partitions its vertices; else points are bisected into many
+/// small blocks, and rank 0 partitions the graph of these: no rank has more of the mesh. Where that cuts no fewer edges
+/// than bisection, or there are few blocks a rank, the mesh is bisected. Collective: throws the same on all ranks.
 std::vector<std::int32_t> find_owners(Partition partition, const ShareableMesh& mesh, const mpi::Communicator& ranks);
 
 }  // namespace trismooth

@@ -43,16 +43,21 @@ Piece piece_of(const RandomMesh& mesh, Cut cut, std::uint64_t seed) {
     high = std::max(high, p.x);
   }
   const int chosen = random.below(ranks());
+  const std::vector<std::int32_t> by_metis = cut == Cut::by_metis ? metis_cut(mesh, seed) : std::vector<std::int32_t>{};
   std::vector<int> rank_of_triangle;
   for (const trismooth::Triangle& t : mesh.mesh.triangles) {
     const int drawn = random.below(ranks());
     rank_of_triangle.push_back(cut == Cut::in_strips     ? rank_of_strip(mesh, t, low, high)
                                : cut == Cut::one_has_all ? chosen
+                               : cut == Cut::by_metis    ? by_metis[static_cast<std::size_t>(t[0])]
                                                          : drawn);
   }
   std::vector<std::int32_t> owner(vertices);
   for (std::int32_t& o : owner) {
     o = cut == Cut::one_owns_all ? chosen : random.below(ranks());
+  }
+  if (cut == Cut::by_metis) {
+    owner = by_metis;
   }
   Piece piece;
   std::vector<std::int32_t> global;

@@ -8,6 +8,7 @@
 
 #include "trismooth/mpi/plan.h"
 
+#include "mpi/metis_cut.h"
 #include "support/random_meshes.h"
 
 /// A mesh cut into pieces, one a rank; every rank knows the whole and takes its own.
@@ -20,12 +21,13 @@ int ranks();
 
 /// How a mesh is cut.
 enum class Cut : std::uint8_t {
-  scattered,    ///< every triangle to a rank drawn for it, owners drawn among all ranks
-  in_strips,    ///< along x, as partitioners do; owners as the library chooses them
-  one_has_all,  ///< one rank has all, the others nothing
-  one_owns_all  ///< triangles are on all ranks, and one of these owns all vertices
+  scattered,     ///< every triangle to a rank drawn for it, owners drawn among all ranks
+  in_strips,     ///< along x, as partitioners do; owners as the library chooses them
+  one_has_all,   ///< one rank has all, the others nothing
+  one_owns_all,  ///< triangles are on all ranks, and one of these owns all vertices
+  by_metis       ///< vertices by METIS, triangles where their first corner is
 };
-inline constexpr int cuts = 4;
+inline constexpr int cuts = has_metis ? 5 : 4;
 
 /// What one rank has. Vertices and triangles are in an order of its own.
 struct Piece {

@@ -78,6 +78,8 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
   return wrong;
 }
 
+}  // namespace
+
 std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, const Run& whole, Cut cut,
                       Gather gather) {
   const Piece piece = piece_of(mesh, cut, mesh.seed);
@@ -113,8 +115,6 @@ std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, c
     return said_by_any(is_meant ? (xy == piece.xy ? "" : "refused, and moved") : error.what());
   }
 }
-
-}  // namespace
 
 void check_random_meshes(std::int64_t count, Gather gather, bool slides, const trismooth::Backend* backend) {
   for_random_meshes(count, [&](RandomMesh mesh) {
