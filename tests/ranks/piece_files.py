@@ -141,7 +141,7 @@ class PieceFiles(ranks_tool.RanksTest):
         lines = pieces.Mesh([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [[0, 1]])
         lines.types = [3]
         pieces.write_pieces(self.path("bare.pvtu"), [lines])
-        self.assertIn("holds 1 cells but no triangle", self.run_over(2, "quality", "bare.pvtu", expect=3).err)
+        self.assertIn("holds 1 cell but no triangle", self.run_over(2, "quality", "bare.pvtu", expect=3).err)
 
     def test_other_commands(self):
         self.assertEqual(self.run_over(3, "--version").out, self.run_over(0, "--version").out)
