@@ -45,7 +45,7 @@ void complete_labels(MeshDocument& document, const mpi::Communicator& ranks) {
   document.cell_arrays = std::move(complete);
 }
 
-std::int32_t label_of(const DataArray* array, std::size_t cell) {
+std::int32_t element_label(const DataArray* array, std::size_t cell) {
   return array == nullptr ? 0 : array->as<std::int32_t>()[cell];
 }
 
@@ -56,7 +56,8 @@ bool has_entities_in_groups(const MeshDocument& document, const mpi::Communicato
   const DataArray* const geometrical = find_array(document.cell_arrays, label_arrays[1]);
   std::set<Label> labels;
   for (std::size_t c = 0; c < document.cells.size(); ++c) {
-    labels.insert({cell_type::dimension(document.cells.types[c]), label_of(geometrical, c), label_of(physical, c)});
+    labels.insert(
+        {cell_type::dimension(document.cells.types[c]), element_label(geometrical, c), element_label(physical, c)});
   }
   const mpi::ByRank<Label> to_all(static_cast<std::size_t>(ranks.size()), {labels.begin(), labels.end()});
   for (const auto& list : ranks.exchanged(to_all)) {
@@ -76,7 +77,7 @@ std::vector<FileLineGroup> line_groups_of(const MeshDocument& document, const mp
   for (std::size_t c = 0; c < document.cells.size() && physical != nullptr; ++c) {
     if (cell_type::dimension(document.cells.types[c]) == 1) {
       const auto cell = document.cells[c];
-      values[0].push_back(label_of(physical, c));
+      values[0].push_back(element_label(physical, c));
       types[0].push_back(document.cells.types[c]);
       sizes[0].push_back(static_cast<std::int32_t>(cell.size()));
       corners[0].insert(corners[0].end(), cell.begin(), cell.end());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -192,7 +193,7 @@ class Sharing {
     made.cells.types = concatenated(ranks_.exchanged(values_at<std::uint8_t>(cells.types, places), counts));
     const std::vector<std::int32_t> all_sizes = concatenated(ranks_.exchanged(std::move(sizes), counts));
     made.cells.offsets.resize(all_sizes.size() + 1);
-    std::inclusive_scan(all_sizes.begin(), all_sizes.end(), made.cells.offsets.begin() + 1, std::plus<std::int64_t>(),
+    std::inclusive_scan(all_sizes.begin(), all_sizes.end(), made.cells.offsets.begin() + 1, std::plus<>(),
                         std::int64_t{0});
     cells = {};
     made.cells.connectivity = concatenated(ranks_.exchanged(std::move(corners)));
