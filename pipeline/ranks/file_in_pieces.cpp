@@ -111,9 +111,8 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
   std::ranges::move(notes, std::back_inserter(read.notes));
   if (!by_ranges && ranks.size() > 1) {
-    read.notes.push_back(
-        "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "
-        "appended "
+    read.notes.emplace_back(
+        "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw appended "
         "arrays, and binary MSH");
   }
   return read;
