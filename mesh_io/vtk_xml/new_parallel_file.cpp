@@ -47,9 +47,10 @@ NewParallelFile make_parallel_file(FileFormat piece_format, const MeshDocument& 
   NewParallelFile made;
   made.file.piece_format = piece_format;
   std::string& text = made.bytes;
-  text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + grid + "\" version=\"1.0\" byte_order=\"" +
-         (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian") +
-         "\" header_type=\"UInt64\">\n  <" + grid + " GhostLevel=\"0\">\n";
+  text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"";
+  text.append(grid).append(R"(" version="1.0" byte_order=")");
+  text.append(std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  text.append("\" header_type=\"UInt64\">\n  <").append(grid).append(" GhostLevel=\"0\">\n");
   text += section_element("PPointData", document.point_arrays) + section_element("PCellData", document.cell_arrays);
   text += "    <PPoints>\n" + array_element("Points", document.point_type, 3) + "    </PPoints>\n";
   for (const std::string& source : sources) {

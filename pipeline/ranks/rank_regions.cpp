@@ -270,7 +270,7 @@ class RankRegionFinder {
     for (const std::uint64_t key : all) {
       const std::string value = text_of_key(key, values.type());
       const std::string name = names.of(value);
-      texts.push_back(name.empty() ? RegionName{value, value} : RegionName{name, name + " (" + value + ")"});
+      texts.push_back(name.empty() ? RegionName{value, value} : RegionName{name, fmt::format("{} ({})", name, value)});
     }
     if (is_first) {
       regions_.of_mesh = numbers;
