@@ -11,7 +11,8 @@ namespace trismooth {
 PipelineResult run_pipeline_on(MeshDocument document, const PipelineOptions& options);
 
 /// smooth_document(), or check_document() where `options` have no output, that hands out the annotations as well, where
-/// the options want any.
+/// the options want any. `options.output` is not written; its format is that for which it is chosen what follows the
+/// mesh.
 PipelineResult run_on_document(MeshDocument& document, const PipelineOptions& options, AddedArrays& annotations);
 
 }  // namespace trismooth

@@ -186,12 +186,7 @@ PipelineResult run_pipeline_on(MeshDocument document, const PipelineOptions& opt
 }
 
 PipelineResult run_on_document(MeshDocument& document, const PipelineOptions& options, AddedArrays& annotations) {
-  PipelineOptions own = options;
-  if (options.output) {
-    own.output = std::filesystem::path("document").replace_extension(extensions_of(document.format).front());
-    own.format = document.format;
-  }
-  return Run(own).run_on(document, &annotations);
+  return Run(options).run_on(document, &annotations);
 }
 
 PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options) {

@@ -95,14 +95,6 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
                   std::to_string(document.periodic_pairs.size()) + " are not written");
     }
   }
-  const bool has_sets = ranks.any(!share->held_by_sets.empty() || !share->implied_by.empty());
-  agree(ranks, [&] {
-    if (options.gather && has_sets) {
-      throw std::invalid_argument(options.input.string() +
-                                  ": its sets hold vertices, of which --gather knows nothing where one file is written "
-                                  "in pieces; write one file, or use --fixed-set none");
-    }
-  });
   read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
                           options.output, ranks, workers, notes);
   const std::vector<std::string> all_said = texts_of_all(said, ranks);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +13,8 @@
 
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/ranks/agreement.h"
@@ -61,8 +64,11 @@ class HeldByIds {
   std::int64_t count_ = 0;
 };
 
-PipelineResult run_here(WholeMesh& whole, PipelineOptions options, AddedArrays& annotations) {
+PipelineResult run_here(WholeMesh& whole, FileFormat piece_format, PipelineOptions options, AddedArrays& annotations) {
   const HeldByIds held(options, whole.ids);
+  if (options.output && !options.single) {
+    options.output = std::filesystem::path("piece").replace_extension(extensions_of(piece_format).front());
+  }
   PipelineResult result = options.single ? run_pipeline_on(std::move(whole.document), options)
                                          : run_on_document(whole.document, options, annotations);
   held.report(result.input);
@@ -73,13 +79,16 @@ PipelineResult run_here(WholeMesh& whole, PipelineOptions options, AddedArrays& 
 
 PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks,
                             Workers& workers) {
-  WholeMesh whole(files, ranks);
+  const bool is_of_pieces = names_parallel_file(options.input) || is_standard_stream(options.input);
+  WholeMesh whole =
+      is_of_pieces ? WholeMesh(files, ranks) : WholeMesh(files, FileOptions{workers.count(), options.format}, ranks);
   AddedArrays annotations;
   PipelineResult result;
   std::exception_ptr error;
   try {
-    result =
-        run_on_first(options, ranks, [&](const PipelineOptions& own) { return run_here(whole, own, annotations); });
+    result = run_on_first(options, ranks, [&](const PipelineOptions& own) {
+      return run_here(whole, files.file.piece_format, own, annotations);
+    });
   } catch (const std::exception&) {
     error = std::current_exception();
   }

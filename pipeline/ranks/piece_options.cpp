@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
@@ -42,7 +43,7 @@ void require_output(const PipelineOptions& options, const std::filesystem::path&
 
 }  // namespace
 
-std::string what_needs_whole_mesh(const PipelineOptions& options) {
+std::string_view what_needs_whole_mesh(const PipelineOptions& options) {
   return options.slide.along != Slide::off                   ? "--slide"
          : options.project                                   ? "--project"
          : options.geographic                                ? "--geographic"
@@ -57,7 +58,7 @@ void require_piece_options(const PipelineOptions& options) {
   if (options.written()) {
     require_output(options, *options.written());
   }
-  const std::string whole = what_needs_whole_mesh(options);
+  const std::string whole(what_needs_whole_mesh(options));
   if (!whole.empty() && !options.gather) {
     throw std::invalid_argument(whole +
                                 " is not done in pieces; --gather has rank 0 do it, with the whole mesh in its memory");

@@ -54,6 +54,15 @@ std::int64_t largest_memory_of_ranks(const mpi::Communicator& ranks) {
   return bytes;
 }
 
+/// Puts those sentences in front that are not there already.
+void put_in_front(const std::vector<std::string>& sentences, std::vector<std::string>& all) {
+  std::vector<std::string> joined = sentences;
+  std::ranges::copy_if(all, std::back_inserter(joined), [&](const std::string& sentence) {
+    return std::ranges::find(sentences, sentence) == sentences.end();
+  });
+  all = std::move(joined);
+}
+
 /// One run: the stages in their order, as those of run_pipeline().
 class PieceRun {
  public:
@@ -116,8 +125,8 @@ class PieceRun {
     mesh_ = {};
     result_ = run_gathered(files_, options_, *ranks_, workers_);
     result_.timings_ms.read = read.timings_ms.read;
-    result_.losses.insert(result_.losses.begin(), read_losses_.begin(), read_losses_.end());
-    result_.notes.insert(result_.notes.begin(), read_notes_.begin(), read_notes_.end());
+    put_in_front(read_losses_, result_.losses);
+    put_in_front(read_notes_, result_.notes);
     if (ranks_->size() > 1) {
       note("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
       if (result_.smoothing) {

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/description_words.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
@@ -156,6 +157,19 @@ WholeMesh::WholeMesh(const PieceFiles& files, const mpi::Communicator& ranks) {
   gather_cells(files, ranks);
   gather_arrays(files, ranks);
   gather_fields(files, ranks);
+}
+
+WholeMesh::WholeMesh(const PieceFiles& files, const FileOptions& reading, const mpi::Communicator& ranks) {
+  find_vertices(files);
+  number_points(files, ranks);
+  agree(ranks, [&] {
+    if (ranks.rank() == 0) {
+      document = read_mesh(files.path, reading);
+      if (document.point_count() != ids.size()) {
+        throw ReadError(files.path, "has changed while it was read");
+      }
+    }
+  });
 }
 
 void WholeMesh::find_vertices(const PieceFiles& files) {

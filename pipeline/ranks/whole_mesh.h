@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 
@@ -20,6 +21,10 @@ class WholeMesh {
   /// Piece::ids are known. Collective. Throws ReadError on all ranks for more points or cells than 32 bits number.
   /// Complexity: n log n in the whole mesh on rank 0, in what they have on the others.
   WholeMesh(const PieceFiles& files, const mpi::Communicator& ranks);
+
+  /// The same of a file that was shared out in pieces: rank 0 reads it, with all that pieces do not have. Throws what
+  /// read_mesh() throws.
+  WholeMesh(const PieceFiles& files, const FileOptions& reading, const mpi::Communicator& ranks);
 
   MeshDocument document;          ///< empty on other ranks, as `ids` is
   std::vector<std::int64_t> ids;  ///< of the document's points, ascending

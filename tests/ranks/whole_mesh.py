@@ -195,6 +195,18 @@ class WholeMesh(ranks_tool.RanksTest):
                     report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather")
                     self.assertEqual(without_run(report), without_run(whole))
 
+    def test_one_file_in_pieces(self):
+        """Rank 0 reads the file itself then: periodic vertices and the like, which pieces do not hold, have their say."""
+        self.write_both(self.random_mesh(400))
+        self.run_tool("smooth", "whole.vtu", "whole.off", "--max-sweeps", "1", "--quiet")
+        for name in ("whole.vtu", "whole.off"):
+            for options in (["--slide", "curves"], ["--fields", "interpolate"]):
+                whole = self.report("smooth", name, "alone.vtu", *options)
+                for ranks in (1, 3):
+                    with self.subTest(name=name, options=options, ranks=ranks):
+                        report = self.report_over(ranks, "smooth", name, "out.pvtu", "--gather", *options)
+                        self.assertEqual(without_run(report), without_run(whole))
+
     def test_held_by_ids(self):
         self.write_both(self.random_mesh(300), gap=2)
         self.write("ids.txt", "12 300 # both are ids\n 12")
