@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "trismooth/mpi/release.h"
+
 namespace trismooth::mpi {
 
 namespace {
@@ -27,7 +29,7 @@ Callers::Callers(BulkVector<std::int32_t> own_numbers, ByRank<std::int32_t> to_o
       to_counts_(lengths_of(to_owners_)),
       from_counts_(lengths_of(from_callers_)) {
   if (counts_up(own_numbers_)) {
-    own_numbers_ = {};
+    release(own_numbers_);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/mpi/release.h"
 
 namespace trismooth::mpi {
 
@@ -73,7 +74,7 @@ std::vector<std::int32_t> owners_of(std::span<const std::int64_t> ids, std::span
   for (std::size_t r = 0; r < heard.size(); ++r) {
     answers[r].resize(heard[r].size());
   }
-  heard = {};
+  release(heard);
   communicator.on_all([&] {
     for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
       const HeardClaim& claim = sorted[i];

@@ -14,6 +14,7 @@
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/links.h"
 #include "trismooth/mpi/local_mesh_checks.h"
+#include "trismooth/mpi/release.h"
 #include "trismooth/mpi/triangle_exchange.h"
 
 namespace trismooth::mpi {
@@ -132,7 +133,7 @@ class OverlapBuilder {
       }
     }
     vertices.insert(vertices.end(), around_.foreign.begin(), around_.foreign.end());
-    around_.foreign = {};
+    release(around_.foreign);
     sort_uniquely(vertices);
     overlap_.ids.reserve(vertices.size());
     overlap_.owners.reserve(vertices.size());
@@ -142,7 +143,7 @@ class OverlapBuilder {
       overlap_.owners.push_back(owner);
       overlap_.part.ghosts.push_back(owner == ranks_.rank() ? 0 : 1);
     }
-    vertices = {};
+    release(vertices);
     number_of_local_.resize(mesh_.vertex_ids.size());
     workers_.for_blocks(std::ssize(number_of_local_), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
       std::size_t next = 0;  // behind the last one
@@ -171,8 +172,8 @@ class OverlapBuilder {
         overlap_.named[static_cast<std::size_t>(number_of_local_[v])] |= named_[v];
       }
     }
-    listed_ = {};
-    named_ = {};
+    release(listed_);
+    release(named_);
   }
 
   void list_triangles() {

@@ -19,6 +19,7 @@
 #include "trismooth/mpi/links.h"
 #include "trismooth/mpi/overlap.h"
 #include "trismooth/mpi/plan_points.h"
+#include "trismooth/mpi/release.h"
 #include "trismooth/mpi/same_options.h"
 #include "trismooth/mpi/shared_frame.h"
 #include "trismooth/mpi/shared_result.h"
@@ -80,7 +81,7 @@ class Plan::Implementation {
     require_same_options(options, constraints.slide, gather != Gather::never, ranks);
     has_lengths_ = ranks.any(options.method == Method::mean_ratio && !options.mean_ratio.target_lengths.empty());
     overlap_ = build_overlap(mesh, triangles, constraints, is_gathered_, communicator_, *workers_);
-    converted = {};
+    release(converted);
     if (has_lengths_) {
       // Never empty: that would say that no sizes are asked for.
       lengths_.assign(std::max<std::size_t>(overlap_.ids.size(), 1), 1.0);
@@ -109,7 +110,7 @@ class Plan::Implementation {
     });
     ghosts_->update(std::span(fixed_));
     labels_ = ComponentLabels(overlap_, components(), ranks);
-    overlap_.owners = {};
+    release(overlap_.owners);
     std::int64_t own_free = 0;
     for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
       own_free += overlap_.is_own(v) && fixed_[static_cast<std::size_t>(v)] == 0 ? 1 : 0;

@@ -91,12 +91,13 @@ class TriangleExchange {
 
   /// Sends the triangles `leaving` in portions, so that what is on its way takes little memory where nearly all belong
   /// to other ranks.
-  void exchange(std::span<const std::int32_t> leaving, std::span<const std::int64_t> from_counts) {
+  void exchange(std::span<const std::int32_t> leaving, const std::vector<std::int64_t>& from_counts) {
     constexpr std::size_t least_portion = 8192;
     constexpr std::size_t most_portions = 8;
     const std::size_t portion = std::max(least_portion, (leaving.size() + most_portions - 1) / most_portions);
     PartSums most;
-    most.largest[0] = static_cast<double>((leaving.size() + portion - 1) / portion);
+    const std::size_t own_portions = (leaving.size() + portion - 1) / portion;
+    most.largest[0] = static_cast<double>(own_portions);
     const auto portions = static_cast<std::size_t>(ranks_.joined(most).largest[0]);
     found_.received.reserve(
         static_cast<std::size_t>(std::accumulate(from_counts.begin(), from_counts.end(), std::int64_t{0})));
@@ -113,7 +114,8 @@ class TriangleExchange {
           }
         }
       }
-      receive(portions == 1 ? ranks_.exchanged(std::move(sent), from_counts) : ranks_.exchanged(std::move(sent)));
+      const std::vector<std::int64_t> counts = portions == 1 ? from_counts : ranks_.exchanged_counts(lengths_of(sent));
+      receive(ranks_.exchanged(std::move(sent), counts));
     }
   }
 
@@ -192,7 +194,6 @@ class TriangleExchange {
       found_.ids.push_back(id);
     }
     take_received(std::numeric_limits<std::int64_t>::max());
-    kept_ = {};
   }
 
   const LocalMesh& mesh_;

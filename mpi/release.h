@@ -1,0 +1,11 @@
+#pragma once
+
+namespace trismooth::mpi {
+
+/// Gives back the memory of a vector, which `vector = {}` empties without giving back anything.
+template <class Vector>
+void release(Vector& vector) {
+  Vector().swap(vector);
+}
+
+}  // namespace trismooth::mpi
