@@ -8,6 +8,7 @@ using trismooth::fixed_digits;
 using trismooth::general_digits;
 using trismooth::scientific_digits;
 using trismooth::shortest_digits;
+using trismooth::shortest_text;
 
 TEST_CASE("numbers have the digits that are asked for") {
   CHECK(fixed_digits(12.5, 2) == "12.50");
@@ -19,6 +20,8 @@ TEST_CASE("numbers have the digits that are asked for") {
   CHECK(general_digits(1.25e9, 8) == "1.25e+09");
   CHECK(shortest_digits(0.1) == "0.1");
   CHECK(shortest_digits(1e15) == "1000000000000000");
+  CHECK(shortest_text(0.1) == "0.1");
+  CHECK(shortest_text(1e300) == "1e+300");
 }
 
 TEST_CASE("what is no finite number has a name instead of digits") {
