@@ -142,7 +142,7 @@ TEST_CASE("OFF with fields, colours and faces of any degrees is read in parts") 
     sites.offsets.resize(9);
     trismooth::OffPlainRows rows(text, workers);
     const auto vertices = rows.read_vertices(line, 3, keyword, document, sites);
-    return vertices && rows.read_faces(vertices->offset, 2, document);
+    return vertices && rows.read_faces(vertices->offset, 2, document.point_count(), document);
   };
   const std::string faces = "3 0 1 2\n3 2 1 0\n";
   check_texts(
