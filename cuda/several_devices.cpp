@@ -18,8 +18,8 @@
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/in_parts/parts_smoother.h"
 #include "trismooth/smoothing/noted_smoother.h"
-#include "trismooth/smoothing/parts/parts_smoother.h"
 
 namespace trismooth::cuda {
 

@@ -28,12 +28,13 @@ MAY_USE = {
                          "smoothing/halo", "smoothing/slide"],
     "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
+    "smoothing/in_parts": SMOOTHING,
     "mesh_io": ["base"],
     "mesh_io/halfedge": SMOOTHING,
     "cuda faces": ["base", "smoothing faces"],
 }
 # From the lowest to the highest: each may use those before it.
-below = [*SMOOTHING, "cuda faces"]
+below = [*SMOOTHING, "smoothing/in_parts", "cuda faces"]
 for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", "sweeps/grid", "sweeps/patches", "paper",
             "guard", "slide", "parts"):
     MAY_USE[f"cuda/{own}"] = list(below)

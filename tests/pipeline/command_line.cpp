@@ -258,8 +258,8 @@ TEST_CASE("devices that are named are those of the backend, as they are listed")
   CHECK(several.code == 0);
   CHECK(several.options->smoothing.backend == made);
   CHECK(asked == std::vector<int>{2, 0, 2});
-  CHECK(call({"smooth", "a.off", "b.off", "--devices", "1", "--backend", "cuda", "--execution", "single-block"}, result, false,
-             cuda)
+  CHECK(call({"smooth", "a.off", "b.off", "--devices", "1", "--backend", "cuda", "--execution", "single-block"}, result,
+             false, cuda)
             .code == 0);
   CHECK(asked == std::vector<int>{1});
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "trismooth/smoothing/backend.h"
-#include "trismooth/smoothing/parts/parts_smoother.h"
+#include "trismooth/smoothing/in_parts/parts_smoother.h"
 
 #include "properties/smoothing_cases.h"
 

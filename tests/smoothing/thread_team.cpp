@@ -1,6 +1,6 @@
 // Threads that smooth the parts of a mesh reach each other, and none waits for one that has failed.
 
-#include "trismooth/smoothing/parts/thread_team.h"
+#include "trismooth/smoothing/in_parts/thread_team.h"
 
 #include <array>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/parts/parts_smoother.h"
+#include "trismooth/smoothing/in_parts/parts_smoother.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,8 +13,8 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/cpu_backend.h"
-#include "trismooth/smoothing/parts/mesh_cut.h"
-#include "trismooth/smoothing/parts/thread_team.h"
+#include "trismooth/smoothing/in_parts/mesh_cut.h"
+#include "trismooth/smoothing/in_parts/thread_team.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 namespace trismooth {

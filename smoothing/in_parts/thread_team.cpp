@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/parts/thread_team.h"
+#include "trismooth/smoothing/in_parts/thread_team.h"
 
 #include <condition_variable>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "trismooth/smoothing/parts/mesh_cut.h"
+#include "trismooth/smoothing/in_parts/mesh_cut.h"
 
 #include <algorithm>
 #include <atomic>
