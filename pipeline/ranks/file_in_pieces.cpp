@@ -104,7 +104,8 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   std::ranges::move(notes, std::back_inserter(read.notes));
   if (!by_ranges && ranks.size() > 1) {
     read.notes.emplace_back(
-        "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw appended "
+        "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "
+        "appended "
         "arrays, and binary MSH");
   }
   return read;
