@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "trismooth/mpi/release.h"
+#include "trismooth/base/release.h"
 
 namespace trismooth::mpi {
 

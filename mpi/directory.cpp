@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/release.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/mpi/release.h"
 
 namespace trismooth::mpi {
 

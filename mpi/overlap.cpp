@@ -10,11 +10,11 @@
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/links.h"
 #include "trismooth/mpi/local_mesh_checks.h"
-#include "trismooth/mpi/release.h"
 #include "trismooth/mpi/triangle_exchange.h"
 
 namespace trismooth::mpi {

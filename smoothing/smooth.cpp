@@ -10,6 +10,7 @@
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -39,7 +40,7 @@ class SmoothingPlan::Implementation {
       }
       is_analysed_by_backend_ = smoother_ != nullptr;
       if (is_analysed_by_backend_) {
-        triangles_ = {};
+        release(triangles_);
         return;
       }
     }

@@ -11,6 +11,7 @@
 #include "trismooth/base/parity_forest.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/relaxed_atomics.h"
+#include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/vertex_link.h"
 
@@ -52,7 +53,7 @@ class RingSearch {
       }
     }
     found_.rings.neighbours.resize(static_cast<std::size_t>(found_.rings.offsets.back()));
-    corners_ = {};
+    release(corners_);
     find_components();
     return std::move(found_);
   }

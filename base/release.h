@@ -1,6 +1,6 @@
 #pragma once
 
-namespace trismooth::mpi {
+namespace trismooth {
 
 /// Gives back the memory of a vector, which `vector = {}` empties without giving back anything.
 template <class Vector>
@@ -8,4 +8,4 @@ void release(Vector& vector) {
   Vector().swap(vector);
 }
 
-}  // namespace trismooth::mpi
+}  // namespace trismooth
