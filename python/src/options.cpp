@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <nanobind/stl/string.h>
 
@@ -27,6 +28,7 @@ struct Parsed {
   SmoothingOptions options{};
   Sliding slide{};
   std::string backend = "auto";
+  std::vector<int> devices{};
 };
 
 /// Throws std::invalid_argument for options that do not fit.
@@ -103,6 +105,27 @@ void parse_flag(nb::handle value, const char* name, Parsed& parsed) {
   parsed.options.*member = flag_of(value, name);
 }
 
+/// None: the default. One number, or several.
+void parse_devices(nb::handle value, const char* name, Parsed& parsed) {
+  parsed.devices.clear();
+  if (value.is_none()) {
+    return;
+  }
+  if (PyIndex_Check(value.ptr()) != 0) {
+    parsed.devices.push_back(integer_of<int>(value, name));
+    return;
+  }
+  if (PyUnicode_Check(value.ptr()) || !nb::isinstance<nb::iterable>(value)) {
+    raise_type_error(name, "numbers of CUDA devices are needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  for (const nb::handle device : nb::iter(value)) {
+    parsed.devices.push_back(integer_of<int>(device, name));
+  }
+  if (parsed.devices.empty()) {
+    raise_value_error(name, "name one CUDA device at least");
+  }
+}
+
 void parse_untangle(nb::handle value, const char* name, Parsed& parsed) {
   if (is_flag(value)) {
     parsed.options.untangle = flag_of(value, name) ? Untangle::on : Untangle::off;
@@ -133,6 +156,7 @@ constexpr auto options = std::to_array<Option>({
     {"method", parse_choice<&SmoothingOptions::method>},
     {"form", parse_choice<&SmoothingOptions::form>},
     {"backend", [](nb::handle value, const char* name, Parsed& parsed) { parsed.backend = text_of(value, name); }},
+    {"devices", parse_devices},
     {"layout", parse_choice<&SmoothingOptions::layout>},
     {"execution", parse_choice<&SmoothingOptions::execution>},
     {"order", parse_choice<&SmoothingOptions::order>},
@@ -240,7 +264,7 @@ CallOptions parse_options(const nb::dict& arguments) {
     option->parse(value, option->name, parsed);
   }
   validate(parsed, arguments);
-  choose_backend(parsed.backend, parsed.options);
+  choose_backend(parsed.backend, parsed.devices, parsed.options);
   return {std::move(parsed.options), parsed.slide};
 }
 

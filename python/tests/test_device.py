@@ -345,6 +345,21 @@ def test_host_arrays_on_the_cuda_backend_have_the_same_bits():
     np.testing.assert_array_equal(result.points, host(points, triangles))
 
 
+@pytest.mark.parametrize("devices", [0, [0], [0, 0], (0, 0, 0)])
+def test_devices_that_share_a_mesh_have_the_same_bits(devices):
+    points, triangles = grid(60, 40)
+    for _ in range(2):
+        result = trismooth.smooth(points, triangles, devices=devices)
+        assert result.backend == "cuda"
+        np.testing.assert_array_equal(result.points, host(points, triangles))
+
+
+def test_devices_that_are_not_there_are_an_error():
+    points, triangles = grid(6, 4)
+    with pytest.raises(trismooth.DeviceError, match="no device 1000"):
+        trismooth.smooth(points, triangles, devices=[0, 1000])
+
+
 def test_memory_of_the_device_is_given_back():
     cupy = pytest.importorskip("cupy")
     points, triangles = grid(300, 200)

@@ -108,6 +108,11 @@ def _on_device(constraints: Constraints, stream: int) -> Dict[str, Any]:
     }
 
 
+def _refuse_devices(options: Dict[str, Any]) -> None:
+    if options.get("devices") is not None:
+        raise ValueError("devices: are for arrays in memory of the host; arrays on a CUDA device are smoothed there")
+
+
 class DevicePlan:
     """The part of Plan for arrays on a device."""
 
@@ -115,6 +120,7 @@ class DevicePlan:
         _require_cuda("triangles", triangles)
         if options["backend"] == "cpu":
             raise ValueError("backend: 'cpu' is for arrays in memory of the host, and triangles are on a CUDA device")
+        _refuse_devices(options)
         options = dict(options)
         self._given_stream = options.pop("stream", None)
         options["backend"] = "cuda"
