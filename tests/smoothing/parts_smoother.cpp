@@ -1,0 +1,88 @@
+// A mesh in parts that threads smooth is the whole mesh: every method, form and precision. Many random ones are among
+// the properties; this one is small enough to watch the threads by.
+
+#include "trismooth/smoothing/in_parts/parts_smoother.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/distorted_meshes.h"
+#include "support/same_bits.h"
+
+namespace parts_smoother_test {
+
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+
+/// The CPU in so many parts.
+class InParts final : public trismooth::Backend {
+ public:
+  explicit InParts(int parts) : parts_(parts) {}
+
+  std::string name() const override { return "cpu"; }
+  std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
+                                                       std::span<const trismooth::Triangle> triangles,
+                                                       std::span<const trismooth::Point2<double>> local,
+                                                       const SmoothingOptions& options) const override {
+    return trismooth::prepare_in_parts(std::move(mesh), triangles, local, options, parts_);
+  }
+
+ private:
+  int parts_;
+};
+
+struct Outcome {
+  std::vector<double> xy;
+  SmoothingResult result;
+};
+
+Outcome smoothed(const test_meshes::Mesh& mesh, const SmoothingOptions& options) {
+  Outcome outcome{mesh.xy(), {}};
+  outcome.result = trismooth::smooth(trismooth::xy_points(outcome.xy), mesh.indices(), options);
+  return outcome;
+}
+
+TEST_CASE("a mesh in parts comes out as the whole by every method, form and precision") {
+  const test_meshes::Mesh mesh = distorted_meshes::displaced(60, 0.3, 5);
+  const InParts in_parts(4);
+  for (int index = 0; index < 16; ++index) {
+    SmoothingOptions options;
+    options.method = static_cast<trismooth::Method>(index % 4);
+    options.form = static_cast<trismooth::Form>(index / 4 % 2);
+    options.precision = static_cast<trismooth::Precision>(index / 8);
+    options.record_min_shape = true;
+    options.threads = 4;
+    CAPTURE(index);
+    const Outcome whole = smoothed(mesh, options);
+    options.backend = &in_parts;
+    const Outcome parts = smoothed(mesh, options);
+    CHECK(whole.result.moved_vertices > 3000);
+    CHECK(parts.result.sweeps == whole.result.sweeps);
+    CHECK(parts.result.moved_vertices == whole.result.moved_vertices);
+    CHECK(parts.result.history.back().min_shape == whole.result.history.back().min_shape);
+    CHECK(same_bits(parts.xy, whole.xy));
+  }
+}
+
+TEST_CASE("a length to aim at that is no number is told by the vertex's number in the whole mesh") {
+  const test_meshes::Mesh mesh = distorted_meshes::displaced(10, 0.2, 1);
+  std::vector<double> lengths(mesh.points.size(), 1.0);
+  lengths[77] = -1;
+  const InParts in_parts(5);
+  SmoothingOptions options;
+  options.method = trismooth::Method::mean_ratio;
+  options.mean_ratio.target_lengths = lengths;
+  options.backend = &in_parts;
+  CHECK_THROWS_WITH(smoothed(mesh, options),
+                    "MeanRatioOptions::target_lengths: that of vertex 77 is not a positive number");
+}
+
+}  // namespace parts_smoother_test
