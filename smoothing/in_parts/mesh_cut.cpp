@@ -8,7 +8,6 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/parts/mesh_part.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
 

@@ -8,6 +8,7 @@
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/in_parts/thread_team.h"
+#include "trismooth/smoothing/parts/mesh_part.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
