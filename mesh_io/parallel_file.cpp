@@ -3,7 +3,8 @@
 namespace trismooth {
 
 bool names_parallel_file(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
+  // (What names them could be compressed, but the pieces are beside it: nobody would have one file of it.)
+  const std::string extension = names_gzip(path) ? "" : extension_of(path);
   return extension == ".pvtu" || extension == ".pvtp";
 }
 

@@ -17,7 +17,8 @@ struct LocalMesh {
   /// Three numbers of local vertices each, from 0, listed in either direction.
   IndexView triangles{no_triangles};
   /// One for each local vertex: its number in the whole mesh, from 0, the same on every rank that has it. Results
-  /// depend on them as those of smooth() do on the order of vertices. Not every number has to be there.
+  /// depend on them as those of smooth() do on the numbers of vertices. Those that are not there are vertices of no
+  /// triangle: ids from 1 give another result than ids from 0.
   ArrayView<std::int64_t> vertex_ids{};
   /// One for each local vertex: the rank that moves it, whether or not it has the vertex itself. Ranks agree on it.
   /// Empty on all ranks: the lowest rank that has the vertex.

@@ -22,10 +22,10 @@ enum class Gather : std::uint8_t {
 };
 
 /// A mesh in pieces, one a rank, whose connectivity is analysed once and whose coordinates are smoothed as often as
-/// they change. The bits are those that SmoothingPlan gives the whole mesh, whose vertices and triangles are in the
-/// order of their ids, for every number of ranks and every way of cutting: every vertex is moved by the rank that owns
-/// it, and what the others see of it are its values. Nothing is held of the whole mesh on any rank, unless Gather
-/// allows it.
+/// they change. The bits are those that SmoothingPlan gives the whole mesh, whose vertices and triangles have these ids
+/// for numbers (where ids are missing, they are vertices of no triangle), for every number of ranks and every way of
+/// cutting: every vertex is moved by the rank that owns it, and what the others see of it are its values. Nothing is
+/// held of the whole mesh on any rank, unless Gather allows it.
 ///
 /// All functions are collective over the ranks of the communicator: all ranks call them in the same order. An error on
 /// one of them is thrown on all of them, of the same type, with the rank's number in front; coordinates of all ranks

@@ -154,12 +154,14 @@ void require_known_formats(const PipelineOptions& options) {
   const auto& output = options.written();
   if (names_parallel_file(options.input)) {
     throw ReadError(options.input,
-                    "is a mesh in pieces, which the program reads where it is built with MPI (-DTRISMOOTH_MPI=ON)");
+                    "is a mesh in pieces, which 'trismooth smooth' and 'quality' read where they are built with MPI "
+                    "(-DTRISMOOTH_MPI=ON)");
   }
   if (output && names_parallel_file(*output)) {
-    throw WriteError(
-        *output,
-        "is the name of a mesh in pieces, which the program writes where it is built with MPI (-DTRISMOOTH_MPI=ON)");
+    throw WriteError(*output,
+                     "is the name of a mesh in pieces, which 'trismooth smooth' writes, without --annotate, where it "
+                     "is built with MPI "
+                     "(-DTRISMOOTH_MPI=ON)");
   }
   const auto says_nothing = [&options](const std::filesystem::path& path) {
     return !options.format && !is_standard_stream(path) && !format_of(path);

@@ -56,7 +56,8 @@ void choose_backend(BackendChoice choice, const CudaSupport& cuda, const CudaOrC
 std::unique_ptr<Backend> choose_devices(std::span<const int> devices, BackendChoice choice, const CudaSupport& cuda,
                                         SmoothingOptions& options) {
   if (choice == BackendChoice::cpu) {
-    throw std::invalid_argument("'--devices' is for the CUDA backend; leave it out, or '--backend cpu'");
+    throw std::invalid_argument(
+        "'--devices' is for the CUDA backend: leave out '--devices', or leave out '--backend cpu'");
   }
   if (devices.size() > 1 && (options.order == Order::unordered || options.execution != Execution::resident)) {
     throw std::invalid_argument("'--order unordered' and the executions of the paper are for one device");
@@ -72,6 +73,11 @@ void choose_backend_of_ranks(BackendChoice choice, const CudaSupport& cuda, Smoo
     throw_no_cuda();
   }
   options.backend = choice == BackendChoice::cuda ? cuda.backend : nullptr;
+  if (options.backend == nullptr && options.order == Order::colour) {
+    // The CPU ignores them, over ranks as well.
+    options.execution = Execution::resident;
+    options.layout = Layout::aos;
+  }
 }
 
 }  // namespace trismooth

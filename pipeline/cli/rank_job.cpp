@@ -24,6 +24,29 @@ namespace trismooth {
 
 namespace {
 
+/// The MPI that the program is linked with, by name and version.
+std::string mpi_library() {
+  std::string library(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
+  int length = 0;
+  MPI_Get_library_version(library.data(), &length);
+  library.resize(static_cast<std::size_t>(length));
+  // (Some say more than which one they are.)
+  return library.substr(0, library.find_first_of(",\n"));
+}
+
+/// Throws std::invalid_argument where a launcher has started several processes and MPI knows of this one alone: each
+/// would do all the work and write the same files.
+void require_own_launcher(int ranks) {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* const started = std::getenv(name);
+    if (ranks == 1 && started != nullptr && std::strtol(started, nullptr, 10) > 1) {
+      throw std::invalid_argument(std::string("the launcher has started ") + started +
+                                  " processes, and MPI sees this one alone: it is not the launcher of " +
+                                  mpi_library() + ", which the program is linked with");
+    }
+  }
+}
+
 /// By what the launchers of Open MPI, MPICH, Intel MPI and Slurm tell the processes that they start.
 bool has_launcher() {
   constexpr std::array names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMI_RANK", "PMIX_RANK"};
@@ -47,6 +70,7 @@ class MpiJob final : public RankJob {
   bool shares_work() const override { return has_pieces_ || ranks_->size() > 1; }
 
   PipelineResult run(const PipelineOptions& options) override {
+    require_own_launcher(ranks_->size());
     if (!starts(true)) {
       return {};
     }
@@ -112,12 +136,7 @@ std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv) {
 }
 
 std::string mpi_text() {
-  std::string library(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
-  int length = 0;
-  MPI_Get_library_version(library.data(), &length);
-  library.resize(static_cast<std::size_t>(length));
-  // (Some say more than which one they are.)
-  return library.substr(0, library.find_first_of(",\n")) + "; reads meshes in pieces (.pvtu, .pvtp)" +
+  return mpi_library() + "; reads meshes in pieces (.pvtu, .pvtp)" +
          (metis_version().empty() ? "" : "; partitions by METIS " + metis_version());
 }
 

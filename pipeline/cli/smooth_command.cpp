@@ -151,7 +151,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
   add_parsed_option(
       command, "--partition", alternatives<Partition>(),
       "How the ranks of an MPI job share the mesh out; the result is the same. keep: as the pieces are, of "
-      "one file blocks of vertices; bisect: halved again and again, across the longer side; metis: by METIS, "
+      "one file ranges of it; bisect: halved again and again, across the longer side; metis: by METIS, "
       "where the build has it [keep, where there is a piece for each rank, else bisect]",
       [&settings](const std::string& text) {
         settings.run.pipeline.partition = parse_choice<Partition>(text);

@@ -58,6 +58,8 @@ void require_piece_options(const PipelineOptions& options) {
   if (options.written()) {
     require_output(options, *options.written());
   }
+  refuse((options.annotate || options.annotated) && !(options.single && options.gather), "--annotate",
+         "--single with --gather writes one file that has them, with the whole mesh in the memory of rank 0");
   const std::string whole(what_needs_whole_mesh(options));
   if (!whole.empty() && !options.gather) {
     throw std::invalid_argument(whole +
@@ -65,8 +67,6 @@ void require_piece_options(const PipelineOptions& options) {
   }
   const bool is_read_in_pieces = names_parallel_file(options.input);
   refuse(options.format && !options.single && is_read_in_pieces, "--format", "the extension says it");
-  refuse((options.annotate || options.annotated) && !options.single, "--annotate",
-         "--single writes one file that has them");
   refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set",
          "files of VTK have no sets; hold vertices by --fixed-array");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");

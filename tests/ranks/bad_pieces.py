@@ -25,6 +25,14 @@ class BadPieces(ranks_tool.RanksTest):
             self.assertEqual([file for file in os.listdir(self.folder) if file.startswith("out")], [])
             self.assert_no_temporary_files()
 
+    def test_a_launcher_of_another_mpi(self):
+        pieces.write_pieces(self.path("bad.pvtu"), self.cut())
+        os.environ["PMI_SIZE"] = "4"
+        self.addCleanup(os.environ.pop, "PMI_SIZE")
+        outcome = self.run_over(0, "smooth", "bad.pvtu", "out.pvtu", expect=2)
+        self.assertIn("has started 4 processes, and MPI sees this one alone", self.errors_of(outcome)[0])
+        self.assertFalse(os.path.exists(self.path("out.pvtu")))
+
     def test_arrays_that_one_piece_lacks(self):
         parts = self.cut()
         del parts[2].cell_arrays["load"]
