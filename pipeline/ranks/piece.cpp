@@ -35,7 +35,7 @@ bool holds_something(const Piece& piece) {
 std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document) {
   constexpr unsigned duplicate_cell = 1;
   std::vector<std::uint8_t> ghosts(document.cells.size(), 0);
-  const DataArray* const types = find_array(document.cell_arrays, "vtkGhostType");
+  const DataArray* const types = find_array(document.cell_arrays, ghost_flags_name);
   if (types != nullptr && types->type == ScalarType::uint8 && types->components == 1) {
     const auto values = types->as<std::uint8_t>();
     for (std::size_t c = 0; c < ghosts.size(); ++c) {

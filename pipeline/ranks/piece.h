@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
@@ -44,7 +45,10 @@ OwnCells count_own_cells(const Piece& piece);
 /// Whether it has any points or cells.
 bool holds_something(const Piece& piece);
 
-/// Marks the cells that vtkGhostType tells to be copies.
+/// The cell array that says which cells are copies.
+inline constexpr std::string_view ghost_flags_name = "vtkGhostType";
+
+/// Marks the cells that it tells to be copies.
 std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document);
 
 }  // namespace trismooth

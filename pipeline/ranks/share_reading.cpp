@@ -20,7 +20,8 @@ namespace {
 std::optional<FileFormat> range_format_of(const std::filesystem::path& path) {
   constexpr std::size_t head_bytes = std::size_t{1} << 16;
   const std::optional<FileFormat> format = format_of(path);
-  if (is_standard_stream(path) ||
+  // (What is no file on a disk can be read once.)
+  if (is_standard_stream(path) || !std::filesystem::is_regular_file(path) ||
       !(format == FileFormat::off || format == FileFormat::vtu || format == FileFormat::msh)) {
     return std::nullopt;
   }

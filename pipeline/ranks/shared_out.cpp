@@ -142,14 +142,16 @@ class Sharing {
     }
     point_ranks_ = bisected(flat, ranks_.size(), ranks_);
     flat = {};
-    // The rank of each cell's first corner, which whoever has read that point knows.
+    // The rank of each cell's smallest corner, which whoever has read that point knows: cells of the same corners stay
+    // together, as they have to in pieces.
     auto asked = mpi::lists_by_rank<std::int32_t>(ranks_);
     std::vector<std::int32_t> readers(cells.size(), -1);
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (!cells[c].empty()) {
-        const std::size_t reader = reader_of(cells[c].front());
+        const std::int64_t corner = std::ranges::min(cells[c]);
+        const std::size_t reader = reader_of(corner);
         readers[c] = static_cast<std::int32_t>(reader);
-        asked[reader].push_back(static_cast<std::int32_t>(cells[c].front() - first_points_[reader]));
+        asked[reader].push_back(static_cast<std::int32_t>(corner - first_points_[reader]));
       }
     }
     const mpi::ByRank<std::int32_t> heard = ranks_.exchanged(std::move(asked));
@@ -365,6 +367,21 @@ void add_numbers(std::vector<DataArray>& arrays, std::string_view name, const st
   }
 }
 
+/// In pieces a cell array of this name says which cells are copies; in one file it is as good as any other.
+void rename_ghost_flags(std::vector<DataArray>& cell_arrays, std::vector<std::string>& notes) {
+  FreeNames names;
+  for (const DataArray& array : cell_arrays) {
+    names.take(array.name);
+  }
+  for (DataArray& array : cell_arrays) {
+    if (array.name == ghost_flags_name) {
+      array.name = names.claim(array.name + "_of_file");
+      notes.push_back("the array '" + std::string(ghost_flags_name) + "' is written as '" + array.name +
+                      "': in pieces its name stands for copies of cells");
+    }
+  }
+}
+
 void require_poly_data(const MeshDocument& document, const std::filesystem::path& output) {
   constexpr std::array held{cell_type::vertex,   cell_type::poly_vertex,    cell_type::line,    cell_type::poly_line,
                             cell_type::triangle, cell_type::triangle_strip, cell_type::polygon, cell_type::quad};
@@ -405,6 +422,7 @@ PieceFiles shared_out(MeshShare share, Partition partition, const std::filesyste
   made.format = format;
   made.original = std::make_shared<NewPiece>();
   made.field_arrays = std::move(fields);
+  rename_ghost_flags(made.cell_arrays, notes);
   add_numbers(made.point_arrays, point_numbers_name, piece.ids, ranks, notes);
   add_numbers(made.cell_arrays, cell_numbers_name, piece.cell_ids, ranks, notes);
   agree(ranks, [&] {

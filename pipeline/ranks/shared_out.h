@@ -12,10 +12,11 @@
 namespace trismooth {
 
 /// Makes a piece for each rank of what all ranks have read of one file. With Partition::keep a rank has a range of the
-/// file's cells, and ranges are as long as each other; else points are bisected, and a cell is where its first corner
-/// is. A piece has the points of its cells; those of no cell are somewhere, once. Points and cells keep their order and
-/// their numbers in the file: Piece::ids, cell_ids, triangle_ids. The pieces get the point array GlobalPointIds and the
-/// cell array GlobalCellIds of these numbers; other arrays of these names get others.
+/// file's cells, and ranges are as long as each other; else points are bisected, and a cell is where its smallest
+/// corner is. A piece has the points of its cells; those of no cell are somewhere, once. Points and cells keep their
+/// order and their numbers in the file: Piece::ids, cell_ids, triangle_ids. The pieces get the point array
+/// GlobalPointIds and the cell array GlobalCellIds of these numbers; other arrays of these names, and cell arrays
+/// vtkGhostType, get others.
 ///
 /// `input`: the file, for messages. `output`: the parallel file to be written, if any. Collective. Throws ReadError on
 /// all ranks for more points or cells than 32 bits number on one of them, and where the output's pieces are .vtp and

@@ -94,7 +94,7 @@ std::vector<std::shared_ptr<const ArrayDescription>> descriptions(const PieceFil
 void leave_out_copy_marks(std::vector<DataArray>& arrays) {
   constexpr auto other_marks = std::byte{0xFE};
   const auto marks = std::ranges::find_if(arrays, [](const DataArray& array) {
-    return array.name == "vtkGhostType" && array.type == ScalarType::uint8 && array.components == 1;
+    return array.name == ghost_flags_name && array.type == ScalarType::uint8 && array.components == 1;
   });
   if (marks == arrays.end()) {
     return;

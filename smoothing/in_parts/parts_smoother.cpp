@@ -21,7 +21,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::int64_t vertex_grain = 16384;
+constexpr std::int64_t copy_grain = 16384;
 
 /// "A", "2 x A", "A and 2 x B".
 std::string listed(std::span<const SmoothingResult> results) {
@@ -114,7 +114,7 @@ class PartsSmoother final : public PreparedSmoother {
   }
 
   void write(const Part& part, std::span<Point2<double>> points) {
-    workers_.for_blocks(std::ssize(part.vertices), vertex_grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(std::ssize(part.vertices), copy_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
         if (part.part->ghosts[v] == 0) {
           points[part.vertices[v]] = part.points[v];

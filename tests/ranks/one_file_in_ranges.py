@@ -3,7 +3,9 @@ and its points, cells and arrays are in the pieces that are written, each where 
 
 import glob
 import os
+import pathlib
 import random
+import threading
 import unittest
 
 import pieces
@@ -12,7 +14,8 @@ import raw_msh
 import raw_vtu
 from same_as_one_file import without_run
 
-SHARED = os.environ.get("TRISMOOTH_SHARED_MESHES", "/work/shared/meshes")
+# Real meshes beside the checkout, where there are any.
+SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared" / "meshes"
 
 
 class OneFileInRanges(ranks_tool.RanksTest):
@@ -245,6 +248,39 @@ class OneFileInRanges(ranks_tool.RanksTest):
         arrays = raw_vtu.read(self.path("out_1.vtu"))
         self.assertEqual(set(arrays[("PointData", "GlobalPointIds_of_file")]), {7})
         self.run_over(2, "quality", "out.pvtu")
+
+    def test_an_array_that_would_call_cells_copies(self):
+        mesh = self.mixed()
+        mesh.cell_arrays["vtkGhostType"] = [c % 3 % 2 for c in range(len(mesh.cells))]
+        raw_vtu.write(self.path("ghosts.vtu"), mesh, raw_vtu.Form())
+        notes = self.check("ghosts.vtu", 3)
+        self.assertEqual(notes.count("vtkGhostType_of_file"), 1, notes)
+        whole = self.report("quality", "ghosts.vtu")
+        self.assertEqual(self.report_over(2, "quality", "out.pvtu")["input"]["triangles"], whole["input"]["triangles"])
+
+    def test_triangles_that_are_there_twice(self):
+        self.write("twice.off", "OFF\n6 6 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n"
+                   "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 4 0 1\n3 5 4 1\n")
+        for ranks in (2, 3):
+            self.check("twice.off", ranks)
+            self.run_over(2, "quality", "out.pvtu")
+
+    def test_a_pipe(self):
+        self.write_off("mixed.off", self.mixed())
+        whole = self.report("smooth", "mixed.off", "serial.vtu")
+        os.mkfifo(self.path("pipe.off"))
+        with open(self.path("mixed.off"), "rb") as source:
+            text = source.read()
+
+        def fill():
+            with open(self.path("pipe.off"), "wb") as pipe:
+                pipe.write(text)
+
+        writer = threading.Thread(target=fill, daemon=True)
+        writer.start()
+        report = self.report_over(3, "smooth", "pipe.off", "out.pvtu")
+        writer.join(timeout=10)
+        self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
 
     def test_more_ranks_than_cells(self):
         self.write("two.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")

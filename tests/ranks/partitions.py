@@ -2,11 +2,13 @@
 
 import glob
 import os
+import pathlib
 
 import pieces
 import ranks_tool
 
-SHARED = os.environ.get("TRISMOOTH_SHARED_MESHES", "/work/shared/meshes")
+# Real meshes beside the checkout, where there are any.
+SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared" / "meshes"
 THOROUGH = os.environ.get("TRISMOOTH_THOROUGH", "") not in ("", "0")
 OPTIONS = ([], ["--method", "mean-ratio", "--untangle", "off"], ["--form", "a", "--precision", "single"])
 
