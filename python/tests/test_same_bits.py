@@ -78,7 +78,8 @@ def test_the_list_of_options_here_is_that_of_the_module():
     from trismooth import _core
 
     tested = {name for options in COMBINATIONS + SINGLE for name in options}
-    assert set(_core.option_names()) == tested | {"order"}  # "unordered" has no bits that last
+    # "unordered" has no bits that last, and devices are for test_device.py.
+    assert set(_core.option_names()) == tested | {"order", "devices"}
 
 
 def test_float32_gives_the_bits_of_a_file_of_float32(tangled_file, tmp_path):

@@ -34,7 +34,7 @@ COMMANDS = ("smooth", "quality", "generate", "bench", "info")
 # Options of other programs that the pages name.
 FOREIGN_OPTIONS = {"--prefix", "--preset", "--build", "--install", "--target", "--cflags", "--libs", "--check",
                    "--sanitize", "--tests", "--tools", "--package", "--optimesh-python", "--files", "--cuda",
-                   "--kill-on-bad-exit"}
+                   "--kill-on-bad-exit", "--bind-to", "--map-by", "--oversubscribe", "--gpus-per-task"}
 
 
 class Block:

@@ -51,7 +51,7 @@ Outcome smoothed(const test_meshes::Mesh& mesh, const SmoothingOptions& options)
 }
 
 TEST_CASE("a mesh in parts comes out as the whole by every method, form and precision") {
-  const test_meshes::Mesh mesh = distorted_meshes::displaced(60, 0.3, 5);
+  const test_meshes::Mesh mesh = distorted_meshes::displaced(60, 0.2, 5);
   const InParts in_parts(4);
   for (int index = 0; index < 16; ++index) {
     SmoothingOptions options;
