@@ -1,39 +1,20 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "trismooth/smoothing/backend.h"
-#include "trismooth/smoothing/in_parts/parts_smoother.h"
 
 #include "properties/smoothing_cases.h"
+#include "support/parts_backend.h"
 
 /// Meshes that this process has as a whole, smoothed in parts by threads of it.
 namespace properties {
 
-/// The CPU in so many parts.
-class PartsBackend final : public trismooth::Backend {
- public:
-  explicit PartsBackend(int parts) : parts_(parts) {}
-
-  std::string name() const override { return "cpu in parts"; }
-  std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
-                                                       std::span<const trismooth::Triangle> triangles,
-                                                       std::span<const Point2<double>> local,
-                                                       const SmoothingOptions& options) const override {
-    return trismooth::prepare_in_parts(std::move(mesh), triangles, local, options, parts_);
-  }
-
- private:
-  int parts_;
-};
+using parts_backend::PartsBackend;
 
 /// Smooths the mesh by the backend and as a whole by the CPU: what differs, or nothing. `untangles`: the backend does
 /// that, too; else it is to refuse tangled meshes, and to leave their points alone.

@@ -4,40 +4,20 @@
 #include "trismooth/smoothing/in_parts/parts_smoother.h"
 
 #include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "support/distorted_meshes.h"
+#include "support/parts_backend.h"
 #include "support/same_bits.h"
 
 namespace parts_smoother_test {
 
+using parts_backend::PartsBackend;
 using trismooth::SmoothingOptions;
 using trismooth::SmoothingResult;
-
-/// The CPU in so many parts.
-class InParts final : public trismooth::Backend {
- public:
-  explicit InParts(int parts) : parts_(parts) {}
-
-  std::string name() const override { return "cpu"; }
-  std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
-                                                       std::span<const trismooth::Triangle> triangles,
-                                                       std::span<const trismooth::Point2<double>> local,
-                                                       const SmoothingOptions& options) const override {
-    return trismooth::prepare_in_parts(std::move(mesh), triangles, local, options, parts_);
-  }
-
- private:
-  int parts_;
-};
 
 struct Outcome {
   std::vector<double> xy;
@@ -52,7 +32,7 @@ Outcome smoothed(const test_meshes::Mesh& mesh, const SmoothingOptions& options)
 
 TEST_CASE("a mesh in parts comes out as the whole by every method, form and precision") {
   const test_meshes::Mesh mesh = distorted_meshes::displaced(60, 0.2, 5);
-  const InParts in_parts(4);
+  const PartsBackend in_parts(4);
   for (int index = 0; index < 16; ++index) {
     SmoothingOptions options;
     options.method = static_cast<trismooth::Method>(index % 4);
@@ -76,7 +56,7 @@ TEST_CASE("a length to aim at that is no number is told by the vertex's number i
   const test_meshes::Mesh mesh = distorted_meshes::displaced(10, 0.2, 1);
   std::vector<double> lengths(mesh.points.size(), 1.0);
   lengths[77] = -1;
-  const InParts in_parts(5);
+  const PartsBackend in_parts(5);
   SmoothingOptions options;
   options.method = trismooth::Method::mean_ratio;
   options.mean_ratio.target_lengths = lengths;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/in_parts/parts_smoother.h"
+
+namespace parts_backend {
+
+/// The CPU in so many parts.
+class PartsBackend final : public trismooth::Backend {
+ public:
+  explicit PartsBackend(int parts) : parts_(parts) {}
+
+  std::string name() const override { return "cpu in parts"; }
+  std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
+                                                       std::span<const trismooth::Triangle> triangles,
+                                                       std::span<const trismooth::Point2<double>> local,
+                                                       const trismooth::SmoothingOptions& options) const override {
+    return trismooth::prepare_in_parts(std::move(mesh), triangles, local, options, parts_);
+  }
+
+ private:
+  int parts_;
+};
+
+}  // namespace parts_backend
