@@ -14,12 +14,12 @@
 using namespace properties;
 
 TEST_CASE("parts of a mesh that threads smooth have the bits and figures of the whole") {
-  for_random_meshes(2000, [](const RandomMesh& mesh) {
+  for_random_meshes(1000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       std::vector<double> lengths;
       draw_for_parts(mesh, options, lengths, random);
       const Storage storage = fits_float32(mesh) && random.below(4) == 0 ? Storage::float32 : Storage::float64;
-      const int parts = 1 + random.below(random.below(10) == 0 ? 40 : 5);
+      const int parts = 1 + random.below(random.below(40) == 0 ? 40 : 5);
       constexpr bool untangles = false;
       const std::string wrong = difference_in_parts(mesh, options, storage, PartsBackend(parts), untangles);
       return wrong.empty() ? wrong : fmt::format("{} parts: {}", parts, wrong);

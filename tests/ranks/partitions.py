@@ -1,15 +1,16 @@
 """partitions.py PROGRAM: how a mesh is shared out among ranks cannot be seen in the result."""
 
 import glob
+import itertools
 import os
 import pathlib
 
 import pieces
 import ranks_tool
+import tool
 
 # Real meshes beside the checkout, where there are any.
 SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared" / "meshes"
-THOROUGH = os.environ.get("TRISMOOTH_THOROUGH", "") not in ("", "0")
 OPTIONS = ([], ["--method", "mean-ratio", "--untangle", "off"], ["--form", "a", "--precision", "single"])
 
 
@@ -37,8 +38,8 @@ class Partitions(ranks_tool.RanksTest):
         pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 4), 4))
         for options in OPTIONS:
             whole = self.report("smooth", "whole.vtu", "alone.vtu", *options)
-            self.check(whole, "whole.vtu", *options, ranks=(2, 3, 5) if THOROUGH else (3,))
-            self.check(whole, "big.pvtu", *options, ranks=(2, 3, 5, 8) if THOROUGH else (5,))
+            self.check(whole, "whole.vtu", *options, ranks=(2, 5) if tool.thorough else (3,))
+            self.check(whole, "big.pvtu", *options, ranks=(3, 8) if tool.thorough else (5,))
 
     def test_small_meshes(self):
         """Fewer vertices than blocks, and than ranks; without an edge between any."""
@@ -49,15 +50,16 @@ class Partitions(ranks_tool.RanksTest):
             self.check(self.report("smooth", f"{name}.vtu", "alone.vtu"), f"{name}.vtu", ranks=(3, 8))
 
     def test_shared_meshes(self):
+        """Each mesh in turn by another partition, on another number of ranks, with other options."""
+        turns = itertools.cycle(itertools.product(reversed(self.partitions), (3, 2, 8, 5), OPTIONS))
         for path in sorted(glob.glob(os.path.join(SHARED, "*.*"))):
             name = os.path.basename(path)
             if name.endswith(".md"):
                 continue
             os.symlink(path, self.path(name))
-            for options in OPTIONS if THOROUGH else OPTIONS[:1]:
+            for partition, ranks, options in itertools.islice(turns, 3 if tool.thorough else 1):
                 whole = self.report("smooth", name, "alone" + os.path.splitext(name)[1], *options)
-                self.check(whole, name, *options, ranks=(2, 3, 5, 8) if THOROUGH else (3,),
-                           partitions=None if THOROUGH else self.partitions[-1:])
+                self.check(whole, name, *options, ranks=(ranks,), partitions=(partition,))
 
     def test_partitions_that_are_not_there(self):
         self.write("triangle.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
