@@ -49,8 +49,8 @@ inline std::vector<std::byte> exchanged_rows(std::span<const std::byte> rows, st
                                              std::span<const std::int64_t> counts, const mpi::Communicator& ranks) {
   // (What is sent is counted in items, of which no list may have more than 32 bits number.)
   using Block = std::array<std::byte, 1024>;
-  constexpr std::size_t block_size = sizeof(Block);
-  const auto blocks_of = [&](std::size_t count) { return (count * row_size + block_size - 1) / block_size; };
+  constexpr std::size_t block_bytes = sizeof(Block);
+  const auto blocks_of = [&](std::size_t count) { return (count * row_size + block_bytes - 1) / block_bytes; };
   auto sent = mpi::lists_by_rank<Block>(ranks);
   std::vector<std::int64_t> expected;
   for (std::size_t r = 0; r < sent.size(); ++r) {
