@@ -2,9 +2,11 @@
 and its points, cells and arrays are in the pieces that are written, each where its number says."""
 
 import glob
+import itertools
 import os
 import pathlib
 import random
+import struct
 import threading
 import unittest
 
@@ -12,6 +14,7 @@ import pieces
 import ranks_tool
 import raw_msh
 import raw_vtu
+import tool
 from same_as_one_file import without_run
 
 # Real meshes beside the checkout, where there are any.
@@ -294,6 +297,8 @@ class OneFileInRanges(ranks_tool.RanksTest):
                 self.run_over(2, "quality", "out.pvtu")
 
     def test_shared_meshes(self):
+        """Each on one number of ranks, in turn."""
+        counts = itertools.cycle((3, 2, 5, 1))
         for path in sorted(glob.glob(os.path.join(SHARED, "*.*"))):
             if path.endswith(".md"):
                 continue
@@ -302,7 +307,7 @@ class OneFileInRanges(ranks_tool.RanksTest):
             if serial.code != 0:
                 continue
             whole = self.read_report()
-            for ranks in (1, 2, 3, 5):
+            for ranks in itertools.islice(counts, 3 if tool.thorough else 1):
                 with self.subTest(path=path, ranks=ranks):
                     self.check(path, ranks, "--untangle", "off", whole=whole)
 
@@ -342,6 +347,27 @@ class OneFileInRanges(ranks_tool.RanksTest):
         self.refused(written("counts.off", ["OFF", "1000000 10 0", *lines[2:]]), "vertices")
         self.refused(written("solid.off", ["OFF", "4 1 0", "0 0 0", "1 0 0", "0 1 0", "1 1 0", "4 0 1 2 3"]))
         self.refused(written("empty.off", []))
+
+    def test_bad_msh(self):
+        """Heads of blocks that say less or more than there is, corners that are not there, an end too early."""
+        mesh = pieces.Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [[0, 1, 2], [0, 2, 3]])
+        for version in ("4.1", "2.2"):
+            raw_msh.write(self.path("good.msh"), mesh, version)
+            content = self.read("good.msh")
+            self.write("cut.msh", content[:-30])
+            self.refused("cut.msh")
+            last_corner = content.rindex(b"\n$EndElements") - (8 if version == "4.1" else 4)
+            self.write("corner.msh", content[:last_corner] + b"\x09" + content[last_corner + 1:])
+            self.refused("corner.msh", "9")
+            elements = content.index(b"$Elements\n") + len(b"$Elements\n")
+            if version == "4.1":
+                self.write("none.msh", content[:elements] + struct.pack("<q", 0) + content[elements + 8:])
+                self.write("no_blocks.msh", content[:elements] + struct.pack("<4q", 0, 2, 1, 2) + b"\n$EndElements\n")
+                self.refused("none.msh")
+                self.refused("no_blocks.msh")
+            else:
+                self.write("more.msh", content[:elements] + b"9" + content[elements + 1:])
+                self.refused("more.msh")
 
     def test_bad_vtu(self):
         mesh = self.mixed()
