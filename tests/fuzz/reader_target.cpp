@@ -19,6 +19,7 @@
 #include "broken.h"
 #include "choices.h"
 #include "document_checks.h"
+#include "range_checks.h"
 #include "smoothing_checks.h"
 #include "support/memory_file.h"
 #include "support/one_file_codec.h"
@@ -270,15 +271,17 @@ void check_conversion(const MeshDocument& document, FileFormat target) {
 void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   const std::string bytes(input.begin(), input.end());
   MeshDocument document;
+  HashedChoices choices(input);
   check_parts(format, bytes);
   try {
     document = test_support::one_file_codec(format).read(input_path, bytes);
   } catch (const ReadError&) {
+    check_ranges(format, bytes, nullptr, choices);
     return;
   }
   document.format = format;
   require_guarantees(document);
-  HashedChoices choices(input);
+  check_ranges(format, bytes, &document, choices);
   if (bytes.find("LZMA") != std::string::npos && choices.below(16) != 0) {
     return;  // its encoder takes half a second; what it decodes has been checked
   }
