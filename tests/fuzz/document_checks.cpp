@@ -128,12 +128,15 @@ void require_guarantees(const MeshDocument& document) {
   }
 }
 
-MeshDocument held_cells(const MeshDocument& curved, FileFormat format) {
+MeshDocument straightened(const MeshDocument& document, FileFormat format) {
   constexpr std::array straight_only{FileFormat::off,    FileFormat::obj,     FileFormat::ply,
                                      FileFormat::stl,    FileFormat::vtp,     FileFormat::su2,
                                      FileFormat::adcirc, FileFormat::freefem, FileFormat::mfem};
   const bool straightens = std::ranges::find(straight_only, format) != straight_only.end();
-  const MeshDocument document = straightens && has_curved_cells(curved) ? with_straight_cells(curved) : curved;
+  return straightens && has_curved_cells(document) ? with_straight_cells(document) : document;
+}
+
+MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
   using Types = std::vector<std::uint8_t>;
   const Types faces{cell_type::triangle, cell_type::quad, cell_type::polygon};
   const Types lines{cell_type::line, cell_type::poly_line};

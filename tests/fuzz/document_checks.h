@@ -19,6 +19,9 @@ enum class Comparison {
 /// The first difference; empty where there is none. Notes, the format and the original are not compared.
 std::string difference(const trismooth::MeshDocument& a, const trismooth::MeshDocument& b, Comparison comparison);
 
+/// The document with straight cells where files of the format hold no curved ones, as write_mesh() has them.
+trismooth::MeshDocument straightened(const trismooth::MeshDocument& document, trismooth::FileFormat format);
+
 /// The document with those cells alone that the format holds, in the order in which it lists them; no arrays.
 trismooth::MeshDocument held_cells(const trismooth::MeshDocument& document, trismooth::FileFormat format);
 

@@ -236,8 +236,9 @@ void check_parts(FileFormat format, const std::string& bytes) {
   }
 }
 
-void check_conversion(const MeshDocument& document, FileFormat target) {
+void check_conversion(const MeshDocument& read, FileFormat target) {
   const std::string what = "as " + std::string(to_string(target));
+  const MeshDocument document = straightened(read, target);
   const MemoryFile file;
   try {
     test_support::one_file_codec(target).write(file.path(), document);
