@@ -14,7 +14,7 @@ constexpr CellSize at_least(std::size_t vertices) {
 }  // namespace
 
 CellSize cell_size_of(std::uint8_t type) {
-  // In the order of vtkCellType.h.
+  // As vtkCellType.h numbers them.
   switch (type) {
     case 0:  // empty
       return exactly(0);
@@ -35,20 +35,42 @@ CellSize cell_size_of(std::uint8_t type) {
     case 8:   // pixel
     case 9:   // quad
     case 10:  // tetrahedron
+    case 35:  // cubic line
       return exactly(4);
     case 14:  // pyramid
       return exactly(5);
     case 13:  // wedge
     case 22:  // quadratic triangle
+    case 30:  // quadratic linear quad
       return exactly(6);
+    case 34:  // biquadratic triangle
+      return exactly(7);
     case 11:  // voxel
     case 12:  // hexahedron
     case 23:  // quadratic quad
       return exactly(8);
     case 28:  // biquadratic quad
       return exactly(9);
+    case 15:  // pentagonal prism
     case 24:  // quadratic tetrahedron
       return exactly(10);
+    case 16:  // hexagonal prism
+    case 31:  // quadratic linear wedge
+      return exactly(12);
+    case 27:  // quadratic pyramid
+      return exactly(13);
+    case 26:  // quadratic wedge
+      return exactly(15);
+    case 32:  // biquadratic quadratic wedge
+      return exactly(18);
+    case 37:  // triquadratic pyramid
+      return exactly(19);
+    case 25:  // quadratic hexahedron
+      return exactly(20);
+    case 33:  // biquadratic quadratic hexahedron
+      return exactly(24);
+    case 29:  // triquadratic hexahedron
+      return exactly(27);
     default:
       return {};
   }
