@@ -78,7 +78,7 @@ std::vector<Point2<double>> RankMesh::points() const {
   return points;
 }
 
-std::string what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks) {
+std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks) {
   if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
     return "triangles of six nodes";
   }

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/base/point2.h"
@@ -28,7 +28,7 @@ struct RankMesh {
 
 /// What of a mesh keeps it from being put together in pieces, for people: triangles of six nodes, heights that differ.
 /// Empty where nothing does. Collective.
-std::string what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
+std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
 
 /// Puts the rank's pieces together, and numbers their points (Piece::vertices). Collective. Throws ReadError on all
 /// ranks for a mesh that does not lie in a plane z = constant, std::invalid_argument for triangles of six nodes.
