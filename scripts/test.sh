@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds what a user runs and runs the tests, in about six minutes on two processors. Arguments go to ctest:
+# Builds what a user runs and runs the tests, in 20 to 30 minutes on two processors. Arguments go to ctest:
 #
 #   scripts/test.sh
 #   scripts/test.sh -R never_worse
