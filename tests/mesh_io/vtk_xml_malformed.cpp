@@ -326,7 +326,7 @@ TEST_CASE("VTU and VTP give the same document in parts of any size, and the same
       state = state * 6364136223846793005U + 1442695040888963407U;
       return static_cast<std::size_t>(state >> 33) % limit;
     };
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < (is_sanitized ? 20 : 200); ++round) {
       std::string damaged = bytes;
       damaged[below(damaged.size())] = static_cast<char>(below(256));
       const std::string serial = reading_of(codec, damaged, FileWorkers(alone, FileWorkers::serial));
@@ -341,6 +341,9 @@ TEST_CASE("VTU and VTP are written in the same bytes by any number of threads") 
   const Silence silence;
   const VtkXmlKind kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
   for (const VtkXmlEncoding& encoding : some_encodings()) {
+    if (is_sanitized && encoding.compressor == VtkXmlCompressor::lzma) {
+      continue;
+    }
     INFO(to_string(encoding));
     const TemporaryPath file(extension_of(kind));
     write_with_vtk(*make_grid(kind, 80), file.path(), encoding);  // two blocks and more of 32 KiB
