@@ -77,7 +77,7 @@ print_coverage() {
 
 run_asan() {
   # The longest first.
-  local tests=(test_bad_input test_mesh_io test_base test_halfedge test_smoothing test_properties test_quality test_fuzz_regressions)
+  local tests=(test_properties test_mesh_io test_bad_input test_base test_smoothing test_quality test_halfedge test_fuzz_regressions)
   export TRISMOOTH_FUZZ_REGRESSIONS=$project/tests/fuzz/regressions
   local python_module=()
   if [[ $(python_options) == *=ON* ]]; then
