@@ -97,13 +97,10 @@ run_asan() {
 # On ranks. What MPI itself never gives back is left out.
 run_in_pieces() {
   build asan test_mpi
-  local ranks
-  for ranks in 1 3; do
-    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-      OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none \
-      LLVM_PROFILE_FILE="$project/build/asan/test_mpi_%p.profraw" ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" \
-      mpirun -n "$ranks" "$project/build/asan/tests/mpi/test_mpi"
-  done
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
+    OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none \
+    LLVM_PROFILE_FILE="$project/build/asan/test_mpi_%p.profraw" ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" \
+    mpirun -n 3 "$project/build/asan/tests/mpi/test_mpi"
   rm -f "$project/build/asan/"test_mpi_*.profraw
   echo "asan: run on ranks after $SECONDS s"
 }
