@@ -22,7 +22,6 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 # Under a sanitizer everything takes several times as long: random tests make so
 # many per cent of their meshes.
 export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-10}
-unset TRISMOOTH_THOROUGH
 
 # build PRESET TARGET...
 build() {

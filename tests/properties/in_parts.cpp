@@ -14,7 +14,7 @@
 using namespace properties;
 
 TEST_CASE("parts of a mesh that threads smooth have the bits and figures of the whole") {
-  for_random_meshes(1000, [](const RandomMesh& mesh) {
+  for_random_meshes(2000, [](const RandomMesh& mesh) {
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       std::vector<double> lengths;
       draw_for_parts(mesh, options, lengths, random);

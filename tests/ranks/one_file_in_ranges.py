@@ -307,7 +307,7 @@ class OneFileInRanges(ranks_tool.RanksTest):
             if serial.code != 0:
                 continue
             whole = self.read_report()
-            for ranks in itertools.islice(counts, 2 if tool.thorough else 1):
+            for ranks in itertools.islice(counts, 4 if tool.thorough else 1):
                 with self.subTest(path=path, ranks=ranks):
                     self.check(path, ranks, "--untangle", "off", whole=whole)
 

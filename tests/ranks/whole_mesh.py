@@ -7,7 +7,7 @@ import pieces
 import ranks_tool
 import tool
 
-RANKS = (0, 3, 5) if tool.thorough else (1, 3)
+RANKS = (0, 1, 2, 3, 5) if tool.thorough else (1, 3)
 # What a run may differ in, and what it says of who has the whole mesh.
 RUN_ALONE = {"timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date", "notes",
              "backend_note", "arguments"}
