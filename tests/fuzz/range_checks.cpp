@@ -116,6 +116,10 @@ void check_ranges(FileFormat format, const std::string& bytes, const MeshDocumen
       check_rows(whole->point_arrays, range.point_arrays, point_bytes);
       check_rows(whole->cell_arrays, range.cell_arrays, cell_bytes);
     }
+    const auto is_complete = [](const DataArray& array, std::size_t done) { return array.bytes.size() == done; };
+    require(std::ranges::equal(whole->point_arrays, point_bytes, is_complete) &&
+                std::ranges::equal(whole->cell_arrays, cell_bytes, is_complete),
+            "ranges lack rows");
   }
 }
 
