@@ -127,7 +127,9 @@ void MshBlocks::read_node_blocks() {
     points_ = text_count();
     MshNodeBlock block{.numbers = {0, points_}, .tags = at_, .rows = at_, .row_bytes = tag_size() + msh_point_bytes};
     pass(points_, block.row_bytes);
-    nodes_.push_back(block);
+    if (points_ > 0) {
+      nodes_.push_back(block);
+    }
     return;
   }
   const std::uint64_t blocks = next_size();
