@@ -57,12 +57,14 @@ TEST_CASE("bulk memory goes back to the system, in whatever order it is released
   for (std::size_t i = 0; i < 16; ++i) {
     arrays.push_back(filled(2 * large_page + 100 * i, 1));
   }
-  CHECK(resident() - before > 60 * mebibyte);
+  // A sanitizer's notes of the arrays come and go with them, several times their size: shares of this hold for all.
+  const std::int64_t whole = resident() - before;
+  CHECK(whole > 60 * mebibyte);
   for (std::size_t i = 0; i < arrays.size(); i += 2) {
     BulkVector<std::uint8_t>().swap(arrays[i]);
   }
-  CHECK(resident() - before < 40 * mebibyte);
+  CHECK(resident() - before < whole * 5 / 8);
   arrays.clear();
-  CHECK(resident() - before < 8 * mebibyte);
+  CHECK(resident() - before < whole / 8);
 }
 #endif
