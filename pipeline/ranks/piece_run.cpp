@@ -39,7 +39,6 @@
 #include "trismooth/pipeline/ranks/whole_mesh.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
-#include "trismooth/quality/precision_loss.h"
 #include "trismooth/smoothing/backend_choice.h"
 
 namespace trismooth {
@@ -301,8 +300,8 @@ class PieceRun {
     }
   }
 
-  QualityReport quality_at(const std::vector<Point2<double>>& corners, const LocalFrame& frame) {
-    QualityReport report = quality_->report(corners, frame, workers_.count());
+  QualityReport quality_at(std::span<const Point2<double>> points, const LocalFrame& frame) {
+    QualityReport report = quality_->report(points, frame, workers_.count());
     report.degenerate += repeating_;
     std::vector<std::int64_t> cells;
     for (const WorstElement& element : report.worst) {
@@ -337,17 +336,13 @@ class PieceRun {
 
   void check_before() {
     quality_.emplace(*topology_, reversed_, held_, regions_.of_overlap, result_.input.regions);
-    corners_ = quality_->corners_at(local_);
-    result_.before = quality_at(corners_, frame_);
-    result_.regions_before = quality_->regions(corners_);
+    result_.before = quality_at(local_, frame_);
+    result_.regions_before = quality_->regions(local_);
   }
 
   void warn() {
     if (options_.smoothing.precision == Precision::single_precision) {
-      PrecisionLoss loss = single_precision_loss(quality_->view(corners_, frame_.exponent), workers_.count());
-      loss.triangles = ranks_->sum(loss.triangles);
-      loss.collapsed = ranks_->sum(loss.collapsed);
-      loss.distorted = ranks_->sum(loss.distorted);
+      const PrecisionLoss loss = quality_->precision_loss(local_, frame_.exponent, workers_.count());
       if (loss.any()) {
         say_warning(warning_of(loss, options_.smoothing));
       }
@@ -445,10 +440,10 @@ class PieceRun {
   void check_after() {
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
     const LocalFrame frame = topology_->frame_of(points, held_);
-    const std::vector<Point2<double>> corners = quality_->corners_at(entered(frame, points).points);
-    result_.after = quality_at(corners, frame);
-    result_.regions_after = quality_->regions(corners);
-    result_.size_change = quality_->size_change(corners_, frame_, corners, frame, workers_.count());
+    const BulkVector<Point2<double>> local = entered(frame, points).points;
+    result_.after = quality_at(local, frame);
+    result_.regions_after = quality_->regions(local);
+    result_.size_change = quality_->size_change(local_, frame_, local, frame, workers_.count());
   }
 
   PipelineOptions options_;
@@ -471,10 +466,9 @@ class PieceRun {
   std::vector<std::uint8_t> held_;
   std::vector<std::uint8_t> reversed_;
   LocalFrame frame_;
-  BulkVector<Point2<double>> local_;  ///< vertices of the overlap, in that frame
+  BulkVector<Point2<double>> local_;  ///< vertices of the overlap before the smoothing, in that frame
   std::optional<RankQuality> quality_;
-  std::vector<Point2<double>> corners_;  ///< before the smoothing
-  std::vector<Point2<double>> points_;   ///< of the rank's vertices, after it
+  std::vector<Point2<double>> points_;  ///< of the rank's vertices, after it
 };
 
 }  // namespace
