@@ -8,6 +8,7 @@
 
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/ranks/shared_numbers.h"
 
 namespace trismooth {
 
@@ -18,12 +19,12 @@ struct Piece {
   MeshDocument document;
   PlanarMesh mesh;                        ///< in the plane of x and y
   std::vector<std::uint8_t> ghost_cells;  ///< one flag a cell: 1 where another piece has it
-  std::vector<std::int64_t> ids;          ///< one a point: its number in the whole mesh
+  SharedNumbers ids;                      ///< one a point: its number in the whole mesh
   std::vector<std::int32_t> vertices;     ///< one a point: its number among those of the rank
 
   // Of pieces that one file was shared out in; else empty.
-  std::vector<std::int64_t> cell_ids;      ///< one a cell: its number in the file, ascending
-  std::vector<std::int64_t> triangle_ids;  ///< one a triangle of the mesh: its number in the file, ascending
+  SharedNumbers cell_ids;                  ///< one a cell: its number in the file, ascending
+  SharedNumbers triangle_ids;              ///< one a triangle of the mesh: its number in the file, ascending
   std::vector<std::uint8_t> held_by_sets;  ///< one a point, as MeshShare has it
   std::vector<std::uint8_t> implied_by;    ///< likewise
 

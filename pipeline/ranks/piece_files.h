@@ -23,6 +23,7 @@ struct PieceArray {
   ScalarType type = ScalarType::float64;
   std::uint64_t components = 1;
   std::string name;
+  bool is_added = false;  ///< by this program, which the file does not have
 
   bool operator==(const PieceArray&) const = default;
 };

@@ -211,7 +211,7 @@ class PieceRun {
     const bool has_enough = std::ssize(files_.file.pieces) >= ranks_->size();
     const Partition partition = options_.partition.value_or(has_enough ? Partition::keep : Partition::bisect);
     if (partition != Partition::keep) {
-      owners_ = find_owners(partition, {mesh_.points(), mesh_.triangles, mesh_.ghost_triangles}, *ranks_);
+      owners_ = find_owners(partition, {points_of(files_, mesh_), mesh_.triangles, mesh_.ghost_triangles}, *ranks_);
     }
   }
 
@@ -227,7 +227,7 @@ class PieceRun {
     held_ = topology_->held(regions_.of_overlap, workers_);
     std::ranges::move(settle_implied_sets(files_, mesh_, *topology_, held_),
                       std::back_inserter(result_.input.point_sets));
-    const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(mesh_.points());
+    const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
     local_ = entered(frame_, points).points;
     reversed_ = topology_->reversed(local_, workers_);
@@ -372,7 +372,8 @@ class PieceRun {
   }
 
   void smooth() {
-    points_ = mesh_.points();
+    points_ = points_of(files_, mesh_);
+    topology_->forget_connections();
     SmoothingResult smoothing = known_to_all([&] {
       const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles, mesh_.triangle_ids};
       const Constraints constraints{
@@ -387,7 +388,7 @@ class PieceRun {
         throw Cancelled();
       }
     });
-    move_points(files_, mesh_, points_);
+    move_points(files_, points_);
     hash(smoothing);
     PipelineTimings& timings = result_.timings_ms;
     timings.topology += smoothing.timings.prepare;
@@ -400,21 +401,16 @@ class PieceRun {
   }
 
   void hash(const SmoothingResult& smoothing) {
-    std::vector<std::array<double, 3>> places = mesh_.stored;
-    const auto move = [&](std::size_t v, Point2<double> to) {
-      if (!(to == Point2<double>{places[v][0], places[v][1]})) {
-        places[v][0] = to.x;
-        places[v][1] = to.y;
-      }
-    };
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      move(v, points_[v]);
-    }
+    std::vector<std::array<double, 3>> places = places_of(files_, mesh_);
     result_.coordinates_hash = result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
     if (smoothing.reverted_vertices > 0) {
       for (const auto& [vertex, position] : smoothing.reverted) {
-        move(static_cast<std::size_t>(vertex),
-             {rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)});
+        auto& [x, y, z] = places[static_cast<std::size_t>(vertex)];
+        const Point2<double> to{rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)};
+        if (!(to == Point2<double>{x, y})) {
+          x = to.x;
+          y = to.y;
+        }
       }
       result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
     }

@@ -17,7 +17,7 @@ namespace {
 std::string name_of_fixed_array(const PieceFiles& files, const std::optional<std::string>& name) {
   std::vector<DataArray> names;
   for (const PieceArray& array : files.arrays) {
-    if (array.of == PieceArray::Of::points) {
+    if (array.of == PieceArray::Of::points && !array.is_added) {
       names.emplace_back().name = array.name;
     }
   }
@@ -48,7 +48,7 @@ void hold_by_sets(const PieceFiles& files, RankConstraints& constraints) {
 /// Different numbers, ascending, on all ranks.
 std::vector<std::int64_t> read_numbers(const std::filesystem::path& path, const RankMesh& mesh,
                                        const mpi::Communicator& ranks) {
-  std::int64_t highest = mesh.ids.empty() ? -1 : mesh.ids.back();
+  std::int64_t highest = mesh.ids.empty() ? -1 : mesh.ids[mesh.ids.size() - 1];
   MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
   std::vector<std::int64_t> numbers;
   agree(ranks, [&] {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -10,6 +11,8 @@
 // The state of a hash under way goes from rank to rank: its size has to be known.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
+
+#include "trismooth/pipeline/ranks/row_exchange.h"
 
 namespace trismooth {
 
@@ -28,15 +31,21 @@ std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids,
   MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
   // So many ids a block that the product does not overflow.
   const std::int64_t block = last / ranks.size() + 1;
+  std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
+  for (const std::int64_t id : ids) {
+    ++counts[static_cast<std::size_t>(id / block)];
+  }
   auto sent = mpi::lists_by_rank<PlacedVertex>(ranks);
+  for (std::size_t r = 0; r < sent.size(); ++r) {
+    sent[r].reserve(counts[r]);
+  }
   for (std::size_t v = 0; v < ids.size(); ++v) {
     sent[static_cast<std::size_t>(ids[v] / block)].push_back({ids[v], places[v]});
   }
-  std::vector<PlacedVertex> all;
-  for (const auto& list : ranks.exchanged(sent)) {
-    all.insert(all.end(), list.begin(), list.end());
+  std::vector<PlacedVertex> all = concatenated(ranks.exchanged(std::move(sent)));
+  if (!std::ranges::is_sorted(all, {}, &PlacedVertex::id)) {
+    std::ranges::sort(all, {}, &PlacedVertex::id);
   }
-  std::ranges::sort(all, {}, &PlacedVertex::id);
   all.erase(
       std::unique(all.begin(), all.end(), [](const PlacedVertex& a, const PlacedVertex& b) { return a.id == b.id; }),
       all.end());

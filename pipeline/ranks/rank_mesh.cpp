@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "trismooth/base/digits.h"
+#include "trismooth/base/release.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 
@@ -70,13 +74,67 @@ Storage storage_of_pieces(const PieceFiles& files, const mpi::Communicator& rank
   return ranks.any(has_float32) ? Storage::float32 : Storage::float64;
 }
 
-}  // namespace
-
-std::vector<Point2<double>> RankMesh::points() const {
-  std::vector<Point2<double>> points(stored.size());
-  std::ranges::transform(stored, points.begin(), [](const auto& xyz) { return Point2<double>{xyz[0], xyz[1]}; });
-  return points;
+bool has_ghosts(const PieceFiles& files) {
+  return std::ranges::any_of(
+      files.pieces, [](const Piece& piece) { return std::ranges::any_of(piece.ghost_cells, std::identity()); });
 }
+
+/// Whether that piece's points and triangles are the mesh's as they stand.
+bool is_mesh_of_its_own(const Piece& piece) {
+  return std::ranges::adjacent_find(piece.ids, std::greater_equal<>()) == piece.ids.end();
+}
+
+void take_piece(Piece& piece, RankMesh& mesh) {
+  mesh.ids = piece.ids;
+  mesh.triangles = piece.mesh.triangles;
+  mesh.in_other_cell = std::move(piece.mesh.in_other_cell);
+  mesh.triangle_ids = piece.triangle_ids;
+  piece.vertices.resize(piece.ids.size());
+  std::iota(piece.vertices.begin(), piece.vertices.end(), 0);
+}
+
+SharedNumbers joined_ids(const PieceFiles& files) {
+  std::vector<std::int64_t> ids;
+  for (const Piece& piece : files.pieces) {
+    ids.insert(ids.end(), piece.ids.begin(), piece.ids.end());
+  }
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+void join(PieceFiles& files, RankMesh& mesh) {
+  mesh.ids = joined_ids(files);
+  mesh.in_other_cell.assign(mesh.ids.size(), 0);
+  std::vector<std::int64_t> triangle_ids;
+  for (Piece& piece : files.pieces) {
+    piece.vertices.resize(piece.ids.size());
+    for (std::size_t i = 0; i < piece.ids.size(); ++i) {
+      const auto v = static_cast<std::size_t>(std::ranges::lower_bound(mesh.ids, piece.ids[i]) - mesh.ids.begin());
+      piece.vertices[i] = static_cast<std::int32_t>(v);
+      mesh.in_other_cell[v] |= piece.mesh.in_other_cell[i];
+    }
+    for (const auto& [a, b, c] : piece.mesh.triangles) {
+      mesh.joined_triangles.push_back({piece.vertices[static_cast<std::size_t>(a)],
+                                       piece.vertices[static_cast<std::size_t>(b)],
+                                       piece.vertices[static_cast<std::size_t>(c)]});
+    }
+    triangle_ids.insert(triangle_ids.end(), piece.triangle_ids.begin(), piece.triangle_ids.end());
+  }
+  mesh.triangles = mesh.joined_triangles;
+  mesh.triangle_ids = std::move(triangle_ids);
+}
+
+void mark_ghosts(const PieceFiles& files, RankMesh& mesh) {
+  mesh.ghost_triangles.reserve(mesh.triangles.size());
+  for (const Piece& piece : files.pieces) {
+    for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+      mesh.ghost_triangles.push_back(piece.is_ghost(t) ? 1 : 0);
+    }
+  }
+}
+
+}  // namespace
 
 std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks) {
   if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
@@ -91,43 +149,53 @@ RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {
   RankMesh mesh;
   mesh.storage = storage_of_pieces(files, ranks);
   agree(ranks, [&] {
-    for (const Piece& piece : files.pieces) {
-      mesh.ids.insert(mesh.ids.end(), piece.ids.begin(), piece.ids.end());
+    if (files.pieces.size() == 1 && is_mesh_of_its_own(files.pieces.front())) {
+      take_piece(files.pieces.front(), mesh);
+    } else {
+      join(files, mesh);
     }
-    std::ranges::sort(mesh.ids);
-    mesh.ids.erase(std::unique(mesh.ids.begin(), mesh.ids.end()), mesh.ids.end());
-    check_document_size(mesh.ids.size(), 0, files.path);
-    mesh.stored.resize(mesh.ids.size());
-    mesh.in_other_cell.assign(mesh.ids.size(), 0);
+    if (has_ghosts(files)) {
+      mark_ghosts(files, mesh);
+    }
+    check_document_size(mesh.ids.size(), mesh.triangles.size(), files.path);
     for (Piece& piece : files.pieces) {
-      piece.vertices.resize(piece.ids.size());
-      for (std::size_t i = 0; i < piece.ids.size(); ++i) {
-        const auto v = static_cast<std::size_t>(std::ranges::lower_bound(mesh.ids, piece.ids[i]) - mesh.ids.begin());
-        piece.vertices[i] = static_cast<std::int32_t>(v);
-        std::copy_n(piece.document.points.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, mesh.stored[v].begin());
-        mesh.in_other_cell[v] |= piece.mesh.in_other_cell[i];
-      }
-      for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
-        const auto& [a, b, c] = piece.mesh.triangles[t];
-        mesh.triangles.push_back({piece.vertices[static_cast<std::size_t>(a)],
-                                  piece.vertices[static_cast<std::size_t>(b)],
-                                  piece.vertices[static_cast<std::size_t>(c)]});
-        mesh.ghost_triangles.push_back(piece.is_ghost(t) ? 1 : 0);
-      }
-      mesh.triangle_ids.insert(mesh.triangle_ids.end(), piece.triangle_ids.begin(), piece.triangle_ids.end());
+      release(piece.mesh.points);
     }
-    check_document_size(0, mesh.triangles.size(), files.path);
   });
   return mesh;
 }
 
-void move_points(PieceFiles& files, const RankMesh& mesh, const std::vector<Point2<double>>& points) {
+std::vector<std::array<double, 3>> places_of(const PieceFiles& files, const RankMesh& mesh) {
+  std::vector<std::array<double, 3>> places(mesh.ids.size());
+  for (const Piece& piece : files.pieces) {
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+      std::copy_n(piece.document.points.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                  places[static_cast<std::size_t>(piece.vertices[i])].begin());
+    }
+  }
+  return places;
+}
+
+std::vector<Point2<double>> points_of(const PieceFiles& files, const RankMesh& mesh) {
+  std::vector<Point2<double>> points(mesh.ids.size());
+  for (const Piece& piece : files.pieces) {
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+      points[static_cast<std::size_t>(piece.vertices[i])] = {piece.document.points[3 * i],
+                                                             piece.document.points[3 * i + 1]};
+    }
+  }
+  return points;
+}
+
+void move_points(PieceFiles& files, std::span<const Point2<double>> points) {
   for (Piece& piece : files.pieces) {
     for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      const auto v = static_cast<std::size_t>(piece.vertices[i]);
-      if (!(points[v] == Point2<double>{mesh.stored[v][0], mesh.stored[v][1]})) {
-        piece.document.points[3 * i] = points[v].x;
-        piece.document.points[3 * i + 1] = points[v].y;
+      double& x = piece.document.points[3 * i];
+      double& y = piece.document.points[3 * i + 1];
+      const Point2<double> moved = points[static_cast<std::size_t>(piece.vertices[i])];
+      if (!(moved == Point2<double>{x, y})) {
+        x = moved.x;
+        y = moved.y;
       }
     }
   }

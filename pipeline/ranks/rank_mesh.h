@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -10,31 +12,47 @@
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
+#include "trismooth/pipeline/ranks/shared_numbers.h"
 
 namespace trismooth {
 
-/// What a rank has of a mesh in pieces: its pieces, with the vertices once that several of them have.
+/// What a rank has of a mesh in pieces: its pieces, with the vertices once that several of them have. Where the rank
+/// has one piece, most of this is the piece's own; pieces outlive it.
 struct RankMesh {
-  std::vector<std::int64_t> ids;              ///< of the vertices in the whole mesh, ascending
-  std::vector<std::array<double, 3>> stored;  ///< their coordinates as they were read
+  RankMesh() = default;
+  RankMesh(RankMesh&&) = default;
+  RankMesh& operator=(RankMesh&&) = default;
+  RankMesh(const RankMesh&) = delete;
+  RankMesh& operator=(const RankMesh&) = delete;
+  ~RankMesh() = default;
+
+  SharedNumbers ids;                          ///< of the vertices in the whole mesh, ascending
   std::vector<std::uint8_t> in_other_cell;    ///< one a vertex: 1 where a cell that is not a triangle uses it
-  std::vector<Triangle> triangles;            ///< of piece after piece, copies of other pieces' too
-  std::vector<std::uint8_t> ghost_triangles;  ///< one a triangle: 1 where it is such a copy
-  std::vector<std::int64_t> triangle_ids;     ///< their numbers in the whole mesh, ascending; empty: as they come
+  std::span<const Triangle> triangles;        ///< of piece after piece, copies of other pieces' too
+  std::vector<Triangle> joined_triangles;     ///< where these are not those of the piece
+  std::vector<std::uint8_t> ghost_triangles;  ///< one a triangle: 1 where it is such a copy; empty: there are none
+  SharedNumbers triangle_ids;                 ///< their numbers in the whole mesh, ascending; empty: as they come
   Storage storage = Storage::float64;         ///< what coordinates are rounded to in the files
 
-  std::vector<Point2<double>> points() const;
+  bool is_ghost(std::size_t triangle) const { return !ghost_triangles.empty() && ghost_triangles[triangle] != 0; }
 };
 
 /// What of a mesh keeps it from being put together in pieces, for people: triangles of six nodes, heights that differ.
 /// Empty where nothing does. Collective.
 std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
 
-/// Puts the rank's pieces together, and numbers their points (Piece::vertices). Collective. Throws ReadError on all
+/// Puts the rank's pieces together, and numbers their points (Piece::vertices). Points of the pieces' planar meshes,
+/// which the documents have, are given up. Collective. Throws ReadError on all
 /// ranks for a mesh that does not lie in a plane z = constant, std::invalid_argument for triangles of six nodes.
 RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks);
 
+/// x, y, z of the rank's vertices, as the pieces have them.
+std::vector<std::array<double, 3>> places_of(const PieceFiles& files, const RankMesh& mesh);
+
+/// x and y of these.
+std::vector<Point2<double>> points_of(const PieceFiles& files, const RankMesh& mesh);
+
 /// Gives the points of pieces the coordinates that changed.
-void move_points(PieceFiles& files, const RankMesh& mesh, const std::vector<Point2<double>>& points);
+void move_points(PieceFiles& files, std::span<const Point2<double>> points);
 
 }  // namespace trismooth

@@ -21,6 +21,7 @@
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 #include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/triangle_links.h"
 
 namespace trismooth {
 
@@ -77,8 +78,8 @@ bool is_whole_key(std::uint64_t key, ScalarType type) {
 /// The values of one array at the triangles of all pieces.
 class RankValues {
  public:
-  RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology)
-      : topology_(topology), ranks_(topology.ranks()), type_(array.type) {
+  RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology, TriangleLinks& links)
+      : topology_(topology), ranks_(topology.ranks()), links_(links), type_(array.type) {
     for (const Piece& piece : files.pieces) {
       const DataArray* const values = find_array(piece.document.cell_arrays, array.name);
       if (values == nullptr) {
@@ -96,7 +97,6 @@ class RankValues {
     }
     std::ranges::sort(distinct_);
     distinct_.erase(std::unique(distinct_.begin(), distinct_.end()), distinct_.end());
-    at_overlap_ = topology.of_triangles<std::uint64_t>(keys_);
   }
 
   const std::vector<std::uint64_t>& keys() const { return keys_; }
@@ -125,13 +125,14 @@ class RankValues {
   std::int64_t vertices_between() {
     if (!between_) {
       const mpi::Overlap& overlap = topology_.overlap();
+      const std::vector<std::uint64_t>& values = at_overlap();
       std::vector<std::optional<std::uint64_t>> seen(overlap.ids.size());
       std::vector<std::uint8_t> is_between(overlap.ids.size(), 0);
       for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
         for (const std::int32_t v : overlap.triangles[t]) {
           std::optional<std::uint64_t>& first = seen[static_cast<std::size_t>(v)];
-          first = first.value_or(at_overlap_[t]);
-          if (*first != at_overlap_[t] && overlap.is_own(v)) {
+          first = first.value_or(values[t]);
+          if (*first != values[t] && overlap.is_own(v)) {
             is_between[static_cast<std::size_t>(v)] = 1;
           }
         }
@@ -141,8 +142,9 @@ class RankValues {
     return *between_;
   }
 
-  double fraction_between() const {
+  double fraction_between() {
     const mpi::Overlap& overlap = topology_.overlap();
+    const std::vector<std::uint64_t>& values = at_overlap();
     std::int64_t edges = 0;
     std::int64_t changes = 0;
     for (std::size_t h = 0; h < 3 * overlap.triangles.size(); ++h) {
@@ -150,7 +152,7 @@ class RankValues {
       const Triangle& corners = overlap.triangles[h / 3];
       if (twin > static_cast<std::int32_t>(h) && overlap.is_own(std::min(corners[h % 3], corners[(h + 1) % 3]))) {
         ++edges;
-        changes += at_overlap_[h / 3] != at_overlap_[static_cast<std::size_t>(twin) / 3] ? 1 : 0;
+        changes += values[h / 3] != values[static_cast<std::size_t>(twin) / 3] ? 1 : 0;
       }
     }
     edges = ranks_.sum(edges);
@@ -159,12 +161,20 @@ class RankValues {
   }
 
  private:
+  const std::vector<std::uint64_t>& at_overlap() {
+    if (!at_overlap_) {
+      at_overlap_ = links_.of_overlap<std::uint64_t>(keys_);
+    }
+    return *at_overlap_;
+  }
+
   const RankTopology& topology_;
   const mpi::Communicator& ranks_;
+  TriangleLinks& links_;
   ScalarType type_;
-  std::vector<std::uint64_t> keys_;        ///< of the triangles of the rank's mesh
-  std::vector<std::uint64_t> distinct_;    ///< those of triangles that are no copies, ascending
-  std::vector<std::uint64_t> at_overlap_;  ///< of the triangles of the overlap
+  std::vector<std::uint64_t> keys_;                       ///< of the triangles of the rank's mesh
+  std::vector<std::uint64_t> distinct_;                   ///< those of triangles that are no copies, ascending
+  std::optional<std::vector<std::uint64_t>> at_overlap_;  ///< of the triangles of the overlap, where it was asked for
   std::optional<std::int64_t> count_;
   std::optional<std::int64_t> between_;
 };
@@ -178,9 +188,9 @@ struct RegionName {
 class RankRegionFinder {
  public:
   RankRegionFinder(const PieceFiles& files, const RankTopology& topology)
-      : files_(files), topology_(topology), ranks_(topology.ranks()) {
+      : files_(files), topology_(topology), ranks_(topology.ranks()), links_(topology) {
     for (const PieceArray& array : files.arrays) {
-      if (array.of == PieceArray::Of::cells) {
+      if (array.of == PieceArray::Of::cells && !array.is_added) {
         candidates_.push_back(&array);
       }
     }
@@ -196,7 +206,7 @@ class RankRegionFinder {
         }
         if (std::ranges::find(chosen, array) == chosen.end()) {
           chosen.push_back(array);
-          obey(*array, RankValues(files_, *array, topology_), RegionReason::named);
+          obey(*array, RankValues(files_, *array, topology_, links_), RegionReason::named);
         }
       }
     }
@@ -211,7 +221,7 @@ class RankRegionFinder {
       }
     }
     if (regions_.arrays.empty() && constant != nullptr) {
-      obey(*constant, RankValues(files_, *constant, topology_), RegionReason::known_name);
+      obey(*constant, RankValues(files_, *constant, topology_, links_), RegionReason::known_name);
     }
     return take();
   }
@@ -244,7 +254,7 @@ class RankRegionFinder {
       judge_regions({array.name, array.components, topology_.triangle_count(), {}, {}, {}, {}}, regions_.notes);
       return;
     }
-    RankValues values(files_, array, topology_);
+    RankValues values(files_, array, topology_, links_);
     const TriangleValues asked{array.name,
                                array.components,
                                topology_.triangle_count(),
@@ -313,7 +323,7 @@ class RankRegionFinder {
       regions_.names.push_back(uses[name.plain] > 1 ? std::move(name.with_value) : name.plain);
     }
     if (!regions_.arrays.empty()) {
-      regions_.of_overlap = topology_.of_triangles<std::int32_t>(regions_.of_mesh);
+      regions_.of_overlap = links_.of_overlap<std::int32_t>(regions_.of_mesh);
     }
     return std::move(regions_);
   }
@@ -358,6 +368,7 @@ class RankRegionFinder {
   const PieceFiles& files_;
   const RankTopology& topology_;
   const mpi::Communicator& ranks_;
+  TriangleLinks links_;
   std::vector<const PieceArray*> candidates_;
   RankRegions regions_;
   std::vector<RegionName> names_;

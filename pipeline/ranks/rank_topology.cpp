@@ -1,8 +1,6 @@
 #include "trismooth/pipeline/ranks/rank_topology.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -39,23 +37,17 @@ auto naming_file(const std::filesystem::path& path, const Function& function) {
 RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> named,
                            std::span<const std::int32_t> owners, const std::filesystem::path& path,
                            std::shared_ptr<const mpi::Communicator> ranks, Workers& workers)
-    : ranks_(std::move(ranks)) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.ghost_triangles[t] == 0) {
-      own_triangles_.push_back(static_cast<std::int32_t>(t));
+    : ranks_(std::move(ranks)), own_count_(mesh.triangles.size()), triangle_ids_(mesh.triangle_ids) {
+  if (!mesh.ghost_triangles.empty()) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!mesh.is_ghost(t)) {
+        own_places_.push_back(static_cast<std::int32_t>(t));
+      }
     }
+    own_count_ = own_places_.size();
   }
-  triangle_count_ = ranks_->sum(std::ssize(own_triangles_));
-  // A rank without triangles has no ids, whatever others have.
-  const std::int64_t first_id = ranks_->sum_before(std::ssize(own_triangles_));
-  if (mesh.triangle_ids.empty()) {
-    own_ids_.resize(own_triangles_.size());
-    std::iota(own_ids_.begin(), own_ids_.end(), first_id);
-  } else {
-    for (const std::int32_t t : own_triangles_) {
-      own_ids_.push_back(mesh.triangle_ids[static_cast<std::size_t>(t)]);
-    }
-  }
+  triangle_count_ = ranks_->sum(static_cast<std::int64_t>(own_count_));
+  first_id_ = ranks_->sum_before(static_cast<std::int64_t>(own_count_));
   const mpi::LocalMesh local{mesh.triangles, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
   const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
   naming_file(path, [&] {
@@ -64,68 +56,16 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
       topology_ = connect_triangles(overlap_.vertex_count(), overlap_.triangles, workers, overlap_.part.ghosts);
     });
   });
-  ask_for_triangles();
-}
-
-std::vector<std::int32_t> RankTopology::holders_of_triangles() const {
-  // Numbers are shared out in blocks among ranks that keep a list of who has them.
-  const std::int64_t block = triangle_count_ / ranks_->size() + 1;
-  auto sent = mpi::lists_by_rank<std::int64_t>(*ranks_);
-  for (const std::int64_t id : own_ids_) {
-    sent[static_cast<std::size_t>(id / block)].push_back(id);
-  }
-  const std::int64_t first = block * ranks_->rank();
-  std::vector<std::int32_t> holders(static_cast<std::size_t>(block), 0);
-  const mpi::ByRank<std::int64_t> heard = ranks_->exchanged(std::move(sent));
-  for (std::size_t r = 0; r < heard.size(); ++r) {
-    for (const std::int64_t id : heard[r]) {
-      holders[static_cast<std::size_t>(id - first)] = static_cast<std::int32_t>(r);
-    }
-  }
-  auto asked = mpi::lists_by_rank<std::int64_t>(*ranks_);
-  for (const std::int64_t id : overlap_.triangle_ids) {
-    asked[static_cast<std::size_t>(id / block)].push_back(id);
-  }
-  auto answers = mpi::lists_by_rank<std::int32_t>(*ranks_);
-  const mpi::ByRank<std::int64_t> wanted = ranks_->exchanged(std::move(asked));
-  for (std::size_t r = 0; r < wanted.size(); ++r) {
-    for (const std::int64_t id : wanted[r]) {
-      answers[r].push_back(holders[static_cast<std::size_t>(id - first)]);
-    }
-  }
-  const mpi::ByRank<std::int32_t> told = ranks_->exchanged(std::move(answers));
-  std::vector<std::size_t> next(told.size(), 0);
-  std::vector<std::int32_t> found;
-  found.reserve(overlap_.triangle_ids.size());
-  for (const std::int64_t id : overlap_.triangle_ids) {
-    const auto home = static_cast<std::size_t>(id / block);
-    found.push_back(told[home][next[home]++]);
-  }
-  return found;
-}
-
-void RankTopology::ask_for_triangles() {
-  const std::vector<std::int32_t> holders = holders_of_triangles();
-  wanted_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
-  auto wanted = mpi::lists_by_rank<std::int64_t>(*ranks_);
-  for (std::size_t t = 0; t < overlap_.triangle_ids.size(); ++t) {
-    const auto rank = static_cast<std::size_t>(holders[t]);
-    wanted_triangles_[rank].push_back(static_cast<std::int32_t>(t));
-    wanted[rank].push_back(overlap_.triangle_ids[t]);
-  }
-  const mpi::ByRank<std::int64_t> asked = ranks_->exchanged(std::move(wanted));
-  asked_triangles_ = mpi::lists_by_rank<std::int32_t>(*ranks_);
-  for (std::size_t r = 0; r < asked.size(); ++r) {
-    for (const std::int64_t id : asked[r]) {
-      asked_triangles_[r].push_back(local_triangle(id));
-    }
-  }
 }
 
 std::int32_t RankTopology::local_triangle(std::int64_t id) const {
-  const auto place = std::ranges::lower_bound(own_ids_, id);
-  return place != own_ids_.end() && *place == id ? own_triangles_[static_cast<std::size_t>(place - own_ids_.begin())]
-                                                 : -1;
+  const auto own = static_cast<std::int64_t>(own_count_);
+  const std::int64_t place =
+      triangle_ids_.empty() ? id - first_id_ : std::ranges::lower_bound(triangle_ids_, id) - triangle_ids_.begin();
+  if (place < 0 || place >= own || own_id(static_cast<std::size_t>(place)) != id) {
+    return -1;
+  }
+  return own_places_.empty() ? static_cast<std::int32_t>(place) : own_places_[static_cast<std::size_t>(place)];
 }
 
 bool RankTopology::counts(std::size_t triangle) const {

@@ -48,28 +48,15 @@ class RankTopology {
     return all;
   }
 
-  /// What the triangles of the overlap have, from what those of the rank's mesh do; copies have no say.
-  template <class V>
-  std::vector<V> of_triangles(std::span<const V> values) const {
-    mpi::ByRank<V> answers = mpi::lists_by_rank<V>(*ranks_);
-    for (std::size_t r = 0; r < answers.size(); ++r) {
-      for (const std::int32_t t : asked_triangles_[r]) {
-        answers[r].push_back(values[static_cast<std::size_t>(t)]);
-      }
-    }
-    const mpi::ByRank<V> told = ranks_->exchanged(answers);
-    std::vector<V> all(overlap_.triangles.size());
-    for (std::size_t r = 0; r < told.size(); ++r) {
-      for (std::size_t i = 0; i < told[r].size(); ++i) {
-        all[static_cast<std::size_t>(wanted_triangles_[r][i])] = told[r][i];
-      }
-    }
-    return all;
-  }
-
-  /// Triangles of the whole mesh, and those that come before this rank's.
+  /// Triangles of the whole mesh.
   std::int64_t triangle_count() const { return triangle_count_; }
-  /// The triangle of the rank's mesh whose number in the whole mesh that is; -1: it is none of its own. Not collective.
+  /// Triangles of the rank's mesh that are no copies. Not collective, like the following two.
+  std::size_t own_triangles() const { return own_count_; }
+  /// The number of one of them in the whole mesh; it ascends.
+  std::int64_t own_id(std::size_t own_triangle) const {
+    return triangle_ids_.empty() ? first_id_ + static_cast<std::int64_t>(own_triangle) : triangle_ids_[own_triangle];
+  }
+  /// The triangle of the rank's mesh whose number in the whole mesh that is; -1: it is none of its own.
   std::int32_t local_triangle(std::int64_t id) const;
   /// Whether this rank is the one of those that have the triangle which counts it. Not collective.
   bool counts(std::size_t triangle) const;
@@ -82,19 +69,18 @@ class RankTopology {
   /// One flag a triangle of the overlap: 1 where it is listed clockwise in the consistent orientation.
   std::vector<std::uint8_t> reversed(std::span<const Point2<double>> local, Workers& workers) const;
 
- private:
-  /// For each triangle of the overlap the rank in whose pieces it is.
-  std::vector<std::int32_t> holders_of_triangles() const;
-  void ask_for_triangles();
+  /// Gives up topology() and all that is found by it: held(), reversed(). Not collective.
+  void forget_connections() { topology_ = {}; }
 
+ private:
   std::shared_ptr<const mpi::Communicator> ranks_;
   mpi::Overlap overlap_;
   TriangleTopology topology_;
-  std::vector<std::int32_t> own_triangles_;  ///< of the rank's mesh, those that are no copies
-  std::vector<std::int64_t> own_ids_;        ///< the numbers of these in the whole mesh, ascending
+  std::size_t own_count_ = 0;
+  std::vector<std::int32_t> own_places_;  ///< in the rank's mesh, of those that are no copies; empty: all are none
+  SharedNumbers triangle_ids_;            ///< as RankMesh has them
+  std::int64_t first_id_ = 0;             ///< the number of the first of its own where ids are not known
   std::int64_t triangle_count_ = 0;
-  mpi::ByRank<std::int32_t> wanted_triangles_;  ///< of the overlap, by the rank in whose pieces they are
-  mpi::ByRank<std::int32_t> asked_triangles_;   ///< of the rank's mesh, by the rank that wants to know
 };
 
 }  // namespace trismooth

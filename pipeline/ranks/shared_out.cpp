@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/release.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
@@ -110,6 +111,7 @@ class Sharing {
 
   Piece piece() {
     send_cells();
+    number_triangles();
     find_points();
     send_points();
     number_corners();
@@ -250,10 +252,12 @@ class Sharing {
     point_order_.resize(ids.size());
     std::iota(point_order_.begin(), point_order_.end(), 0);
     std::ranges::sort(point_order_, {}, [&](std::int32_t i) { return ids[static_cast<std::size_t>(i)]; });
-    piece_.ids.reserve(ids.size());
+    std::vector<std::int64_t> ordered;
+    ordered.reserve(ids.size());
     for (const std::int32_t i : point_order_) {
-      piece_.ids.push_back(ids[static_cast<std::size_t>(i)]);
+      ordered.push_back(ids[static_cast<std::size_t>(i)]);
     }
+    piece_.ids = std::move(ordered);
   }
 
   std::vector<std::byte> rows_of_points(std::span<const std::byte> rows, std::size_t row_size) const {
@@ -294,13 +298,21 @@ class Sharing {
     for (std::int32_t& corner : piece_.document.cells.connectivity) {
       corner = static_cast<std::int32_t>(std::ranges::lower_bound(piece_.ids, corner) - piece_.ids.begin());
     }
+  }
+
+  void number_triangles() {
     const CellList& cells = piece_.document.cells;
+    std::vector<std::int64_t> ids;
+    ids.reserve(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const std::int64_t count = count_triangles(cells.types[c], cells[c]);
       for (std::int64_t t = 0; t < count; ++t) {
-        piece_.triangle_ids.push_back(first_triangles_[c] + t);
+        ids.push_back(first_triangles_[c] + t);
       }
     }
+    release(first_triangles_);
+    // In a file of nothing but triangles these are its cells.
+    piece_.triangle_ids = std::ranges::equal(ids, piece_.cell_ids) ? piece_.cell_ids : SharedNumbers(std::move(ids));
   }
 
   MeshShare share_;
@@ -335,8 +347,8 @@ bool is_numbers_array(const DataArray& array, std::string_view name) {
 }
 
 /// Adds the array of numbers in the file, unless it is there already. What readers of pieces would take for it is given
-/// another name.
-void add_numbers(std::vector<DataArray>& arrays, std::string_view name, const std::vector<std::int64_t>& numbers,
+/// another name. Whether it was added.
+bool add_numbers(std::vector<DataArray>& arrays, std::string_view name, const SharedNumbers& numbers,
                  const mpi::Communicator& ranks, std::vector<std::string>& notes) {
   FreeNames names;
   bool is_there = false;
@@ -363,8 +375,9 @@ void add_numbers(std::vector<DataArray>& arrays, std::string_view name, const st
                     (name == point_numbers_name ? "points" : "cells"));
   }
   if (!is_there) {
-    arrays.push_back(make_data_array(std::string(name), 1, numbers));
+    arrays.push_back({std::string(name), ScalarType::int64, 1, std::as_bytes(std::span(numbers)), numbers.owner()});
   }
+  return !is_there;
 }
 
 /// In pieces a cell array of this name says which cells are copies; in one file it is as good as any other.
@@ -423,8 +436,8 @@ PieceFiles shared_out(MeshShare share, Partition partition, const std::filesyste
   made.original = std::make_shared<NewPiece>();
   made.field_arrays = std::move(fields);
   rename_ghost_flags(made.cell_arrays, notes);
-  add_numbers(made.point_arrays, point_numbers_name, piece.ids, ranks, notes);
-  add_numbers(made.cell_arrays, cell_numbers_name, piece.cell_ids, ranks, notes);
+  const bool adds_points = add_numbers(made.point_arrays, point_numbers_name, piece.ids, ranks, notes);
+  const bool adds_cells = add_numbers(made.cell_arrays, cell_numbers_name, piece.cell_ids, ranks, notes);
   agree(ranks, [&] {
     if (format == FileFormat::vtp) {
       require_poly_data(made, *output);
@@ -437,6 +450,10 @@ PieceFiles shared_out(MeshShare share, Partition partition, const std::filesyste
     files.file = std::move(parallel.file);
   });
   files.arrays = arrays_of_piece(made);
+  for (PieceArray& array : files.arrays) {
+    array.is_added = (adds_points && array.of == PieceArray::Of::points && array.name == point_numbers_name) ||
+                     (adds_cells && array.of == PieceArray::Of::cells && array.name == cell_numbers_name);
+  }
   files.pieces.push_back(std::move(piece));
   return files;
 }

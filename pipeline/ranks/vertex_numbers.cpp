@@ -69,7 +69,7 @@ std::vector<std::int64_t> numbers_of(const DataArray& array, const std::filesyst
   return ids;
 }
 
-void require_once(const std::vector<std::int64_t>& ids, const DataArray& array, const std::filesystem::path& path) {
+void require_once(std::span<const std::int64_t> ids, const DataArray& array, const std::filesystem::path& path) {
   std::vector<std::int32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0);
   const auto id_of = [&](std::int32_t point) { return ids[static_cast<std::size_t>(point)]; };
@@ -115,7 +115,7 @@ class PlaceNumbers {
     auto number = numbers.begin();
     for (Piece& piece : files_.pieces) {
       const auto end = number + static_cast<std::ptrdiff_t>(piece.document.point_count());
-      piece.ids.assign(number, end);
+      piece.ids = std::vector<std::int64_t>(number, end);
       number = end;
     }
   }
