@@ -17,6 +17,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
@@ -373,15 +374,16 @@ class PieceRun {
 
   void smooth() {
     points_ = points_of(files_, mesh_);
-    topology_->forget_connections();
     SmoothingResult smoothing = known_to_all([&] {
-      const mpi::LocalMesh local{mesh_.triangles, mesh_.ids, owners_, mesh_.ghost_triangles, mesh_.triangle_ids};
-      const Constraints constraints{
-          .fixed = constraints_.fixed, .other_cells = mesh_.in_other_cell, .regions = regions_.of_mesh};
       const Stopwatch watch;
-      mpi::Plan plan(ranks_->handle(), local, constraints, options_.smoothing);
+      const SmoothingOptions options =
+          mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
+      mpi::OverlapSmoother smoother(ranks_, topology_->lend_overlap(std::move(regions_.of_overlap), held_), options,
+                                    Sliding{}, mpi::Gather::never, mpi::OverlapSmoother::Owners::ranks);
       result_.timings_ms.topology += watch.milliseconds();
-      return plan.smooth(PointView(points_), mesh_.storage);
+      SmoothingResult made = smoother.smooth(PointView(points_), mesh_.storage);
+      topology_->take_back(smoother.take_overlap());
+      return made;
     });
     agree(*ranks_, [&] {
       if (smoothing.stop_reason == StopReason::cancelled) {

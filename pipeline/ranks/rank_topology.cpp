@@ -93,4 +93,15 @@ std::vector<std::uint8_t> RankTopology::reversed(std::span<const Point2<double>>
   return mpi::ComponentLabels(overlap_, topology_, *ranks_).reversed(overlap_, topology_, local, *ranks_, workers);
 }
 
+mpi::Overlap RankTopology::lend_overlap(std::vector<std::int32_t> regions, std::span<const std::uint8_t> held) {
+  topology_ = {};
+  overlap_.regions = std::move(regions);
+  for (std::size_t v = 0; v < held.size(); ++v) {
+    if (overlap_.is_own(static_cast<std::int32_t>(v))) {
+      overlap_.named[v] |= static_cast<std::uint8_t>(held[v] & hold::named);
+    }
+  }
+  return std::move(overlap_);
+}
+
 }  // namespace trismooth

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
@@ -69,8 +70,12 @@ class RankTopology {
   /// One flag a triangle of the overlap: 1 where it is listed clockwise in the consistent orientation.
   std::vector<std::uint8_t> reversed(std::span<const Point2<double>> local, Workers& workers) const;
 
-  /// Gives up topology() and all that is found by it: held(), reversed(). Not collective.
-  void forget_connections() { topology_ = {}; }
+  /// Hands out the overlap, with those regions of triangles and what is held for all of these reasons, for who
+  /// smooths it, and gives up topology() and all that is found by it: held(), reversed(). Not collective, like the
+  /// next.
+  mpi::Overlap lend_overlap(std::vector<std::int32_t> regions, std::span<const std::uint8_t> held);
+  /// Takes it back: all that is asked of the overlap can be asked again.
+  void take_back(mpi::Overlap overlap) { overlap_ = std::move(overlap); }
 
  private:
   std::shared_ptr<const mpi::Communicator> ranks_;
