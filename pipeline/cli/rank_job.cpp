@@ -9,6 +9,9 @@
 #include <span>
 
 #include <mpi.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/pipeline/ranks/metis_parts.h"
@@ -53,9 +56,20 @@ bool has_launcher() {
   return std::ranges::any_of(names, [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
+/// Has arrays of a rank go back to the system when they are freed. By and by the C library raises the size from which
+/// on it asks the system for memory of its own, up to 32 MiB, and what is smaller stays with the process, in pieces;
+/// ranks share a machine, and have the arrays of a mesh in parts.
+void give_back_arrays() {
+#ifdef __GLIBC__
+  constexpr int bytes = 1 << 22;
+  mallopt(M_MMAP_THRESHOLD, bytes);
+#endif
+}
+
 class MpiJob final : public RankJob {
  public:
   explicit MpiJob(bool has_pieces) : has_pieces_(has_pieces) {
+    give_back_arrays();
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     ranks_ = std::make_shared<const mpi::Communicator>(MPI_COMM_WORLD);

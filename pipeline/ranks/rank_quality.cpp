@@ -21,7 +21,7 @@ namespace {
 // Blocks of triangles may not be cut between ranks.
 constexpr auto block_size = static_cast<std::int64_t>(triangles_a_quality_part);
 static_assert(triangles_a_size_part == triangles_a_quality_part);
-constexpr std::int64_t blocks_a_round = 256;
+constexpr std::int64_t blocks_a_round = 64;
 
 /// Hands a state from rank to rank, each of which adds what it has; all get what comes out at the end. The bytes of a
 /// state are copied; all ranks have as many of them.

@@ -23,6 +23,7 @@
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/bisection.h"
 #include "trismooth/pipeline/ranks/document_layout.h"
+#include "trismooth/pipeline/ranks/place_index.h"
 #include "trismooth/pipeline/ranks/row_exchange.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 
@@ -251,7 +252,10 @@ class Sharing {
     agree(ranks_, [&] { check_document_size(ids.size(), piece_.cell_ids.size(), input_); });
     point_order_.resize(ids.size());
     std::iota(point_order_.begin(), point_order_.end(), 0);
-    std::ranges::sort(point_order_, {}, [&](std::int32_t i) { return ids[static_cast<std::size_t>(i)]; });
+    // What comes is in order, unless there are points of no cell.
+    if (!std::ranges::is_sorted(ids)) {
+      std::ranges::sort(point_order_, {}, [&](std::int32_t i) { return ids[static_cast<std::size_t>(i)]; });
+    }
     std::vector<std::int64_t> ordered;
     ordered.reserve(ids.size());
     for (const std::int32_t i : point_order_) {
@@ -295,8 +299,9 @@ class Sharing {
   }
 
   void number_corners() {
+    const PlaceIndex index(piece_.ids);
     for (std::int32_t& corner : piece_.document.cells.connectivity) {
-      corner = static_cast<std::int32_t>(std::ranges::lower_bound(piece_.ids, corner) - piece_.ids.begin());
+      corner = index.place_of(corner);
     }
   }
 
