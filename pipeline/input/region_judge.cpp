@@ -82,7 +82,7 @@ std::optional<RegionReason> judge_regions(const TriangleValues& values, std::vec
     }
     return std::nullopt;
   }
-  if (values.count() < 2) {
+  if (!values.differ()) {
     return std::nullopt;
   }
   return known ? judge_known(values, notes) : judge_unknown(values, notes);

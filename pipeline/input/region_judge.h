@@ -17,6 +17,7 @@ struct TriangleValues {
   std::string name;
   std::size_t components = 1;
   std::int64_t triangles = 0;
+  std::function<bool()> differ;                    ///< there are two different values, or more
   std::function<std::int64_t()> count;             ///< different values
   std::function<bool()> are_whole;                 ///< numbers or texts
   std::function<std::int64_t()> vertices_between;  ///< as InnerEdges::vertices_between()

@@ -120,6 +120,7 @@ class RegionFinder {
     const TriangleValues values{candidate.array.name,
                                 candidate.array.components,
                                 std::ssize(mesh_.triangles),
+                                [&] { return numbers.count() > 1; },
                                 [&] { return std::int64_t{numbers.count()}; },
                                 [&] { return are_whole(candidate.array, mesh_.cells, numbers); },
                                 [&] { return edges_.vertices_between(numbers.of_item); },

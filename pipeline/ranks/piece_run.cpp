@@ -13,6 +13,7 @@
 #include <sys/resource.h>
 
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/release.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
@@ -403,9 +404,9 @@ class PieceRun {
   }
 
   void hash(const SmoothingResult& smoothing) {
-    std::vector<std::array<double, 3>> places = places_of(files_, mesh_);
-    result_.coordinates_hash = result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
+    result_.coordinates_hash = result_.unguarded_hash = hash_over_ranks(mesh_.ids, places_of(files_, mesh_), *ranks_);
     if (smoothing.reverted_vertices > 0) {
+      std::vector<std::array<double, 3>> places = places_of(files_, mesh_);
       for (const auto& [vertex, position] : smoothing.reverted) {
         auto& [x, y, z] = places[static_cast<std::size_t>(vertex)];
         const Point2<double> to{rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)};
@@ -414,7 +415,7 @@ class PieceRun {
           y = to.y;
         }
       }
-      result_.unguarded_hash = hash_over_ranks(mesh_.ids, places, *ranks_);
+      result_.unguarded_hash = hash_over_ranks(mesh_.ids, std::move(places), *ranks_);
     }
   }
 
@@ -436,9 +437,11 @@ class PieceRun {
   }
 
   void check_after() {
-    const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
+    std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
+    release(points_);
     const LocalFrame frame = topology_->frame_of(points, held_);
     const BulkVector<Point2<double>> local = entered(frame, points).points;
+    release(points);
     result_.after = quality_at(local, frame);
     result_.regions_after = quality_->regions(local);
     result_.size_change = quality_->size_change(local_, frame_, local, frame, workers_.count());

@@ -12,6 +12,7 @@
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
+#include "trismooth/base/release.h"
 #include "trismooth/pipeline/ranks/row_exchange.h"
 
 namespace trismooth {
@@ -24,8 +25,7 @@ struct PlacedVertex {
 };
 
 /// The vertices by blocks of ids, a block a rank.
-std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids,
-                                           std::span<const std::array<double, 3>> places,
+std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids, std::vector<std::array<double, 3>> places,
                                            const mpi::Communicator& ranks) {
   std::int64_t last = ids.empty() ? 0 : *std::ranges::max_element(ids);
   MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
@@ -42,6 +42,7 @@ std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids,
   for (std::size_t v = 0; v < ids.size(); ++v) {
     sent[static_cast<std::size_t>(ids[v] / block)].push_back({ids[v], places[v]});
   }
+  release(places);
   std::vector<PlacedVertex> all = concatenated(ranks.exchanged(std::move(sent)));
   if (!std::ranges::is_sorted(all, {}, &PlacedVertex::id)) {
     std::ranges::sort(all, {}, &PlacedVertex::id);
@@ -54,11 +55,11 @@ std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids,
 
 }  // namespace
 
-std::uint64_t hash_over_ranks(std::span<const std::int64_t> ids, std::span<const std::array<double, 3>> places,
+std::uint64_t hash_over_ranks(std::span<const std::int64_t> ids, std::vector<std::array<double, 3>> places,
                               const mpi::Communicator& ranks) {
   constexpr int tag = 7312;
   static_assert(std::endian::native == std::endian::little, "the hash is of little-endian numbers");
-  const std::vector<PlacedVertex> vertices = by_blocks_of_ids(ids, places, ranks);
+  const std::vector<PlacedVertex> vertices = by_blocks_of_ids(ids, std::move(places), ranks);
   XXH64_state_t state;
   XXH64_reset(&state, 0);
   const int last = ranks.size() - 1;

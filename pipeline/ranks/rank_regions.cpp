@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include "trismooth/base/splitmix64.h"
 #include "trismooth/mesh_io/annotation_names.h"
@@ -79,7 +80,12 @@ bool is_whole_key(std::uint64_t key, ScalarType type) {
 class RankValues {
  public:
   RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology, TriangleLinks& links)
-      : topology_(topology), ranks_(topology.ranks()), links_(links), type_(array.type) {
+      : files_(files), topology_(topology), ranks_(topology.ranks()), links_(links), type_(array.type) {
+    std::size_t count = 0;
+    for (const Piece& piece : files.pieces) {
+      count += piece.mesh.triangles.size();
+    }
+    keys_.reserve(count);
     for (const Piece& piece : files.pieces) {
       const DataArray* const values = find_array(piece.document.cell_arrays, array.name);
       if (values == nullptr) {
@@ -89,23 +95,25 @@ class RankValues {
         const auto numbers = values->as<decltype(zero)>();
         for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
           keys_.push_back(key_of(numbers[static_cast<std::size_t>(piece.mesh.cells[t])]));
-          if (!piece.is_ghost(t)) {
-            distinct_.push_back(keys_.back());
-          }
         }
       });
     }
-    std::ranges::sort(distinct_);
-    distinct_.erase(std::unique(distinct_.begin(), distinct_.end()), distinct_.end());
   }
 
   const std::vector<std::uint64_t>& keys() const { return keys_; }
   ScalarType type() const { return type_; }
 
+  bool differ() const {
+    std::array<std::uint64_t, 2> ends{not_a_number, not_a_number};  // the lowest, and what the highest lacks of it
+    for_own([&](std::uint64_t key) { ends = {std::min(ends[0], key), std::min(ends[1], not_a_number - key)}; });
+    MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_UINT64_T, MPI_MIN, ranks_.handle());
+    return ends[0] < not_a_number - ends[1];
+  }
+
   std::int64_t count() {
     if (!count_) {
       auto sent = mpi::lists_by_rank<std::uint64_t>(ranks_);
-      for (const std::uint64_t key : distinct_) {
+      for (const std::uint64_t key : distinct()) {
         sent[static_cast<std::size_t>(splitmix64(key) % static_cast<std::uint64_t>(ranks_.size()))].push_back(key);
       }
       std::vector<std::uint64_t> here;
@@ -118,8 +126,8 @@ class RankValues {
     return *count_;
   }
 
-  bool are_whole() const {
-    return !ranks_.any(!std::ranges::all_of(distinct_, [&](std::uint64_t key) { return is_whole_key(key, type_); }));
+  bool are_whole() {
+    return !ranks_.any(!std::ranges::all_of(distinct(), [&](std::uint64_t key) { return is_whole_key(key, type_); }));
   }
 
   std::int64_t vertices_between() {
@@ -161,6 +169,29 @@ class RankValues {
   }
 
  private:
+  /// visit(key) for triangles that are no copies.
+  template <class Visit>
+  void for_own(const Visit& visit) const {
+    std::size_t t = 0;
+    for (const Piece& piece : files_.pieces) {
+      for (std::size_t i = 0; i < piece.mesh.triangles.size(); ++i, ++t) {
+        if (!piece.is_ghost(i)) {
+          visit(keys_[t]);
+        }
+      }
+    }
+  }
+
+  const std::vector<std::uint64_t>& distinct() {
+    if (!distinct_) {
+      distinct_.emplace();
+      for_own([&](std::uint64_t key) { distinct_->push_back(key); });
+      std::ranges::sort(*distinct_);
+      distinct_->erase(std::unique(distinct_->begin(), distinct_->end()), distinct_->end());
+    }
+    return *distinct_;
+  }
+
   const std::vector<std::uint64_t>& at_overlap() {
     if (!at_overlap_) {
       at_overlap_ = links_.of_overlap<std::uint64_t>(keys_);
@@ -168,12 +199,13 @@ class RankValues {
     return *at_overlap_;
   }
 
+  const PieceFiles& files_;
   const RankTopology& topology_;
   const mpi::Communicator& ranks_;
   TriangleLinks& links_;
   ScalarType type_;
   std::vector<std::uint64_t> keys_;                       ///< of the triangles of the rank's mesh
-  std::vector<std::uint64_t> distinct_;                   ///< those of triangles that are no copies, ascending
+  std::optional<std::vector<std::uint64_t>> distinct_;    ///< those of triangles that are no copies, ascending
   std::optional<std::vector<std::uint64_t>> at_overlap_;  ///< of the triangles of the overlap, where it was asked for
   std::optional<std::int64_t> count_;
   std::optional<std::int64_t> between_;
@@ -251,13 +283,14 @@ class RankRegionFinder {
 
   void judge(const PieceArray& array, const PieceArray*& constant) {
     if (array.components != 1) {
-      judge_regions({array.name, array.components, topology_.triangle_count(), {}, {}, {}, {}}, regions_.notes);
+      judge_regions({array.name, array.components, topology_.triangle_count(), {}, {}, {}, {}, {}}, regions_.notes);
       return;
     }
     RankValues values(files_, array, topology_, links_);
     const TriangleValues asked{array.name,
                                array.components,
                                topology_.triangle_count(),
+                               [&] { return values.differ(); },
                                [&] { return values.count(); },
                                [&] { return values.are_whole(); },
                                [&] { return values.vertices_between(); },

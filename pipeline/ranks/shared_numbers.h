@@ -14,8 +14,14 @@ class SharedNumbers {
  public:
   /// None.
   SharedNumbers() = default;
-  SharedNumbers(std::vector<std::int64_t> numbers)  // NOLINT(google-explicit-constructor)
-      : owner_(std::make_shared<const std::vector<std::int64_t>>(std::move(numbers))), numbers_(*owner_) {}
+  SharedNumbers(std::vector<std::int64_t> numbers) {  // NOLINT(google-explicit-constructor)
+    auto owner = std::make_shared<const std::vector<std::int64_t>>(std::move(numbers));
+    numbers_ = *owner;
+    owner_ = std::move(owner);
+  }
+  /// `owner` keeps them alive.
+  SharedNumbers(std::span<const std::int64_t> numbers, std::shared_ptr<const void> owner)
+      : owner_(std::move(owner)), numbers_(numbers) {}
 
   const std::int64_t* begin() const { return numbers_.data(); }
   const std::int64_t* end() const { return numbers_.data() + numbers_.size(); }
@@ -26,7 +32,7 @@ class SharedNumbers {
   std::shared_ptr<const void> owner() const { return owner_; }
 
  private:
-  std::shared_ptr<const std::vector<std::int64_t>> owner_;
+  std::shared_ptr<const void> owner_;
   std::span<const std::int64_t> numbers_;
 };
 

@@ -4,34 +4,56 @@
 
 namespace trismooth {
 
+namespace {
+
+/// Ids by the blocks of numbers that they are in. `for_each(visit)` visits them all, as often as it is called.
+template <class ForEach>
+mpi::ByRank<std::int64_t> by_blocks(const ForEach& for_each, std::int64_t block, const mpi::Communicator& ranks) {
+  std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
+  for_each([&](std::int64_t id) { ++counts[static_cast<std::size_t>(id / block)]; });
+  auto lists = mpi::lists_by_rank<std::int64_t>(ranks);
+  for (std::size_t r = 0; r < lists.size(); ++r) {
+    lists[r].reserve(counts[r]);
+  }
+  for_each([&](std::int64_t id) { lists[static_cast<std::size_t>(id / block)].push_back(id); });
+  return lists;
+}
+
+}  // namespace
+
 std::vector<std::int32_t> TriangleLinks::holders() const {
   // Numbers are shared out in blocks among ranks that keep a list of who has them.
   const std::int64_t block = topology_.triangle_count() / ranks_.size() + 1;
-  auto sent = mpi::lists_by_rank<std::int64_t>(ranks_);
-  for (std::size_t i = 0; i < topology_.own_triangles(); ++i) {
-    const std::int64_t id = topology_.own_id(i);
-    sent[static_cast<std::size_t>(id / block)].push_back(id);
-  }
+  const auto for_own_ids = [&](const auto& visit) {
+    for (std::size_t i = 0; i < topology_.own_triangles(); ++i) {
+      visit(topology_.own_id(i));
+    }
+  };
   const std::int64_t first = block * ranks_.rank();
   std::vector<std::int32_t> holders(static_cast<std::size_t>(block), 0);
-  const mpi::ByRank<std::int64_t> heard = ranks_.exchanged(std::move(sent));
-  for (std::size_t r = 0; r < heard.size(); ++r) {
-    for (const std::int64_t id : heard[r]) {
-      holders[static_cast<std::size_t>(id - first)] = static_cast<std::int32_t>(r);
+  {
+    const mpi::ByRank<std::int64_t> heard = ranks_.exchanged(by_blocks(for_own_ids, block, ranks_));
+    for (std::size_t r = 0; r < heard.size(); ++r) {
+      for (const std::int64_t id : heard[r]) {
+        holders[static_cast<std::size_t>(id - first)] = static_cast<std::int32_t>(r);
+      }
     }
   }
   const mpi::AscendingIds& ids = topology_.overlap().triangle_ids;
-  auto asked = mpi::lists_by_rank<std::int64_t>(ranks_);
-  for (const std::int64_t id : ids) {
-    asked[static_cast<std::size_t>(id / block)].push_back(id);
-  }
+  const auto for_ids = [&](const auto& visit) {
+    for (const std::int64_t id : ids) {
+      visit(id);
+    }
+  };
   auto answers = mpi::lists_by_rank<std::int32_t>(ranks_);
-  const mpi::ByRank<std::int64_t> wanted = ranks_.exchanged(std::move(asked));
+  mpi::ByRank<std::int64_t> wanted = ranks_.exchanged(by_blocks(for_ids, block, ranks_));
   for (std::size_t r = 0; r < wanted.size(); ++r) {
+    answers[r].reserve(wanted[r].size());
     for (const std::int64_t id : wanted[r]) {
       answers[r].push_back(holders[static_cast<std::size_t>(id - first)]);
     }
   }
+  wanted.clear();
   const mpi::ByRank<std::int32_t> told = ranks_.exchanged(std::move(answers));
   std::vector<std::size_t> next(told.size(), 0);
   std::vector<std::int32_t> found;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -42,11 +43,13 @@ const DataArray* find_global_ids(const MeshDocument& document) {
   return nullptr;
 }
 
-std::vector<std::int64_t> numbers_of(const DataArray& array, const std::filesystem::path& path) {
+/// Of an array of 64 bits the numbers are its own.
+SharedNumbers numbers_of(const DataArray& array, const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     throw ReadError(path, "the array of global ids '" + array.name + "' " + what);
   };
-  std::vector<std::int64_t> ids(array.rows());
+  const bool are_own = array.type == ScalarType::int64;
+  std::vector<std::int64_t> ids(are_own ? 0 : array.rows());
   visit_scalar_type(array.type, [&](auto zero) {
     using Number = decltype(zero);
     if constexpr (std::is_floating_point_v<Number>) {
@@ -56,20 +59,26 @@ std::vector<std::int64_t> numbers_of(const DataArray& array, const std::filesyst
         refuse("has " + std::to_string(array.components) + " components; one is expected");
       }
       const auto values = array.as<Number>();
-      for (std::size_t i = 0; i < ids.size(); ++i) {
+      for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::in_range<std::int64_t>(values[i]) || values[i] < 0) {
           refuse("gives point " + std::to_string(i) + " the number " + std::to_string(values[i]) +
                  "; numbers are from 0 to 2^63 - 1");
+        }
+        if (are_own) {
+          continue;
         }
         // It is not negative.
         ids[i] = static_cast<std::int64_t>(static_cast<std::make_unsigned_t<Number>>(values[i]));
       }
     }
   });
-  return ids;
+  return are_own ? SharedNumbers(array.as<std::int64_t>(), array.owner) : SharedNumbers(std::move(ids));
 }
 
 void require_once(std::span<const std::int64_t> ids, const DataArray& array, const std::filesystem::path& path) {
+  if (std::ranges::adjacent_find(ids, std::greater_equal<>()) == ids.end()) {
+    return;
+  }
   std::vector<std::int32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0);
   const auto id_of = [&](std::int32_t point) { return ids[static_cast<std::size_t>(point)]; };
