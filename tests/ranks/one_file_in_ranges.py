@@ -113,6 +113,17 @@ class OneFileInRanges(ranks_tool.RanksTest):
                              "region": [7 if points[cell[0]][1] < 0.5 else -1 for cell in cells]}
         return mixed
 
+    def test_a_larger_mesh(self):
+        """Corners of triangles travel to those who report on them in several rounds."""
+        mesh = self.random_mesh(80000)
+        raw_vtu.write(self.path("large.vtu"), mesh, raw_vtu.Form())
+        for options in ([], ["--precision", "single", "--form", "a"]):
+            options = ["--max-sweeps", "3", *options]
+            whole = self.report("smooth", "large.vtu", "serial.vtu", *options)
+            for ranks in (1, 2):
+                with self.subTest(options=options, ranks=ranks):
+                    self.assert_by_ranges(self.check("large.vtu", ranks, *options, whole=whole))
+
     def test_off_of_any_looks(self):
         mesh = self.mixed()
         for number, looks in enumerate([{}, {"end": "\r\n"}, {"end": "\r"}, {"comments": True},
@@ -388,6 +399,10 @@ class OneFileInRanges(ranks_tool.RanksTest):
         for options in (["--slide", "straight"], ["--annotate"]):
             outcome = self.run_over(2, "smooth", "mixed.off", "out.pvtu", *options, expect=2)
             self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
+        # What the program adds is no array of the file.
+        outcome = self.run_over(2, "smooth", "mixed.off", "out.pvtu", "--region-array", "GlobalCellIds", expect=2)
+        self.assertIn("'GlobalCellIds'", self.errors_of(outcome)[0])
+        self.assertTrue(self.errors_of(outcome)[0].endswith("none"), outcome)
 
     def test_output_over_input(self):
         self.write_off("mixed.off", self.mixed())
