@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/release.h"
 #include "trismooth/base/stopwatch.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
@@ -243,14 +245,17 @@ class PieceRun {
     std::int64_t first_repeating = std::numeric_limits<std::int64_t>::max();
     for (const Piece& piece : files_.pieces) {
       const OwnCells of_piece = count_own_cells(piece);
-      if (of_piece.first_repeating >= 0 && !piece.cell_ids.empty()) {
-        first_repeating = std::min(first_repeating, piece.cell_ids[static_cast<std::size_t>(of_piece.first_repeating)]);
+      if (of_piece.first_repeating >= 0) {
+        first_repeating = std::min(first_repeating, own_cell(piece, of_piece.first_repeating, cells.cells));
       }
       cells.others += of_piece.others;
       cells.repeating += of_piece.repeating;
       cells.cells += of_piece.cells;
     }
     first_cell_ = ranks_->sum_before(cells.cells);
+    if (first_repeating < std::numeric_limits<std::int64_t>::max() && !has_cell_ids()) {
+      first_repeating += first_cell_;
+    }
     repeating_ = ranks_->sum(cells.repeating);
     MPI_Allreduce(MPI_IN_PLACE, &first_repeating, 1, MPI_INT64_T, MPI_MIN, ranks_->handle());
     const bool is_known = first_repeating < std::numeric_limits<std::int64_t>::max();
@@ -316,6 +321,19 @@ class PieceRun {
     return report;
   }
 
+  /// Whether pieces know the numbers of cells in the one file that they are of.
+  bool has_cell_ids() const {
+    return std::ranges::any_of(files_.pieces, [](const Piece& piece) { return !piece.cell_ids.empty(); });
+  }
+
+  /// The number of a piece's cell as cell_of() has it, `before` cells being before the piece's.
+  static std::int64_t own_cell(const Piece& piece, std::int64_t cell, std::int64_t before) {
+    if (!piece.cell_ids.empty()) {
+      return piece.cell_ids[static_cast<std::size_t>(cell)];
+    }
+    return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
+  }
+
   /// The number of a triangle's cell in the one file that pieces are of, or else among those of all pieces, copies left
   /// out; 0 where another rank has it.
   std::int64_t cell_of(std::int64_t triangle) const {
@@ -324,11 +342,7 @@ class PieceRun {
     for (const Piece& piece : files_.pieces) {
       const auto count = static_cast<std::int32_t>(piece.mesh.triangles.size());
       if (t >= 0 && t < count) {
-        const std::int32_t cell = piece.mesh.cells[static_cast<std::size_t>(t)];
-        if (!piece.cell_ids.empty()) {
-          return piece.cell_ids[static_cast<std::size_t>(cell)];
-        }
-        return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
+        return own_cell(piece, piece.mesh.cells[static_cast<std::size_t>(t)], before);
       }
       t -= count;
       before += std::ranges::count(piece.ghost_cells, 0);
@@ -419,7 +433,29 @@ class PieceRun {
     }
   }
 
+  void note_kept_annotations() {
+    std::vector<std::string_view> names;
+    for (const PieceArray::Of of : {PieceArray::Of::cells, PieceArray::Of::points}) {
+      for (const PieceArray& array : files_.arrays) {
+        if (array.of == of && is_annotation(array.name)) {
+          names.push_back(array.name);
+        }
+      }
+    }
+    if (!names.empty()) {
+      note(note_of_kept_annotations(names));
+    }
+  }
+
   void write() {
+    bool has_arrays_in_output = true;
+    agree(*ranks_, [&] {
+      has_arrays_in_output =
+          !options_.single || has_arrays(output_format(*options_.output, files_.file.piece_format, options_.format));
+    });
+    if (has_arrays_in_output) {
+      note_kept_annotations();
+    }
     if (!options_.single) {
       write_pieces(files_, *options_.output, *ranks_, workers_);
       return;

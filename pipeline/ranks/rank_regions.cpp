@@ -61,10 +61,14 @@ T value_of_key(std::uint64_t key) {
   }
 }
 
-std::string text_of_key(std::uint64_t key, ScalarType type) {
-  return visit_scalar_type(type, [key](auto zero) {
+std::string text_of_key(std::uint64_t key, ScalarType type, bool is_zero_negative) {
+  return visit_scalar_type(type, [&](auto zero) {
     using T = decltype(zero);
-    return value_text(make_data_array<T>("", 1, {value_of_key<T>(key)}), 0);
+    T value = value_of_key<T>(key);
+    if constexpr (std::is_floating_point_v<T>) {
+      value = value == 0 && is_zero_negative ? -value : value;
+    }
+    return value_text(make_data_array<T>("", 1, {value}), 0);
   });
 }
 
@@ -86,6 +90,7 @@ class RankValues {
       count += piece.mesh.triangles.size();
     }
     keys_.reserve(count);
+    std::size_t own = 0;  // triangles before, but for copies
     for (const Piece& piece : files.pieces) {
       const DataArray* const values = find_array(piece.document.cell_arrays, array.name);
       if (values == nullptr) {
@@ -94,7 +99,14 @@ class RankValues {
       visit_scalar_type(type_, [&](auto zero) {
         const auto numbers = values->as<decltype(zero)>();
         for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
-          keys_.push_back(key_of(numbers[static_cast<std::size_t>(piece.mesh.cells[t])]));
+          const auto value = numbers[static_cast<std::size_t>(piece.mesh.cells[t])];
+          keys_.push_back(key_of(value));
+          if constexpr (std::is_floating_point_v<decltype(zero)>) {
+            if (!first_zero_ && value == 0 && !piece.is_ghost(t)) {
+              first_zero_ = {own, std::signbit(value)};
+            }
+          }
+          own += piece.is_ghost(t) ? 0 : 1;
         }
       });
     }
@@ -102,6 +114,17 @@ class RankValues {
 
   const std::vector<std::uint64_t>& keys() const { return keys_; }
   ScalarType type() const { return type_; }
+
+  /// Whether the first triangle of the mesh that has a zero has -0: as a value it is the same, and it is called so.
+  bool is_zero_negative() const {
+    constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+    std::int64_t told = none;
+    if (first_zero_) {
+      told = 2 * topology_.own_id(first_zero_->own_triangle) + (first_zero_->is_negative ? 1 : 0);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &told, 1, MPI_INT64_T, MPI_MIN, ranks_.handle());
+    return told != none && told % 2 == 1;
+  }
 
   bool differ() const {
     std::array<std::uint64_t, 2> ends{not_a_number, not_a_number};  // the lowest, and what the highest lacks of it
@@ -204,6 +227,12 @@ class RankValues {
   const mpi::Communicator& ranks_;
   TriangleLinks& links_;
   ScalarType type_;
+  struct Zero {
+    std::size_t own_triangle;
+    bool is_negative;
+  };
+
+  std::optional<Zero> first_zero_;                        ///< of the rank's own triangles
   std::vector<std::uint64_t> keys_;                       ///< of the triangles of the rank's mesh
   std::optional<std::vector<std::uint64_t>> distinct_;    ///< those of triangles that are no copies, ascending
   std::optional<std::vector<std::uint64_t>> at_overlap_;  ///< of the triangles of the overlap, where it was asked for
@@ -310,8 +339,9 @@ class RankRegionFinder {
     const std::vector<std::int32_t> numbers = places_in(all, values.keys());
     std::vector<RegionName> texts;
     const ValueNames names = names_of_values(array.name);
+    const bool is_zero_negative = values.is_zero_negative();
     for (const std::uint64_t key : all) {
-      const std::string value = text_of_key(key, values.type());
+      const std::string value = text_of_key(key, values.type(), is_zero_negative);
       const std::string name = names.of(value);
       texts.push_back(name.empty() ? RegionName{value, value} : RegionName{name, fmt::format("{} ({})", name, value)});
     }

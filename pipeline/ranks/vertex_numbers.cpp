@@ -264,7 +264,8 @@ void number_vertices(PieceFiles& files, const mpi::Communicator& ranks) {
     }
     if (some_have) {
       for (Piece& piece : pieces) {
-        if (const DataArray* const array = find_global_ids(piece.document)) {
+        const DataArray* const array = find_global_ids(piece.document);
+        if (array != nullptr && piece.document.point_count() > 0) {
           piece.ids = numbers_of(*array, piece.path);
           require_once(piece.ids, *array, piece.path);
         }

@@ -90,6 +90,11 @@ void warn_before_smoothing(RunState& run) {
   warn_of_projection(run);
 }
 
+std::string note_of_kept_annotations(std::span<const std::string_view> names) {
+  return fmt::format("annotations of an earlier run are kept, and show that mesh: {}; --annotate makes new ones",
+                     fmt::join(names, ", "));
+}
+
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {
   const auto& untangling = smoothing.untangling;
   if (untangling && untangling->inverted_after > untangling->inverted_untangled && smoothing.reverted_vertices > 0) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace trismooth {
 
@@ -20,6 +22,9 @@ std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& option
 std::string warning_of(const CoarseBoundary& coarse);
 /// Empty where the method takes notice of all options.
 std::string warning_of_options_without_effect(const PipelineOptions& options);
+
+/// What to say where annotations of these names are in the output, made by an earlier run.
+std::string note_of_kept_annotations(std::span<const std::string_view> names);
 
 /// And after it: folds that the never-worse check put back.
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing);

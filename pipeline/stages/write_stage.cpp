@@ -5,26 +5,29 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/pipeline/stages/warnings.h"
 
 namespace trismooth {
 
 namespace {
 
 void note_old_annotations(RunState& run) {
-  std::string names;
+  std::vector<std::string_view> names;
   for (const auto& arrays : {std::span(run.document.cell_arrays), std::span(run.document.point_arrays)}) {
     for (const DataArray& array : arrays) {
       if (is_annotation(array.name)) {
-        names.append(names.empty() ? "" : ", ").append(array.name);
+        names.push_back(array.name);
       }
     }
   }
   if (!names.empty()) {
-    run.note("annotations of an earlier run are kept, and show that mesh: " + names + "; --annotate makes new ones");
+    run.note(note_of_kept_annotations(names));
   }
 }
 

@@ -1,6 +1,7 @@
 """same_as_one_file.py PROGRAM: a mesh in pieces gets the coordinates and the report of the mesh as one file."""
 
 import os
+import pathlib
 import random
 import shutil
 import subprocess
@@ -103,6 +104,45 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 with self.subTest(options=options, ranks=ranks):
                     report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", *options)
                     self.assertEqual(without_run(report), without_run(whole))
+
+    def notes_of(self, ranks, *arguments):
+        return [line for line in self.run_over(ranks, *arguments).err.splitlines() if ": note: " in line]
+
+    def test_what_is_said_of_arrays_and_cells(self):
+        """Regions called -0, annotations of an earlier run, a triangle that repeats a vertex."""
+        mesh = self.random_mesh(300)
+        middle = len(mesh.cells) // 2
+        mesh.cells[middle] = [mesh.cells[middle][0], *mesh.cells[middle][:2]]
+        upper = [mesh.points[cell[0]][1] < 0.5 for cell in mesh.cells]
+        for first, second in ((-0.0, -0.0), (-0.0, 0.0), (0.0, -0.0)):
+            zeros = [first] * middle + [second] * (len(mesh.cells) - middle)
+            mesh.cell_arrays = {"region": [zero if is_upper else 1.5 for zero, is_upper in zip(zeros, upper)],
+                                "trismooth:shape": [0.5] * len(mesh.cells)}
+            parts = pieces.cut(mesh, pieces.stripes(mesh, 3), 3, global_ids=False)
+            pieces.write_pieces(self.path("big.pvtu"), parts)
+            pieces.write_vtu(self.path("whole.vtu"), pieces.merged(parts))
+            whole = self.report("smooth", "whole.vtu", "smooth.vtu")
+            notes = self.notes_of(0, "smooth", "whole.vtu", "smooth.vtu")
+            self.assertEqual(len(notes), 2, notes)
+            for ranks in (1, 3):
+                with self.subTest(zeros=(first, second), ranks=ranks):
+                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu")
+                    self.assertEqual(without_run(report), without_run(whole))
+                    self.assertEqual(self.notes_of(ranks, "smooth", "big.pvtu", "out.pvtu"), notes)
+
+    def test_an_empty_piece_has_any_array_of_ids(self):
+        mesh = self.random_mesh(300)
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 2), 3)
+        pieces.write_pieces(self.path("big.pvtu"), parts)
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        whole = self.report("smooth", "whole.vtu", "smooth.vtu")
+        empty = pathlib.Path(self.path("big_2.vtu"))
+        text = empty.read_text()
+        changed = text.replace('type="Int64" Name="GlobalNodeIds"', 'type="Float32" Name="GlobalNodeIds"')
+        self.assertNotEqual(changed, text)
+        empty.write_text(changed)
+        report = self.report_over(2, "smooth", "big.pvtu", "out.pvtu")
+        self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
 
     def test_quality(self):
         mesh = self.random_mesh(500)
