@@ -1,5 +1,7 @@
 #include "trismooth/pipeline/ranks/piece.h"
 
+#include <algorithm>
+
 #include "trismooth/base/cell_list.h"
 
 namespace trismooth {
@@ -26,6 +28,13 @@ OwnCells count_own_cells(const Piece& piece) {
     }
   }
   return count;
+}
+
+std::int64_t number_of_cell(const Piece& piece, std::int64_t cell, std::int64_t before) {
+  if (!piece.cell_ids.empty()) {
+    return piece.cell_ids[static_cast<std::size_t>(cell)];
+  }
+  return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
 }
 
 bool holds_something(const Piece& piece) {

@@ -43,6 +43,10 @@ struct OwnCells {
 /// Counts them. Complexity: linear.
 OwnCells count_own_cells(const Piece& piece);
 
+/// The number of a cell of the piece in the one file that pieces are of, or else among those of all pieces, copies left
+/// out, where `before` come before the piece's. Complexity: linear in the cells before it.
+std::int64_t number_of_cell(const Piece& piece, std::int64_t cell, std::int64_t before);
+
 /// Whether it has any points or cells.
 bool holds_something(const Piece& piece);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -36,6 +37,10 @@ struct PieceFiles {
   std::vector<PieceArray> arrays;  ///< in the order of the first piece that holds anything; known to all ranks
   std::deque<Piece> pieces;
 
+  /// Whether pieces know the numbers of cells in the one file that they are of.
+  bool know_cell_ids() const {
+    return std::ranges::any_of(pieces, [](const Piece& piece) { return !piece.cell_ids.empty(); });
+  }
   std::filesystem::path path_of(std::size_t piece) const { return piece_path(path, file.pieces[piece].source); }
 };
 

@@ -246,14 +246,14 @@ class PieceRun {
     for (const Piece& piece : files_.pieces) {
       const OwnCells of_piece = count_own_cells(piece);
       if (of_piece.first_repeating >= 0) {
-        first_repeating = std::min(first_repeating, own_cell(piece, of_piece.first_repeating, cells.cells));
+        first_repeating = std::min(first_repeating, number_of_cell(piece, of_piece.first_repeating, cells.cells));
       }
       cells.others += of_piece.others;
       cells.repeating += of_piece.repeating;
       cells.cells += of_piece.cells;
     }
     first_cell_ = ranks_->sum_before(cells.cells);
-    if (first_repeating < std::numeric_limits<std::int64_t>::max() && !has_cell_ids()) {
+    if (first_repeating < std::numeric_limits<std::int64_t>::max() && !files_.know_cell_ids()) {
       first_repeating += first_cell_;
     }
     repeating_ = ranks_->sum(cells.repeating);
@@ -321,28 +321,14 @@ class PieceRun {
     return report;
   }
 
-  /// Whether pieces know the numbers of cells in the one file that they are of.
-  bool has_cell_ids() const {
-    return std::ranges::any_of(files_.pieces, [](const Piece& piece) { return !piece.cell_ids.empty(); });
-  }
-
-  /// The number of a piece's cell as cell_of() has it, `before` cells being before the piece's.
-  static std::int64_t own_cell(const Piece& piece, std::int64_t cell, std::int64_t before) {
-    if (!piece.cell_ids.empty()) {
-      return piece.cell_ids[static_cast<std::size_t>(cell)];
-    }
-    return before + std::count(piece.ghost_cells.begin(), piece.ghost_cells.begin() + cell, 0);
-  }
-
-  /// The number of a triangle's cell in the one file that pieces are of, or else among those of all pieces, copies left
-  /// out; 0 where another rank has it.
+  /// The number_of_cell() of a triangle; 0 where another rank has it.
   std::int64_t cell_of(std::int64_t triangle) const {
     auto t = topology_->local_triangle(triangle);
     std::int64_t before = first_cell_;
     for (const Piece& piece : files_.pieces) {
       const auto count = static_cast<std::int32_t>(piece.mesh.triangles.size());
       if (t >= 0 && t < count) {
-        return own_cell(piece, piece.mesh.cells[static_cast<std::size_t>(t)], before);
+        return number_of_cell(piece, piece.mesh.cells[static_cast<std::size_t>(t)], before);
       }
       t -= count;
       before += std::ranges::count(piece.ghost_cells, 0);
@@ -423,11 +409,7 @@ class PieceRun {
       std::vector<std::array<double, 3>> places = places_of(files_, mesh_);
       for (const auto& [vertex, position] : smoothing.reverted) {
         auto& [x, y, z] = places[static_cast<std::size_t>(vertex)];
-        const Point2<double> to{rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)};
-        if (!(to == Point2<double>{x, y})) {
-          x = to.x;
-          y = to.y;
-        }
+        move_point(x, y, {rounded_to(mesh_.storage, position.x), rounded_to(mesh_.storage, position.y)});
       }
       result_.unguarded_hash = hash_over_ranks(mesh_.ids, std::move(places), *ranks_);
     }
@@ -448,15 +430,8 @@ class PieceRun {
   }
 
   void write() {
-    bool has_arrays_in_output = true;
-    agree(*ranks_, [&] {
-      has_arrays_in_output =
-          !options_.single || has_arrays(output_format(*options_.output, files_.file.piece_format, options_.format));
-    });
-    if (has_arrays_in_output) {
-      note_kept_annotations();
-    }
     if (!options_.single) {
+      note_kept_annotations();
       write_pieces(files_, *options_.output, *ranks_, workers_);
       return;
     }
@@ -465,6 +440,9 @@ class PieceRun {
     agree(*ranks_, [&] {
       if (ranks_->rank() == 0) {
         const FileFormat target = output_format(*options_.output, whole.document.format, options_.format);
+        if (has_arrays(target)) {
+          note_kept_annotations();
+        }
         std::ranges::move(what_is_lost(whole.document, target), std::inserter(losses, losses.end()));
         write_mesh(*options_.output, whole.document, AddedArrays{}, FileOptions{workers_.count(), options_.format});
       }

@@ -102,12 +102,6 @@ RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& m
   if (fixed_ids) {
     hold_by_numbers(*fixed_ids, mesh, ranks, constraints);
   }
-  constraints.fixed = constraints.named;
-  for (const Piece& piece : files.pieces) {
-    for (std::size_t i = 0; i < piece.implied_by.size(); ++i) {
-      constraints.fixed[static_cast<std::size_t>(piece.vertices[i])] |= piece.implied_by[i];
-    }
-  }
   return constraints;
 }
 

@@ -17,7 +17,6 @@ struct RankConstraints {
   std::string fixed_array;             ///< the point array that was obeyed, or empty
   std::vector<std::uint8_t> by_array;  ///< one flag a vertex of the rank's mesh
   std::vector<std::uint8_t> named;     ///< by_array, by a set of the file, or in the file of numbers
-  std::vector<std::uint8_t> fixed;     ///< named, or in an implied set of the file; all of these are held
   std::int64_t listed = 0;             ///< different numbers in that file
 };
 

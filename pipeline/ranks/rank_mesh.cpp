@@ -187,16 +187,18 @@ std::vector<Point2<double>> points_of(const PieceFiles& files, const RankMesh& m
   return points;
 }
 
+void move_point(double& x, double& y, Point2<double> to) {
+  if (!(to == Point2<double>{x, y})) {
+    x = to.x;
+    y = to.y;
+  }
+}
+
 void move_points(PieceFiles& files, std::span<const Point2<double>> points) {
   for (Piece& piece : files.pieces) {
     for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      double& x = piece.document.points[3 * i];
-      double& y = piece.document.points[3 * i + 1];
-      const Point2<double> moved = points[static_cast<std::size_t>(piece.vertices[i])];
-      if (!(moved == Point2<double>{x, y})) {
-        x = moved.x;
-        y = moved.y;
-      }
+      move_point(piece.document.points[3 * i], piece.document.points[3 * i + 1],
+                 points[static_cast<std::size_t>(piece.vertices[i])]);
     }
   }
 }

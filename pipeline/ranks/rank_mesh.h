@@ -52,7 +52,10 @@ std::vector<std::array<double, 3>> places_of(const PieceFiles& files, const Rank
 /// x and y of these.
 std::vector<Point2<double>> points_of(const PieceFiles& files, const RankMesh& mesh);
 
-/// Gives the points of pieces the coordinates that changed.
+/// Gives a point the coordinates that changed: equal ones stay as they are stored.
+void move_point(double& x, double& y, Point2<double> to);
+
+/// The same for all points of pieces.
 void move_points(PieceFiles& files, std::span<const Point2<double>> points);
 
 }  // namespace trismooth

@@ -346,7 +346,7 @@ class RankRegionFinder {
       texts.push_back(name.empty() ? RegionName{value, value} : RegionName{name, fmt::format("{} ({})", name, value)});
     }
     if (is_first) {
-      regions_.of_mesh = numbers;
+      of_mesh_ = numbers;
       names_ = std::move(texts);
       return;
     }
@@ -354,10 +354,10 @@ class RankRegionFinder {
     const auto width = static_cast<std::uint64_t>(std::max<std::size_t>(all.size(), 1));
     std::vector<std::uint64_t> pairs(numbers.size());
     for (std::size_t t = 0; t < pairs.size(); ++t) {
-      pairs[t] = static_cast<std::uint64_t>(regions_.of_mesh[t]) * width + static_cast<std::uint64_t>(numbers[t]);
+      pairs[t] = static_cast<std::uint64_t>(of_mesh_[t]) * width + static_cast<std::uint64_t>(numbers[t]);
     }
     const std::vector<std::uint64_t> all_pairs = values_of_all(pairs);
-    regions_.of_mesh = places_in(all_pairs, pairs);
+    of_mesh_ = places_in(all_pairs, pairs);
     std::vector<RegionName> pair_names;
     for (const std::uint64_t pair : all_pairs) {
       const RegionName& first = names_[pair / width];
@@ -386,7 +386,7 @@ class RankRegionFinder {
       regions_.names.push_back(uses[name.plain] > 1 ? std::move(name.with_value) : name.plain);
     }
     if (!regions_.arrays.empty()) {
-      regions_.of_overlap = links_.of_overlap<std::int32_t>(regions_.of_mesh);
+      regions_.of_overlap = links_.of_overlap<std::int32_t>(of_mesh_);
     }
     return std::move(regions_);
   }
@@ -434,6 +434,7 @@ class RankRegionFinder {
   TriangleLinks links_;
   std::vector<const PieceArray*> candidates_;
   RankRegions regions_;
+  std::vector<std::int32_t> of_mesh_;  ///< the region of each triangle of the RankMesh
   std::vector<RegionName> names_;
 };
 

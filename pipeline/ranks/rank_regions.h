@@ -14,8 +14,7 @@ namespace trismooth {
 /// The regions of a mesh in pieces. They are numbered by values, so all ranks mean the same by a number.
 struct RankRegions {
   std::vector<RegionArray> arrays;       ///< the cell arrays that were obeyed, in the files' order
-  std::vector<std::int32_t> of_mesh;     ///< one for each triangle of the RankMesh; empty where no array was obeyed
-  std::vector<std::int32_t> of_overlap;  ///< one for each triangle of the overlap, likewise
+  std::vector<std::int32_t> of_overlap;  ///< one for each triangle of the overlap; empty where no array was obeyed
   std::vector<std::string> names;        ///< of each region, as Regions::names
   std::vector<std::string> notes;
 };
