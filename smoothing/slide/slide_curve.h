@@ -64,7 +64,7 @@ class ChainCurve {
 
   /// Where a place is on a copy. On the polyline a coordinate that is the same at both ends of the segment keeps its
   /// bits, and a place at a knot has those of the knot.
-  TRISMOOTH_HOST_DEVICE Point2<double> position(const SlidePlace& place, std::int32_t copy) const {
+  TRISMOOTH_HOST_DEVICE_CALL Point2<double> position(const SlidePlace& place, std::int32_t copy) const {
     const Point2<double> straight = on_polyline(place, copy);
     if (view_.curve == SlideCurve::polyline) {
       return straight;
@@ -130,7 +130,7 @@ class ChainCurve {
 
   /// The spline's derivative at a knot: that of the parabola through it and its neighbours (at an end through the next
   /// two), which is the slope of both segments where that is the same.
-  TRISMOOTH_HOST_DEVICE Point2<double> slope(std::int32_t i, std::int32_t copy) const {
+  TRISMOOTH_HOST_DEVICE_CALL Point2<double> slope(std::int32_t i, std::int32_t copy) const {
     const bool is_begin = !chain_.is_closed && i == 0;
     const bool is_end = !chain_.is_closed && i == chain_.count - 1;
     if ((is_begin || is_end) && chain_.count == 2) {

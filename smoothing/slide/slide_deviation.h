@@ -64,8 +64,9 @@ TRISMOOTH_HOST_DEVICE void for_deviations(const ChainCurve& curve, std::int32_t 
 }
 
 /// The largest share of what the chain's limits allow that an edge takes: see for_deviations().
-inline TRISMOOTH_HOST_DEVICE double deviation_share(const ChainCurve& curve, std::int32_t copy, const SlidePlace& first,
-                                                    Point2<double> start, const SlidePlace& last, Point2<double> end) {
+inline TRISMOOTH_HOST_DEVICE_CALL double deviation_share(const ChainCurve& curve, std::int32_t copy,
+                                                         const SlidePlace& first, Point2<double> start,
+                                                         const SlidePlace& last, Point2<double> end) {
   LargestShare largest;
   for_deviations(curve, copy, first, start, last, end,
                  [&](double distance, std::int32_t i, std::int32_t j) { largest.add(distance, curve.limit(i, j)); });

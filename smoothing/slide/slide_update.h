@@ -102,7 +102,7 @@ class SlidingVertex {
   /// The place at `arc`, or if it may not be there the one half as far away, and so on; its own where that becomes
   /// next to nothing. A step that is short to begin with is not worth it, or lines would creep for hundreds of sweeps
   /// (found by experiment: docs/sliding.md).
-  TRISMOOTH_HOST_DEVICE SlidePlace as_far_as_it_may(double arc) const {
+  TRISMOOTH_HOST_DEVICE_CALL SlidePlace as_far_as_it_may(double arc) const {
     const double gap = after_.arc - before_.arc;
     double step = arc - own_.arc;
     if (!(std::abs(step) > 0x1p-6 * gap)) {
