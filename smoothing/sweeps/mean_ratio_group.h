@@ -135,11 +135,12 @@ class MeanRatioGroup {
   Sides sides_;
 };
 
-/// All of that, a function for each of the methods. Everything in it is inlined, by force.
+/// All of that, a function for each of the methods. Everything in it is inlined, by force; and it is its source's own,
+/// whose instructions others may not have.
 template <class T, bool shaped, bool is_last, int bytes>
-[[gnu::flatten]] void find_in_lanes(const MeanRatio<T, shaped, is_last>& method, const RingView& rings,
-                                    const Point2<T>* points, std::span<const std::int32_t> vertices, int count,
-                                    int ring_size, LaneMoves<T>& found) {
+[[gnu::flatten]] static void find_in_lanes(const MeanRatio<T, shaped, is_last>& method, const RingView& rings,
+                                           const Point2<T>* points, std::span<const std::int32_t> vertices, int count,
+                                           int ring_size, LaneMoves<T>& found) {
   MeanRatioGroup<T, shaped, is_last, bytes>(method, rings, points, ring_size).find(vertices, count, found);
 }
 

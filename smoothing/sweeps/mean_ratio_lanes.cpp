@@ -6,12 +6,13 @@ namespace trismooth {
 
 template <class T, bool shaped, bool is_last>
 MeanRatioLanes<T, shaped, is_last> mean_ratio_lanes([[maybe_unused]] InstructionSet instructions) {
+  MeanRatioLanes<T, shaped, is_last> find = &find_in_lanes<T, shaped, is_last, 16>;
 #if defined(TRISMOOTH_HAS_AVX2_SOURCES)
   if (instructions == InstructionSet::avx2) {
-    return mean_ratio_lanes_avx2<T, shaped, is_last>();
+    mean_ratio_lanes_avx2(find);
   }
 #endif
-  return &find_in_lanes<T, shaped, is_last, 16>;
+  return find;
 }
 
 #define FIND_IN_LANES(T)                                                                      \

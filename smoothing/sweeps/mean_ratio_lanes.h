@@ -24,9 +24,15 @@ using MeanRatioLanes = void (*)(const MeanRatio<T, shaped, is_last>& method, con
 template <class T, bool shaped, bool is_last>
 MeanRatioLanes<T, shaped, is_last> mean_ratio_lanes(InstructionSet instructions);
 
-/// Those of AVX2, where TRISMOOTH_HAS_AVX2_SOURCES is defined.
-template <class T, bool shaped, bool is_last>
-MeanRatioLanes<T, shaped, is_last> mean_ratio_lanes_avx2();
+/// Those of AVX2, where TRISMOOTH_HAS_AVX2_SOURCES is defined. (Functions of a template would be weak.)
+void mean_ratio_lanes_avx2(MeanRatioLanes<float, false, false>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<float, false, true>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<float, true, false>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<float, true, true>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<double, false, false>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<double, false, true>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<double, true, false>& find);
+void mean_ratio_lanes_avx2(MeanRatioLanes<double, true, true>& find);
 
 template <class T, bool shaped, bool is_last>
 class SideBySide<T, MeanRatio<T, shaped, is_last>> {
