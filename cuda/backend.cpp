@@ -225,7 +225,7 @@ class CudaBackend final : public Backend {
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
     require_device();
-    return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution));
+    return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution), options.layers);
   }
 
   std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,

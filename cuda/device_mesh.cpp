@@ -61,7 +61,9 @@ class Plan::Implementation {
         context_(stream),
         topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
                   neighbour_search(options.execution)),
-        slidable_(find_meanwhile(topology_, mesh.constraints)),
+        slide_(mesh.constraints.slide),
+        near_(slide_.along == Slide::off ? NearLines{} : topology_.near_lines(mesh.constraints.regions)),
+        slidable_(find_meanwhile(near_, slide_)),
         extent_(context_) {}
 
   SmoothingResult smooth(double* xy, Storage storage) {
@@ -87,14 +89,11 @@ class Plan::Implementation {
 
  private:
   /// The device has other work while the host looks for what may slide.
-  static std::shared_future<Slidable> find_meanwhile(const DeviceTopology& topology,
-                                                     const DeviceConstraints& constraints) {
-    if (constraints.slide.along == Slide::off) {
+  static std::shared_future<Slidable> find_meanwhile(const NearLines& near, const Sliding& slide) {
+    if (slide.along == Slide::off) {
       return std::async(std::launch::deferred, [] { return Slidable{}; });
     }
-    return std::async([near = topology.near_lines(constraints.regions), slide = constraints.slide] {
-      return find_slidable(near, slide);
-    });
+    return std::async([&near, &slide] { return find_slidable(near, slide); });
   }
   const Slidable& slidable() const { return slidable_.get(); }
 
@@ -120,6 +119,7 @@ class Plan::Implementation {
     if (options_.untangles() && !goes_to_host) {
       result.untangling = fixed_quotient > 0 && options_.guard ? UntanglingResult{} : not_tangled(stored);
     }
+    result.layers = layers_;
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
@@ -163,6 +163,9 @@ class Plan::Implementation {
     if (const std::int32_t vertex = extent_.extent().first_not_finite; vertex >= 0) {
       throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
     }
+    if (!std::exchange(has_found_layers_, true)) {
+      find_layers(local.data());
+    }
     if (options_.measures_shape() || options_.untangles()) {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
@@ -172,6 +175,16 @@ class Plan::Implementation {
         smoother_->slide_on(slidable(), reversed_of_slidable());
       }
       context_.synchronize();
+    }
+  }
+
+  void find_layers(const Point2<double>* local) {
+    std::vector<std::int32_t> held;
+    layers_ = topology_.hold_layers(local, options_.layers, held);
+    if (!held.empty() && slide_.along != Slide::off) {
+      slidable_.wait();
+      hold_otherwise(near_, held);
+      slidable_ = find_meanwhile(near_, slide_);
     }
   }
 
@@ -186,7 +199,11 @@ class Plan::Implementation {
   SmoothingOptions options_;
   Context context_;
   DeviceTopology topology_;
+  Sliding slide_;   ///< it names no vertices
+  NearLines near_;  ///< what it takes to find what may slide
   std::shared_future<Slidable> slidable_;
+  LayersResult layers_;
+  bool has_found_layers_ = false;
   ExtentFinder extent_;
   std::unique_ptr<DeviceSmoother> smoother_;
 };

@@ -9,6 +9,7 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/release.h"
 #include "trismooth/mpi/links.h"
+#include "trismooth/mpi/rank_layers.h"
 #include "trismooth/mpi/same_options.h"
 #include "trismooth/mpi/shared_frame.h"
 #include "trismooth/mpi/shared_result.h"
@@ -86,6 +87,7 @@ OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicato
                                  const SmoothingOptions& options, const Sliding& slide, Gather gather, Owners owners)
     : communicator_(std::move(communicator)),
       options_(options),
+      slide_(slide),
       gather_(gather),
       is_gathered_(owners == Owners::first),
       overlap_(std::move(overlap)) {
@@ -110,26 +112,37 @@ OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicato
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       fixed_[v] |= overlap_.named[v];
     }
+  });
+  ghosts_->update(std::span(fixed_));
+  labels_ = ComponentLabels(overlap_, components(), ranks);
+  release(overlap_.owners);
+  count_free();
+  ranks.on_all([&] {
+    if (options.method == Method::mean_ratio && part.free_vertices > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::invalid_argument("the mean-ratio method adds up areas of 2^32 - 1 free vertices at most");
+    }
+  });
+}
+
+void OverlapSmoother::count_free() {
+  std::int64_t own_free = 0;
+  for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
+    own_free += overlap_.is_own(v) && fixed_[static_cast<std::size_t>(v)] == 0 ? 1 : 0;
+  }
+  overlap_.part.free_vertices = communicator_->sum(own_free);
+}
+
+void OverlapSmoother::find_layers(std::span<const Point2<double>> points) {
+  layers_ = hold_layers(overlap_, points, options_.layers, fixed_, *communicator_, *workers_);
+  count_free();
+  communicator_->on_all([&] {
     if (is_gathered_) {
-      Sliding own_slide = slide;
+      Sliding own_slide = slide_;
       own_slide.lines = overlap_.lines;
       own_slide.line_tags = overlap_.line_tags;
       own_slide.links = overlap_.links;
       slidable_ =
           find_slidable(overlap_.triangles, fixed_, {.regions = overlap_.regions, .slide = own_slide}, *workers_);
-    }
-  });
-  ghosts_->update(std::span(fixed_));
-  labels_ = ComponentLabels(overlap_, components(), ranks);
-  release(overlap_.owners);
-  std::int64_t own_free = 0;
-  for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
-    own_free += overlap_.is_own(v) && fixed_[static_cast<std::size_t>(v)] == 0 ? 1 : 0;
-  }
-  part.free_vertices = ranks.sum(own_free);
-  ranks.on_all([&] {
-    if (options.method == Method::mean_ratio && part.free_vertices > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::invalid_argument("the mean-ratio method adds up areas of 2^32 - 1 free vertices at most");
     }
   });
 }
@@ -144,8 +157,12 @@ SmoothingResult OverlapSmoother::smooth(const PointView& points, Storage storage
                       lengths_.begin());
   }
   const LocalFrame frame = shared_frame(mine, fixed_, *communicator_);
+  if (!std::exchange(has_found_layers_, true)) {
+    find_layers(mine);
+  }
   make_ready(frame, mine);
   SmoothingResult result = smoothed(mine, stored, frame);
+  result.layers = layers_;
   if (result.reverted_vertices > 0) {
     result.reverted = overlap_.callers.named(result.reverted, *communicator_);
   }
@@ -281,12 +298,13 @@ SmoothingResult OverlapSmoother::smoothed_gathered(std::span<Point2<double>> min
     std::vector<std::uint8_t> named(overlap_.named.size());
     std::vector<std::uint8_t> in_other_cell(overlap_.named.size());
     for (std::size_t v = 0; v < named.size(); ++v) {
-      named[v] = overlap_.named[v] & hold::named;
+      named[v] = (overlap_.is_own(static_cast<std::int32_t>(v)) ? fixed_[v] : 0) & hold::named;
       in_other_cell[v] = overlap_.named[v] & hold::other_cell;
     }
     const std::vector<std::int64_t> triangle_ids = overlap_.triangle_ids.listed();
     const LocalMesh mesh{overlap_.triangles, overlap_.ids, {}, is_copy, triangle_ids};
     SmoothingOptions options = used_options();
+    options.layers = Layers::smooth;  // they are among those named
     options.mean_ratio.target_lengths = std::span(lengths_).first(has_lengths_ ? overlap_.ids.size() : 0);
     gathered_ = make_overlap_smoother(
         communicator_, mesh, Constraints{.fixed = named, .other_cells = in_other_cell, .regions = overlap_.regions},

@@ -57,6 +57,10 @@ class OverlapSmoother {
  private:
   const TriangleComponents& components() const { return topology_ ? *topology_ : components_; }
   /// Prepares the sweeps where the orientation that these points give the mesh is new.
+  /// How many vertices are free in the whole mesh. Collective.
+  void count_free();
+  /// Holds layers, and finds what may slide beside them. Collective.
+  void find_layers(std::span<const Point2<double>> points);
   void make_ready(const LocalFrame& frame, std::span<const Point2<double>> mine);
   /// Colours the free vertices as colour_free_vertices() does it in the whole mesh.
   void colour(const OneRings& rings);
@@ -70,6 +74,7 @@ class OverlapSmoother {
 
   std::shared_ptr<const Communicator> communicator_;
   SmoothingOptions options_;
+  Sliding slide_;  ///< its lists are not looked at: the overlap has them
   Gather gather_;
   bool is_gathered_;  ///< rank 0 owns all vertices
   std::optional<Workers> workers_;
@@ -80,7 +85,9 @@ class OverlapSmoother {
   std::optional<TriangleTopology> topology_;  ///< of the overlap, until rings are made of it
   TriangleComponents components_;             ///< what is left of it then
   std::vector<std::uint8_t> fixed_;           ///< as MeshRings::fixed, ghosts as their owners have it
-  Slidable slidable_;                         ///< where it is gathered
+  LayersResult layers_;
+  bool has_found_layers_ = false;
+  Slidable slidable_;  ///< where it is gathered
   ComponentLabels labels_;
   bool is_coloured_ = false;
   bool is_ready_ = false;  ///< for sweeps with `reversed_`

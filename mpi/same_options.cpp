@@ -13,7 +13,7 @@ namespace trismooth::mpi {
 void require_same_options(const SmoothingOptions& options, const Sliding& slide, bool gathers,
                           const Communicator& communicator) {
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
-  const std::array<std::pair<const char*, std::int64_t>, 24> values{{
+  const std::array<std::pair<const char*, std::int64_t>, 25> values{{
       {"method", static_cast<std::int64_t>(options.method)},
       {"form", static_cast<std::int64_t>(options.form)},
       {"layout", static_cast<std::int64_t>(options.layout)},
@@ -26,6 +26,7 @@ void require_same_options(const SmoothingOptions& options, const Sliding& slide,
       {"target", static_cast<std::int64_t>(options.mean_ratio.target)},
       {"guard", options.guard ? 1 : 0},
       {"untangle", static_cast<std::int64_t>(options.untangle)},
+      {"layers", static_cast<std::int64_t>(options.layers)},
       {"max_sweeps", options.max_sweeps},
       {"tolerance", bits(options.tolerance)},
       {"time_limit_seconds", bits(options.time_limit_seconds)},

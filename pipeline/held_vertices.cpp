@@ -26,7 +26,7 @@ ReasonCounts count_reasons(std::span<const std::uint8_t> reasons, Workers& worke
   return counts;
 }
 
-HeldVertices count_held(const ReasonCounts& counts) {
+HeldVertices count_held(const ReasonCounts& counts, const LayersResult& layers) {
   HeldVertices held;
   for (std::size_t bits = 0; bits < counts.size(); ++bits) {
     const auto has = [bits](std::uint8_t bit) { return (bits & bit) != 0; };
@@ -46,6 +46,8 @@ HeldVertices count_held(const ReasonCounts& counts) {
     }
     held.several += found > 1 ? counts[bits] : 0;
   }
+  held.named -= layers.kept;
+  held.layers = layers.kept;
   return held;
 }
 

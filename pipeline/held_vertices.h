@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "trismooth/smoothing/result.h"
+
 namespace trismooth {
 
 class Workers;
@@ -17,6 +19,7 @@ struct HeldVertices {
   std::int64_t other_cells = 0;   ///< of a cell that is not a triangle, or linked with another vertex
   std::int64_t unused = 0;        ///< of no cell
   std::int64_t named = 0;         ///< by an array, by a set of the file or by a file of numbers
+  std::int64_t layers = 0;        ///< of layers that are flat on purpose, and held by nothing else
   std::int64_t several = 0;       ///< for more than one of these reasons
 };
 
@@ -26,7 +29,7 @@ using ReasonCounts = std::array<std::int64_t, 256>;
 /// Counts them, one byte a vertex. Complexity: linear.
 ReasonCounts count_reasons(std::span<const std::uint8_t> reasons, Workers& workers);
 
-/// The vertices held by reason.
-HeldVertices count_held(const ReasonCounts& counts);
+/// The vertices held by reason. `layers`: of those named, the ones that are so as parts of layers.
+HeldVertices count_held(const ReasonCounts& counts, const LayersResult& layers);
 
 }  // namespace trismooth

@@ -121,6 +121,7 @@ struct InputSummary {
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them
+  LayersResult layers;                     ///< triangles that are flat in one direction
 };
 
 /// Milliseconds of each stage.

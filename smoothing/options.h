@@ -83,6 +83,14 @@ enum class TargetShape : std::uint8_t {
   input,    ///< as flat as the edges nearby are in the input: for layers that are flat on purpose
 };
 
+/// What becomes of triangles that are flat on purpose: stretches of triangles four times as long as high and more, all in
+/// one direction, with angles near 90 degrees: boundary layers, thin insulation.
+enum class Layers : std::uint8_t {
+  automatic,  ///< their vertices are held; other stretches that are flat in one direction are smoothed, and counted
+  keep,       ///< the vertices of these are held as well
+  smooth,     ///< nothing is looked for: all are smoothed
+};
+
 /// What a progress callback answers.
 enum class Progress : std::uint8_t {
   proceed,  ///< go on
@@ -142,6 +150,12 @@ struct EnumText<TargetShape> {
 };
 
 template <>
+struct EnumText<Layers> {
+  static constexpr std::string_view what = "setting of layers";
+  static constexpr std::array<std::pair<Layers, std::string_view>, 3> texts{
+      {{Layers::automatic, "auto"}, {Layers::keep, "keep"}, {Layers::smooth, "smooth"}}};
+};
+template <>
 struct EnumText<Evaluation> {
   static constexpr std::string_view what = "evaluation";
   static constexpr std::array<std::pair<Evaluation, std::string_view>, 2> texts{
@@ -189,6 +203,8 @@ struct SmoothingOptions {
   /// Before the sweeps, find places for the free vertices in which no triangle is inverted or degenerate. Costs one
   /// pass where none is. `automatic`: with Method::mean_ratio.
   Untangle untangle = Untangle::automatic;
+  /// Layers are looked for once, in the points that come first: a plan holds the same vertices from then on.
+  Layers layers = Layers::automatic;
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;

@@ -92,6 +92,15 @@ struct SlidingResult {
   bool given_up = false;
 };
 
+/// What was found of triangles that are flat in one direction, at least four times as long as high: see Layers. The
+/// aspect of a triangle is the root of the ratio of the eigenvalues of its edge tensor; infinite without area.
+struct LayersResult {
+  std::int64_t kept = 0;   ///< vertices that are held for that and for nothing else
+  double kept_aspect = 0;  ///< the largest aspect of the triangles around them; 0: there is none
+  std::int64_t left = 0;   ///< vertices inside of stretches that are flat in one direction and are smoothed all the same
+  double left_aspect = 0;  ///< the largest aspect of their triangles; 0: there is none
+};
+
 /// What a smoothing did. The coordinates themselves are in the caller's arrays.
 struct SmoothingResult {
   std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
@@ -106,6 +115,7 @@ struct SmoothingResult {
   std::vector<RevertedVertex> reverted;        ///< ascending by vertex
   std::optional<UntanglingResult> untangling;  ///< where it was asked for
   std::optional<SlidingResult> sliding;        ///< likewise
+  LayersResult layers;                         ///< nothing with Layers::smooth
   std::string backend;                         ///< "cpu", "cuda"
   std::string device;                          ///< the processor or GPU by name
   int threads = 0;                             ///< of the CPU; 0 where a device made the sweeps

@@ -15,6 +15,7 @@
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/layers/layers.h"
 #include "trismooth/smoothing/rings/mesh_connectivity.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
@@ -49,7 +50,9 @@ class SmoothingPlan::Implementation {
     }
     connectivity_ = MeshConnectivity(vertex_count_, triangles_, workers_);
     mesh_.fixed = connectivity_.fixed_vertices(triangles_, constraints, workers_);
-    mesh_.slidable = find_slidable(triangles_, mesh_.fixed, constraints, workers_);
+    if (constraints.slide.along != Slide::off) {
+      slide_ = SlideCopy(constraints);
+    }
   }
 
   SmoothingResult smooth(const PointView& points, Storage storage) {
@@ -70,6 +73,31 @@ class SmoothingPlan::Implementation {
   }
 
  private:
+  /// What constraints say of sliding, in memory of our own: who may slide is known when layers are, from the first
+  /// points.
+  class SlideCopy {
+   public:
+    explicit SlideCopy(const Constraints& constraints)
+        : slide_(constraints.slide),
+          regions_(constraints.regions.begin(), constraints.regions.end()),
+          lines_(slide_.lines.begin(), slide_.lines.end()),
+          line_tags_(slide_.line_tags.begin(), slide_.line_tags.end()),
+          links_(slide_.links.begin(), slide_.links.end()) {}
+
+    /// Valid for as long as this object.
+    Constraints constraints() const {
+      Constraints copy{.regions = regions_, .slide = slide_};
+      copy.slide.lines = lines_;
+      copy.slide.line_tags = line_tags_;
+      copy.slide.links = links_;
+      return copy;
+    }
+
+   private:
+    Sliding slide_;
+    std::vector<std::int32_t> regions_, lines_, line_tags_, links_;
+  };
+
   static const SmoothingOptions& checked(const SmoothingOptions& options) {
     options.validate();
     return options;
@@ -89,6 +117,13 @@ class SmoothingPlan::Implementation {
   SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage) {
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_.fixed), points);
     Orientation orientation = orient(connectivity_.components(), triangles_, local.points, workers_);
+    if (!std::exchange(has_found_layers_, true)) {
+      mesh_.layers = hold_layers(local.points, triangles_, options_.layers, mesh_.fixed, workers_);
+      if (slide_) {
+        mesh_.slidable = find_slidable(triangles_, mesh_.fixed, slide_->constraints(), workers_);
+        slide_.reset();
+      }
+    }
     if (smoother_ == nullptr || orientation.reversed != mesh_.reversed) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
@@ -97,7 +132,9 @@ class SmoothingPlan::Implementation {
       mesh_.rings = connectivity_.one_rings(triangles_, mesh_.reversed, mesh_.fixed, workers_);
       smoother_ = backend_of(options_).prepare(with_rings_of(mesh_), triangles_, local.points, options_);
     }
-    return smoother_->smooth(points, storage, local.frame);
+    SmoothingResult result = smoother_->smooth(points, storage, local.frame);
+    result.layers = mesh_.layers;
+    return result;
   }
 
   SmoothingOptions options_;
@@ -109,6 +146,8 @@ class SmoothingPlan::Implementation {
   std::vector<Triangle> triangles_;
   MeshConnectivity connectivity_;
   MeshRings mesh_;  ///< but for the rings, which the smoother has
+  bool has_found_layers_ = false;
+  std::optional<SlideCopy> slide_;  ///< until what may slide is found
 };
 
 SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,

@@ -12,15 +12,16 @@ import sys
 FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "options", "result", "sliding")},
          "cuda/device_constraints.h": "cuda faces"}
 
-SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/rings",
-             "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
+SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/layers",
+             "smoothing/rings", "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
     "smoothing faces": ["base"],
     "smoothing/methods": ["base", "quality", "smoothing faces"],
     "smoothing/parts": [],
-    "smoothing/rings": ["base", "quality", "smoothing faces", "smoothing/parts"],
+    "smoothing/layers": ["base", "smoothing faces"],
+    "smoothing/rings": ["base", "quality", "smoothing faces", "smoothing/parts", "smoothing/layers"],
     "smoothing/halo": ["base", "smoothing/parts", "smoothing/rings"],
     "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/halo"],
     "smoothing/slide": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],

@@ -1,5 +1,6 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/atomics.h"
+#include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/constraints.h"
 #include "trismooth/cuda/topology/vertex_fan.h"
@@ -88,6 +89,18 @@ struct HoldNamed {
   }
 };
 
+struct HoldFree {
+  const std::int32_t* vertices;
+  std::uint8_t* fixed;
+  std::uint8_t* was_free;
+
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t i) const {
+    std::uint8_t& reasons = fixed[vertices[i]];
+    was_free[i] = reasons == 0 ? 1 : 0;
+    reasons = reasons == 0 ? hold::named : reasons;
+  }
+};
+
 }  // namespace
 
 void determine_constraints(Context& context, const TriangleList& triangles, const CornersView& corners,
@@ -100,6 +113,16 @@ void determine_constraints(Context& context, const TriangleList& triangles, cons
     for_each(context, static_cast<std::uint32_t>(constraints.fixed_id_count),
              HoldNamed{constraints.fixed_ids, corners.vertex_count, fixed, findings});
   }
+}
+
+std::vector<std::uint8_t> hold_free_vertices(Context& context, const std::vector<std::int32_t>& vertices,
+                                             std::uint8_t* fixed) {
+  const DeviceBuffer<std::int32_t> numbers(context, vertices);
+  DeviceBuffer<std::uint8_t> was_free(context, vertices.size());
+  for_each(context, static_cast<std::uint32_t>(vertices.size()), HoldFree{numbers.data(), fixed, was_free.data()});
+  std::vector<std::uint8_t> found(vertices.size());
+  was_free.download(found);
+  return found;
 }
 
 }  // namespace trismooth::cuda

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "trismooth/cuda/device_constraints.h"
 #include "trismooth/cuda/runtime/context.h"
@@ -18,5 +19,10 @@ namespace trismooth::cuda {
 void determine_constraints(Context& context, const TriangleList& triangles, const CornersView& corners,
                            const DeviceConstraints& constraints, const ParityForest& forest, std::uint8_t* fixed,
                            Findings* findings);
+
+/// Holds those of these vertices that are free, as if the user named them. Each is there once. Answers one byte for
+/// each: whether it was free. Waits for the device.
+std::vector<std::uint8_t> hold_free_vertices(Context& context, const std::vector<std::int32_t>& vertices,
+                                             std::uint8_t* fixed);
 
 }  // namespace trismooth::cuda

@@ -8,11 +8,13 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/topology/flat_triangles.h"
 #include "trismooth/cuda/topology/near_lines.h"
 #include "trismooth/cuda/topology/ring_building.h"
 #include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/layers/layers.h"
 
 namespace trismooth::cuda {
 
@@ -63,6 +65,26 @@ DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std:
 
 NearLines DeviceTopology::near_lines(const std::int32_t* regions) const {
   return cuda::near_lines(*context_, triangles_, vertex_count(), fixed_.data(), regions);
+}
+
+LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers layers, std::vector<std::int32_t>& held) {
+  held.clear();
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  const std::vector<FlatTriangle> candidates = flat_candidates(*context_, triangles_, vertex_count(), points);
+  Workers workers(0);
+  LayerSearch found = search_layers(candidates, vertex_count(), layers, workers);
+  if (!found.kept.empty()) {
+    const std::vector<std::uint8_t> was_free = hold_free_vertices(*context_, found.kept, fixed_.data());
+    for (std::size_t i = 0; i < was_free.size(); ++i) {
+      if (was_free[i] != 0) {
+        held.push_back(found.kept[i]);
+      }
+    }
+  }
+  found.result.kept = std::ssize(held);
+  return found.result;
 }
 
 bool DeviceTopology::orient(const Point2<double>* local_points) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/cuda/runtime/context.h"
@@ -13,6 +14,8 @@
 #include "trismooth/cuda/topology/orientation.h"
 #include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/topology/triangle_list.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth::cuda {
@@ -33,6 +36,9 @@ class DeviceTopology {
 
   /// What trismooth::find_slidable() is to look at. `regions`: those of the constraints, on the device. Waits.
   NearLines near_lines(const std::int32_t* regions) const;
+
+  /// trismooth::hold_layers() at these coordinates, which are on the device. `held`: the vertices that it holds.
+  LayersResult hold_layers(const Point2<double>* points, Layers layers, std::vector<std::int32_t>& held);
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

@@ -42,7 +42,7 @@ OneRings copied_to_host(Context& context, const DeviceRings& rings) {
 }  // namespace
 
 MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                               const Constraints& constraints, NeighbourSearch way) {
+                               const Constraints& constraints, NeighbourSearch way, Layers layers) {
   check_mesh_size(std::ssize(points), std::ssize(triangles));
   const auto vertex_count = static_cast<std::int32_t>(points.size());
   check_lengths(vertex_count, triangles, constraints);
@@ -57,6 +57,8 @@ MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span
   topology.orient(device_points.data());
 
   MeshRings found;
+  std::vector<std::int32_t> held;
+  found.layers = topology.hold_layers(device_points.data(), layers, held);
   found.rings = copied_to_host(context, topology.rings());
   found.fixed = download(context, topology.fixed(), points.size());
   found.reversed = download(context, topology.reversed(), triangles.size());

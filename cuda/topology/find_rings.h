@@ -13,6 +13,6 @@ namespace trismooth::cuda {
 /// find_mesh_rings() by the current device, from and to the host: the same in every number, with the same errors.
 /// Throws DeviceError as well.
 MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                               const Constraints& constraints, NeighbourSearch way);
+                               const Constraints& constraints, NeighbourSearch way, Layers layers = Layers::smooth);
 
 }  // namespace trismooth::cuda

@@ -1,6 +1,4 @@
-#include <algorithm>
-
-#include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/primitives/listed.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/near_lines.h"
 
@@ -48,26 +46,6 @@ struct ListOthers {
     }
   }
 };
-
-/// Calls list(elements, their number, count) with room for as many elements as there turn out to be.
-template <class Element, class List>
-std::vector<Element> listed(Context& context, std::uint32_t at_most, const List& list) {
-  constexpr std::uint32_t usual_size = 65536;
-  std::uint32_t size = std::min(usual_size, at_most);
-  for (;;) {
-    DeviceBuffer<Element> elements(context, size);
-    DeviceBuffer<std::uint32_t> count(context, 1);
-    count.fill_bytes(0);
-    list(elements.data(), size, count.data());
-    const std::uint32_t found = download(context, count.data());
-    if (found <= size) {
-      std::vector<Element> near(found);
-      elements.download(near);
-      return near;
-    }
-    size = found;
-  }
-}
 
 }  // namespace
 

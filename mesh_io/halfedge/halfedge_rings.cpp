@@ -13,6 +13,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/layers/layers.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 
 namespace trismooth {
@@ -58,7 +59,8 @@ void hold_interfaces(const Halfedges& halfedges, std::span<const std::int32_t> r
 }
 
 MeshRings read_rings(const Halfedges& halfedges, std::span<const Point2<double>> local,
-                     std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
+                     std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                     Layers layers) {
   Orientation orientation = orient(halfedges.components, triangles, local, workers);
   MeshRings found;
   found.fixed = halfedges.hold;
@@ -66,6 +68,7 @@ MeshRings read_rings(const Halfedges& halfedges, std::span<const Point2<double>>
   if (!constraints.regions.empty()) {
     hold_interfaces(halfedges, constraints.regions, found.fixed, workers);
   }
+  found.layers = hold_layers(local, triangles, layers, found.fixed, workers);
   found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   // A component that the halfedges run through clockwise is read the other way round.
   std::vector<std::uint8_t> clockwise(triangles.size());
@@ -126,23 +129,25 @@ std::vector<std::uint8_t> held_by(const TriangleMesh& mesh, Workers& workers) {
 }  // namespace
 
 MeshRings find_halfedge_rings(std::span<const double> xyz, std::span<const Point2<double>> local,
-                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
+                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                              Layers layers) {
   check_mesh_size(std::ssize(local), std::ssize(triangles));
   MatchedSides sides = match_sides(static_cast<std::int32_t>(local.size()), triangles, workers);
   check_constraints(constraints, sides.vertex_count, std::ssize(triangles));
   HalfedgeMesh built = build_halfedge_mesh(xyz, triangles, sides, sides.parity, workers);
   sides.twins = BulkVector<std::int32_t>();  // its memory is free for the rings
-  return read_rings({built.mesh, built.copies_of, std::move(built.hold), sides}, local, triangles, constraints,
-                    workers);
+  return read_rings({built.mesh, built.copies_of, std::move(built.hold), sides}, local, triangles, constraints, workers,
+                    layers);
 }
 
 MeshRings read_halfedge_rings(const TriangleMesh& mesh, std::span<const Point2<double>> local,
-                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
+                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                              Layers layers) {
   check_mesh_size(std::ssize(local), std::ssize(triangles));
   check_triangles(static_cast<std::int32_t>(local.size()), triangles);
   check_constraints(constraints, static_cast<std::int32_t>(local.size()), std::ssize(triangles));
   const TriangleComponents components = components_of(mesh);
-  return read_rings({mesh, {}, held_by(mesh, workers), components}, local, triangles, constraints, workers);
+  return read_rings({mesh, {}, held_by(mesh, workers), components}, local, triangles, constraints, workers, layers);
 }
 
 }  // namespace trismooth

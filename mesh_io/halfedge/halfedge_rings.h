@@ -17,10 +17,12 @@ class Workers;
 /// every vertex, `local` are the points in the local frame. Throws MeshError for more triangles than a halfedge mesh
 /// can hold, too. Complexity: linear, but for sorting the edges of each vertex.
 MeshRings find_halfedge_rings(std::span<const double> xyz, std::span<const Point2<double>> local,
-                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers);
+                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                              Layers layers = Layers::smooth);
 
 /// The same, read from a halfedge mesh that is there; `triangles` is its face_list(). Complexity: linear.
 MeshRings read_halfedge_rings(const TriangleMesh& mesh, std::span<const Point2<double>> local,
-                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers);
+                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                              Layers layers = Layers::smooth);
 
 }  // namespace trismooth

@@ -89,13 +89,14 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
 
   Workers workers(options.threads);
   MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
-    return read_halfedge_rings(mesh, placed.local.points, triangles, constraints, workers);
+    return read_halfedge_rings(mesh, placed.local.points, triangles, constraints, workers, options.layers);
   });
   if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
     placed = InPlane(*fit, xyz, in_cell);
   }
   SmoothingResult result =
       smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, Storage::float64, options);
+  result.layers = found.layers;
   result.backend_note = joined_notes(found.note, result.backend_note);
   for (std::size_t v = 0; v < placed.points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));

@@ -54,6 +54,10 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
       "Before the sweeps, move vertices so that no triangle is inverted, where that can be done; auto: with "
       "mean-ratio")
       ->group(group);
+  add_enum_option(command, "--layers", options.layers,
+                  "Layers of flat triangles with angles near 90 degrees, at walls and in thin insulation. auto: held; "
+                  "keep: all that is flat in one direction is; smooth: moved as all others")
+      ->group(group);
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")
       ->group(group);
   add_enum_option(command, "--guard", settings.guard,

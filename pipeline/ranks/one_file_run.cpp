@@ -71,7 +71,9 @@ SmoothingResult smooth_over_ranks(const MeshOfFirst& mesh, std::span<Point2<doub
   const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.triangles, partition, ranks);
   const mpi::LocalMesh local{mesh.triangles, ids, owners};
   const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
-  return mpi::Plan(ranks.handle(), local, constraints, options).smooth(PointView(points), storage);
+  SmoothingOptions without_layers = options;
+  without_layers.layers = Layers::smooth;  // they are held already
+  return mpi::Plan(ranks.handle(), local, constraints, without_layers).smooth(PointView(points), storage);
 }
 
 /// Of rank 0: has the others take part.

@@ -22,6 +22,7 @@
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/mpi/plan.h"
+#include "trismooth/mpi/rank_layers.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/gathered_run.h"
@@ -233,6 +234,7 @@ class PieceRun {
                       std::back_inserter(result_.input.point_sets));
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
+    layers_ = mpi::hold_layers(topology_->overlap(), points, options_.smoothing.layers, held_, *ranks_, workers_);
     local_ = entered(frame_, points).points;
     reversed_ = topology_->reversed(local_, workers_);
     summarise();
@@ -283,7 +285,7 @@ class PieceRun {
     input.fixed_ids_vertices = constraints_.listed;
     input.free_vertices = reasons[0];
     input.fixed_vertices = input.vertices - input.free_vertices;
-    input.held = count_held(reasons);
+    input.held = count_held(reasons, layers_);
     input.regions = static_cast<std::int32_t>(regions_.names.size());
     input.region_arrays = regions_.arrays;
     for (const RegionArray& array : regions_.arrays) {
@@ -302,6 +304,10 @@ class PieceRun {
                              is_known ? std::optional(static_cast<std::size_t>(first_repeating)) : std::nullopt),
         std::back_inserter(result_.notes));
     std::ranges::copy(notes_of_irregular_vertices(reasons), std::back_inserter(result_.notes));
+    input.layers = layers_;
+    if (std::string said = note_of_layers(layers_); !said.empty()) {
+      note(std::move(said));
+    }
     if (options_.fixed_ids && constraints_.listed == 0) {
       say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
     }
@@ -352,6 +358,9 @@ class PieceRun {
     if (std::string warning = warning_of_options_without_effect(options_); !warning.empty()) {
       say_warning(std::move(warning));
     }
+    if (std::string warning = warning_of_layers(layers_, options_.smoothing); !warning.empty()) {
+      say_warning(std::move(warning));
+    }
     const CoarseBoundary coarse = find_coarse_boundary(*topology_, local_, reversed_, held_, workers_.count());
     if (coarse.any()) {
       say_warning(warning_of(coarse));
@@ -377,8 +386,8 @@ class PieceRun {
     points_ = points_of(files_, mesh_);
     SmoothingResult smoothing = known_to_all([&] {
       const Stopwatch watch;
-      const SmoothingOptions options =
-          mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
+      SmoothingOptions options = mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
+      options.layers = Layers::smooth;  // they are held already
       mpi::OverlapSmoother smoother(ranks_, topology_->lend_overlap(std::move(regions_.of_overlap), held_), options,
                                     Sliding{}, mpi::Gather::never, mpi::OverlapSmoother::Owners::ranks);
       result_.timings_ms.topology += watch.milliseconds();
@@ -479,6 +488,7 @@ class PieceRun {
   std::int64_t repeating_ = 0;   ///< triangles that repeat a vertex, in all pieces
   std::int64_t first_cell_ = 0;  ///< the number of the rank's first cell among those of all pieces
   std::vector<std::uint8_t> held_;
+  LayersResult layers_;
   std::vector<std::uint8_t> reversed_;
   LocalFrame frame_;
   BulkVector<Point2<double>> local_;  ///< vertices of the overlap before the smoothing, in that frame

@@ -30,6 +30,7 @@ std::string held_html(const InputSummary& input) {
                                     {"of cells that are not triangles", held.other_cells},
                                     {"of no cell", held.unused},
                                     {"named", held.named},
+                                    {"in layers that are flat on purpose", held.layers},
                                     {"for several of these reasons", held.several}}) {
     if (count > 0) {
       rows += row(name, "", count);

@@ -62,6 +62,7 @@ std::string held_text(const InputSummary& input) {
   add(held.bow_tie, "bow tie");
   add(held.other_cells, "of other cells");
   add(held.unused, "unused");
+  add(held.layers, "in layers");
   if (!input.fixed_array.empty()) {
     reasons.push_back(fmt::format("{} by the array '{}'", input.fixed_array_vertices, input.fixed_array));
   }

@@ -293,6 +293,7 @@ std::string options_table(const PipelineOptions& options, const SmoothingResult&
             {"precision", std::string(to_string(chosen.precision))},
             {"guard", chosen.guard ? "on" : "off"},
             {"untangle", std::string(to_string(chosen.untangles() ? Untangle::on : Untangle::off))},
+            {"layers", std::string(to_string(chosen.layers))},
             {"sweep limit", chosen.max_sweeps == 0 ? "none" : count_text(chosen.max_sweeps)},
             {"tolerance", fmt::format("{}", chosen.tolerance)},
             {"time limit", optional_number(chosen.time_limit_seconds, " s")},

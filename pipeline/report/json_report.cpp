@@ -84,6 +84,7 @@ Json input_json(const InputSummary& input) {
             {"other_cells", held.other_cells},
             {"unused", held.unused},
             {"named", held.named},
+            {"layers", held.layers},
             {"several", held.several}}}};
 }
 
@@ -108,6 +109,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"precision", name_of(smoothing.precision)},
           {"guard", smoothing.guard},
           {"untangle", name_of(smoothing.untangles() ? Untangle::on : Untangle::off)},
+          {"layers", name_of(smoothing.layers)},
           {"threads", result ? result->threads : smoothing.threads},
           {"max_sweeps", smoothing.max_sweeps},
           {"tolerance", number_json(smoothing.tolerance)},

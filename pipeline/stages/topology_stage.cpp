@@ -17,6 +17,7 @@
 #include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
 #include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 
@@ -126,8 +127,9 @@ MeshRings rings_of(RunState& run, const Constraints& constraints) {
   try {
     return rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, [&] {
       return run.smoothing.topology == Topology::halfedge
-                 ? find_halfedge_rings(run.document.points, run.local.points, mesh.triangles, constraints, run.workers)
-                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers);
+                 ? find_halfedge_rings(run.document.points, run.local.points, mesh.triangles, constraints, run.workers,
+                                       run.smoothing.layers)
+                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, run.smoothing.layers);
     });
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());
@@ -150,7 +152,8 @@ void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   input.middle_nodes = std::ssize(run.mesh.middles);
   input.fixed_vertices = input.vertices - input.middle_nodes - input.free_vertices;
   input.reoriented_triangles = run.found.reoriented_triangles;
-  input.held = count_held(reasons);
+  input.held = count_held(reasons, run.found.layers);
+  input.layers = run.found.layers;
 }
 
 }  // namespace
@@ -209,6 +212,9 @@ void connect_mesh(RunState& run) {
   }
   const ReasonCounts reasons = count_vertices(run);
   std::ranges::move(notes_of_irregular_vertices(reasons), std::back_inserter(result.notes));
+  if (std::string note = note_of_layers(run.found.layers); !note.empty()) {
+    run.note(std::move(note));
+  }
   summarise_mesh(run, reasons);
   input.fixed_array = named.array;
   input.fixed_array_vertices = named.vertices;

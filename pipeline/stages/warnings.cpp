@@ -83,10 +83,34 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
                            to_string(options.smoothing.method), fmt::join(names, ", "));
 }
 
+std::string note_of_layers(const LayersResult& layers) {
+  return layers.kept == 0 ? std::string()
+                          : fmt::format(
+                                "{} {} of layers that are flat on purpose (aspect {:.3g} at most) and {} held; "
+                                "--layers smooth moves {}",
+                                layers.kept, layers.kept == 1 ? "vertex is" : "vertices are", layers.kept_aspect,
+                                layers.kept == 1 ? "is" : "are", layers.kept == 1 ? "it" : "them");
+}
+
+std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions& options) {
+  const bool keeps_shapes = options.method == Method::mean_ratio && options.mean_ratio.target == TargetShape::input;
+  return layers.left == 0 || keeps_shapes
+             ? std::string()
+             : fmt::format(
+                   "{} {} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
+                   "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
+                   "--target input-shape keeps the shapes",
+                   layers.left, layers.left == 1 ? "vertex is" : "vertices are", layers.left_aspect,
+                   layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
+}
+
 void warn_before_smoothing(RunState& run) {
   warn_of_precision(run);
   warn_of_options_without_effect(run);
   warn_of_boundary(run);
+  if (std::string warning = warning_of_layers(run.found.layers, run.smoothing); !warning.empty()) {
+    run.warn(std::move(warning));
+  }
   warn_of_projection(run);
 }
 

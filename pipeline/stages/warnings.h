@@ -7,6 +7,7 @@
 namespace trismooth {
 
 struct CoarseBoundary;
+struct LayersResult;
 struct PipelineOptions;
 struct PrecisionLoss;
 struct RunState;
@@ -22,6 +23,11 @@ std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& option
 std::string warning_of(const CoarseBoundary& coarse);
 /// Empty where the method takes notice of all options.
 std::string warning_of_options_without_effect(const PipelineOptions& options);
+
+/// What was held since it is flat on purpose, and what is smoothed though it is flat in one direction, with the way
+/// out; empty where there is nothing.
+std::string note_of_layers(const LayersResult& layers);
+std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions& options);
 
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_kept_annotations(std::span<const std::string_view> names);

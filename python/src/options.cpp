@@ -165,6 +165,7 @@ constexpr auto options = std::to_array<Option>({
     {"evaluation", parse_choice<&SmoothingOptions::evaluation>},
     {"guard", parse_flag<&SmoothingOptions::guard>},
     {"untangle", parse_untangle},
+    {"layers", parse_choice<&SmoothingOptions::layers>},
     {"max_sweeps", [](nb::handle value, const char* name,
                       Parsed& parsed) { parsed.options.max_sweeps = integer_of<std::int64_t>(value, name); }},
     {"tolerance",

@@ -5,6 +5,7 @@
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/layers/layers.h"
 #include "trismooth/smoothing/rings/mesh_connectivity.h"
 
 namespace trismooth {
@@ -17,12 +18,13 @@ MeshRings with_rings_of(MeshRings& mesh) {
 }
 
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                          const Constraints& constraints, Workers& workers) {
+                          const Constraints& constraints, Workers& workers, Layers layers) {
   check_mesh_size(std::ssize(points), std::ssize(triangles));
   MeshConnectivity connectivity(static_cast<std::int32_t>(points.size()), triangles, workers);
   Orientation orientation = orient(connectivity.components(), triangles, points, workers);
   MeshRings found;
   found.fixed = connectivity.fixed_vertices(triangles, constraints, workers);
+  found.layers = hold_layers(points, triangles, layers, found.fixed, workers);
   found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   found.reversed = std::move(orientation.reversed);
   found.components = connectivity.components().components;

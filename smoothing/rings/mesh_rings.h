@@ -10,6 +10,8 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/rings/slidable.h"
 
@@ -26,6 +28,7 @@ struct MeshRings {
   std::int64_t reoriented_triangles = 0;  ///< listed against the majority of their component
   OneRings rings;                         ///< of the free vertices
   Slidable slidable;                      ///< the fixed vertices that may slide
+  LayersResult layers;                    ///< what was held since it is flat on purpose
   std::shared_ptr<const MeshPart> part;   ///< where the mesh is a part of another one; null: it is not
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
@@ -33,9 +36,10 @@ struct MeshRings {
 /// A copy that takes the rings, which are most of it, away from `mesh`.
 MeshRings with_rings_of(MeshRings& mesh);
 
-/// Finds it on the host, from the triangle list alone. `points` are in the local frame, one for every vertex. Throws
-/// MeshError and std::invalid_argument as connect_triangles() and fixed_vertices() do.
+/// Finds it on the host, from the triangle list alone. `points` are in the local frame, one for every vertex. `layers`:
+/// what becomes of layers; by default connectivity alone counts. Throws MeshError and std::invalid_argument as
+/// connect_triangles() and fixed_vertices() do.
 MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                          const Constraints& constraints, Workers& workers);
+                          const Constraints& constraints, Workers& workers, Layers layers = Layers::smooth);
 
 }  // namespace trismooth

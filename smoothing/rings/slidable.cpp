@@ -252,6 +252,19 @@ Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std:
   return find_slidable(std::move(near), constraints.slide);
 }
 
+void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices) {
+  std::vector<std::int32_t> sorted(vertices.begin(), vertices.end());
+  std::ranges::sort(sorted);
+  for (NearTriangle& triangle : near.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::ranges::binary_search(sorted, triangle.corners[i])) {
+        triangle.reasons[i] |= hold::named;
+      }
+    }
+  }
+  near.others.insert(near.others.end(), sorted.begin(), sorted.end());
+}
+
 Slidable find_slidable(NearLines near, const Sliding& slide) {
   if (!std::ranges::is_sorted(near.triangles, {}, &NearTriangle::number)) {
     std::ranges::sort(near.triangles, {}, &NearTriangle::number);

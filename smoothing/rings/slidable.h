@@ -72,6 +72,9 @@ constexpr TRISMOOTH_HOST_DEVICE bool is_held_otherwise(std::uint8_t reasons) {
   return reasons != 0 && !is_held_by_lines(reasons) && !hold::is_unused(reasons);
 }
 
+/// Has these vertices, which were free, held by something else than lines.
+void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices);
+
 /// Finds which vertices may slide as far as connectivity says it: those that nothing but a boundary, an interface or a
 /// line holds, and where exactly two edges of such meet that have the same regions on their sides and the same tag.
 /// None where constraints.slide says off. `fixed`: as MeshRings::fixed; the constraints have been checked. Complexity:

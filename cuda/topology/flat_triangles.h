@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/cuda/runtime/context.h"
+#include "trismooth/cuda/topology/triangle_list.h"
+#include "trismooth/smoothing/layers/flat_triangle.h"
+
+namespace trismooth::cuda {
+
+/// trismooth::flat_candidates() of a mesh on the device, in any order; of less than layers_least it may have none.
+/// Memory meanwhile: 4 bytes a vertex and 1 a triangle. Waits for the device.
+std::vector<FlatTriangle> flat_candidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
+                                          const Point2<double>* points);
+
+}  // namespace trismooth::cuda

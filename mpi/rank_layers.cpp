@@ -1,0 +1,97 @@
+#include "trismooth/mpi/rank_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "trismooth/base/hold.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/mpi/ghost_values.h"
+#include "trismooth/smoothing/layers/layers.h"
+
+namespace trismooth::mpi {
+
+namespace {
+
+/// A candidate with the ids of its corners.
+struct SentCandidate {
+  std::array<std::int64_t, 3> ids;
+  FlatTriangle flat;
+};
+
+/// What rank 0 has found.
+struct Findings {
+  std::vector<std::int64_t> kept;  ///< ids, ascending
+  std::vector<LayersResult> result;
+};
+
+Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, Workers& workers) {
+  std::vector<std::int64_t> ids;
+  for (const auto& candidates : by_rank) {
+    for (const SentCandidate& candidate : candidates) {
+      ids.insert(ids.end(), candidate.ids.begin(), candidate.ids.end());
+    }
+  }
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::vector<FlatTriangle> flat;
+  for (const auto& candidates : by_rank) {
+    for (const SentCandidate& candidate : candidates) {
+      flat.push_back(candidate.flat);
+      std::ranges::transform(candidate.ids, flat.back().corners.begin(), [&](std::int64_t id) {
+        return static_cast<std::int32_t>(std::ranges::lower_bound(ids, id) - ids.begin());
+      });
+    }
+  }
+  const LayerSearch found = search_layers(flat, static_cast<std::int32_t>(ids.size()), layers, workers);
+  Findings findings;
+  for (const std::int32_t place : found.kept) {
+    findings.kept.push_back(ids[static_cast<std::size_t>(place)]);
+  }
+  findings.result = {found.result};
+  return findings;
+}
+
+}  // namespace
+
+LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points, Layers layers,
+                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  GhostValues ghosts(overlap.part);
+  const std::vector<FlatTriangle> candidates =
+      flat_candidates(points, overlap.triangles, workers,
+                      [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
+  auto to_first = lists_by_rank<SentCandidate>(ranks);
+  for (const FlatTriangle& flat : candidates) {
+    // Each goes from the owner of its first vertex.
+    if (overlap.is_own(std::ranges::min(flat.corners))) {
+      const auto id = [&](std::size_t i) { return overlap.ids[static_cast<std::size_t>(flat.corners[i])]; };
+      to_first[0].push_back({{id(0), id(1), id(2)}, flat});
+    }
+  }
+  const ByRank<SentCandidate> all = ranks.exchanged(std::move(to_first));
+  Findings found;
+  ranks.on_all([&] {
+    if (ranks.rank() == 0) {
+      found = search(all, layers, workers);
+    }
+  });
+  ranks.broadcast(found.kept);
+  ranks.broadcast(found.result);
+  std::int64_t own_kept = 0;
+  for (std::size_t v = 0; v < fixed.size(); ++v) {
+    if (fixed[v] == 0 && std::ranges::binary_search(found.kept, overlap.ids[v])) {
+      fixed[v] = hold::named;
+      own_kept += overlap.is_own(static_cast<std::int32_t>(v)) ? 1 : 0;
+    }
+  }
+  LayersResult result = found.result.front();
+  result.kept = ranks.sum(own_kept);
+  return result;
+}
+
+}  // namespace trismooth::mpi

@@ -1,0 +1,239 @@
+#include "trismooth/smoothing/layers/layers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+#include "trismooth/base/blocks.h"
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/edge_matching.h"
+#include "trismooth/base/hold.h"
+#include "trismooth/base/parity_forest.h"
+#include "trismooth/base/workers.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int64_t triangle_grain = 16384;
+
+/// The triangles below `count` for which is_wanted(t), ascending.
+template <class IsWanted>
+std::vector<std::int32_t> list_wanted(std::int64_t count, const IsWanted& is_wanted, Workers& workers) {
+  const Blocks blocks(count, triangle_grain, workers);
+  std::vector<std::vector<std::int32_t>> found(static_cast<std::size_t>(blocks.count()));
+  blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    std::vector<std::int32_t>& own = found[static_cast<std::size_t>(block)];
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (is_wanted(i)) {
+        own.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+  });
+  std::vector<std::int32_t> all = std::move(found.front());
+  for (std::size_t b = 1; b < found.size(); ++b) {
+    all.insert(all.end(), found[b].begin(), found[b].end());
+  }
+  return all;
+}
+
+/// One connected stretch of flat triangles, as far as has been counted.
+struct Stretch {
+  std::int64_t triangles = 0;
+  std::int64_t moderate = 0;
+  std::int64_t obtuse = 0;
+  std::int64_t inside = 0;  ///< vertices all around which it goes
+  double smallest_quotient = 1;
+
+  void add(const FlatTriangle& flat) {
+    ++triangles;
+    moderate += flat.angle == FlatTriangle::Angle::moderate ? 1 : 0;
+    obtuse += flat.angle == FlatTriangle::Angle::obtuse ? 1 : 0;
+    smallest_quotient = std::min(smallest_quotient, flat.quotient);
+  }
+  bool counts() const { return triangles >= layers_least; }
+  bool is_clean() const { return 2 * moderate > triangles && 10 * obtuse < triangles; }
+  /// Whether it is as wide as it is long. (Chains of slivers along the hull of random points are not.)
+  bool is_wide() const { return 8 * inside >= triangles; }
+};
+
+/// Which stretch each candidate is in, by the number of its first one.
+class Stretches {
+ public:
+  Stretches(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Workers& workers)
+      : candidates_(candidates), roots_(candidates.size()), stretches_(candidates.size()) {
+    join(vertex_count, workers);
+    for (std::size_t t = 0; t < candidates_.size(); ++t) {
+      stretches_[roots_[t]].add(candidates_[t]);
+    }
+    count_inside(vertex_count);
+  }
+
+  const Stretch& of(std::size_t triangle) const { return stretches_[roots_[triangle]]; }
+  /// The vertices inside of the stretch of a triangle are counted at each triangle around them; here they are once.
+  std::int64_t inside_of_wide() const { return inside_of_wide_; }
+
+ private:
+  void join(std::int32_t vertex_count, Workers& workers) {
+    std::vector<Triangle> triangles(candidates_.size());
+    std::ranges::transform(candidates_, triangles.begin(), &FlatTriangle::corners);
+    std::vector<std::int32_t> corner(static_cast<std::size_t>(vertex_count), -1);
+    for (std::size_t t = triangles.size(); t-- > 0;) {
+      for (int i = 2; i >= 0; --i) {
+        corner[static_cast<std::size_t>(triangles[t][i])] = static_cast<std::int32_t>(3 * t) + i;
+      }
+    }
+    std::vector<std::int32_t> twins(3 * triangles.size());
+    match_edges(triangles, corner, twins, workers);
+    std::vector<std::uint32_t> words(triangles.size());
+    const ParityForest forest{words.data()};
+    for (std::uint32_t t = 0; t < words.size(); ++t) {
+      forest.plant(t);
+    }
+    for (std::size_t h = 0; h < twins.size(); ++h) {
+      const std::int32_t twin = twins[h];
+      if (twin >= 0 && static_cast<std::size_t>(twin) > h && are_coherent(candidates_[h / 3], candidates_[twin / 3])) {
+        forest.join(static_cast<std::uint32_t>(h / 3), static_cast<std::uint32_t>(twin / 3), 0);
+        sides_.push_back(static_cast<std::int32_t>(h));
+      }
+    }
+    for (std::uint32_t t = 0; t < words.size(); ++t) {
+      roots_[t] = forest.find(t).element;
+    }
+  }
+
+  /// A stretch goes all around a vertex where it has as many sides as triangles there.
+  void count_inside(std::int32_t vertex_count) {
+    std::vector<std::int32_t> excess(static_cast<std::size_t>(vertex_count), 0);
+    std::vector<std::int32_t> some(static_cast<std::size_t>(vertex_count), -1);
+    for (std::size_t t = 0; t < candidates_.size(); ++t) {
+      for (const std::int32_t v : candidates_[t].corners) {
+        ++excess[static_cast<std::size_t>(v)];
+        some[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(roots_[t]);
+      }
+    }
+    for (const std::int32_t h : sides_) {
+      const Triangle& corners = candidates_[static_cast<std::size_t>(h / 3)].corners;
+      --excess[static_cast<std::size_t>(corners[h % 3])];
+      --excess[static_cast<std::size_t>(corners[(h + 1) % 3])];
+    }
+    for (std::size_t v = 0; v < excess.size(); ++v) {
+      if (some[v] >= 0 && excess[v] == 0) {
+        ++stretches_[static_cast<std::size_t>(some[v])].inside;
+      }
+    }
+    for (const Stretch& stretch : stretches_) {
+      inside_of_wide_ += stretch.counts() && !stretch.is_clean() && stretch.is_wide() ? stretch.inside : 0;
+    }
+  }
+
+  std::span<const FlatTriangle> candidates_;
+  std::vector<std::uint32_t> roots_;
+  std::vector<Stretch> stretches_;   ///< one a candidate; of those that are no root nothing is counted
+  std::vector<std::int32_t> sides_;  ///< between coherent candidates, by the halfedge of the first
+  std::int64_t inside_of_wide_ = 0;
+};
+
+}  // namespace
+
+std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                                          Workers& workers,
+                                          const std::function<void(std::span<std::uint32_t>)>& complete) {
+  const auto corner = [&](std::size_t t, int i) { return points[static_cast<std::size_t>(triangles[t][i])]; };
+  std::vector<std::int32_t> listed = list_wanted(
+      std::ssize(triangles),
+      [&](std::int64_t i) {
+        const auto t = static_cast<std::size_t>(i);
+        return is_flat(corner(t, 0), corner(t, 1), corner(t, 2));
+      },
+      workers);
+  const auto are_enough = [&] { return complete || std::ssize(listed) >= layers_least; };
+  for (int round = 0; round < layers_rounds && are_enough(); ++round) {
+    BulkVector<std::uint32_t> at(points.size());
+    std::ranges::fill(at, 0U);
+    workers.for_blocks(std::ssize(listed), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) {
+        for (const std::int32_t v : triangles[static_cast<std::size_t>(listed[static_cast<std::size_t>(i)])]) {
+          std::atomic_ref(at[static_cast<std::size_t>(v)]).fetch_add(1, std::memory_order_relaxed);
+        }
+      }
+    });
+    if (complete) {
+      complete(at);
+    }
+    std::erase_if(listed, [&](std::int32_t t) {
+      return std::ranges::count_if(triangles[static_cast<std::size_t>(t)], [&](std::int32_t v) {
+               return at[static_cast<std::size_t>(v)] >= layers_crowd;
+             }) < layers_crowded_corners;
+    });
+  }
+  if (!are_enough()) {
+    return {};
+  }
+  std::vector<FlatTriangle> candidates(listed.size());
+  workers.for_blocks(std::ssize(listed), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const auto t = static_cast<std::size_t>(listed[i]);
+      candidates[i] = described_flat(triangles[t], corner(t, 0), corner(t, 1), corner(t, 2));
+    }
+  });
+  return candidates;
+}
+
+LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
+                          Workers& workers) {
+  LayerSearch found;
+  if (std::ssize(candidates) < layers_least) {
+    return found;
+  }
+  const Stretches stretches(candidates, vertex_count, workers);
+  double kept_quotient = 1;
+  double left_quotient = 1;
+  for (std::size_t t = 0; t < candidates.size(); ++t) {
+    const Stretch& stretch = stretches.of(t);
+    if (!stretch.counts() || !(stretch.is_clean() || stretch.is_wide())) {
+      continue;
+    }
+    if (stretch.is_clean() || layers == Layers::keep) {
+      found.kept.insert(found.kept.end(), candidates[t].corners.begin(), candidates[t].corners.end());
+      kept_quotient = std::min(kept_quotient, stretch.smallest_quotient);
+    } else {
+      left_quotient = std::min(left_quotient, stretch.smallest_quotient);
+    }
+  }
+  std::ranges::sort(found.kept);
+  found.kept.erase(std::unique(found.kept.begin(), found.kept.end()), found.kept.end());
+  found.result.kept = std::ssize(found.kept);
+  if (!found.kept.empty()) {
+    found.result.kept_aspect = aspect_of(kept_quotient);
+  }
+  if (left_quotient < 1) {
+    found.result.left = stretches.inside_of_wide();
+    found.result.left_aspect = aspect_of(left_quotient);
+  }
+  return found;
+}
+
+LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed) {
+  LayersResult result = found.result;
+  result.kept = 0;
+  for (const std::int32_t v : found.kept) {
+    std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
+    if (reasons == 0) {
+      reasons = hold::named;
+      ++result.kept;
+    }
+  }
+  return result;
+}
+
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles, Layers layers,
+                         std::span<std::uint8_t> fixed, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  const std::vector<FlatTriangle> candidates = flat_candidates(points, triangles, workers);
+  return hold_found(search_layers(candidates, static_cast<std::int32_t>(points.size()), layers, workers), fixed);
+}
+
+}  // namespace trismooth

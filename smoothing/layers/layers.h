@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/layers/flat_triangle.h"
+#include "trismooth/smoothing/options.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth {
+
+class Workers;
+
+/// The search for layers: triangles that are flat on purpose, as along the walls of a flow or in thin insulation.
+///
+/// Flat triangles (see FlatTriangle) that share a side and are flat in one direction (are_coherent()) belong to one
+/// *stretch*. A stretch of layers_least triangles or more is *clean* if more than half of its largest angles are below
+/// 110 degrees and less than a tenth above 135: layers are made of right angles. Those of meshes that are distorted, or
+/// adapted to a metric, are not, and flat triangles that are so by chance form stretches of a few triangles.
+///
+/// On the way triangles are left out that cannot be in a stretch: a corner is crowded where three flat triangles or
+/// more meet, and whoever has less than two crowded corners is no candidate. That is done twice, the second time among
+/// the candidates of the first.
+///
+/// Nothing of it depends on the orientation of triangles, on their order, on place or unit, or on what holds vertices.
+
+/// The triangles of the smallest stretch that counts. Among 600,000 triangles of random points the largest clean one
+/// has 9, and each further triangle is four times rarer.
+inline constexpr std::int64_t layers_least = 20;
+/// The flat triangles at a crowded corner, and the crowded corners of a candidate.
+inline constexpr std::uint32_t layers_crowd = 3;
+inline constexpr int layers_crowded_corners = 2;
+/// How often candidates are chosen.
+inline constexpr int layers_rounds = 2;
+
+/// What the search says of vertices, whatever else holds them.
+struct LayerSearch {
+  std::vector<std::int32_t> kept;  ///< of stretches that are to be kept, ascending
+  LayersResult result;             ///< of which `kept` is their number
+};
+
+/// The flat triangles that can be in a stretch, in the order of `triangles`, in parallel. Complexity: linear; nearly
+/// all of the time goes into looking at all triangles once. `complete`: where these are the triangles of a part of a
+/// mesh, brings the numbers of flat triangles at vertices that another part owns; called layers_rounds times.
+std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                                          Workers& workers,
+                                          const std::function<void(std::span<std::uint32_t>)>& complete = {});
+
+/// Looks for stretches among candidates, in any order; their corners are below `vertex_count`. Not with Layers::smooth.
+/// Complexity: linear in their number, and in `vertex_count` where there are layers_least of them.
+LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
+                          Workers& workers);
+
+/// Both, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and was free. Of what it
+/// returns `kept` counts these vertices alone. With Layers::smooth it does nothing. `points`: one for each vertex, in
+/// the local frame or not.
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles, Layers layers,
+                         std::span<std::uint8_t> fixed, Workers& workers);
+
+/// Marks what a search found in `fixed`, and counts anew.
+LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed);
+
+}  // namespace trismooth
