@@ -167,6 +167,31 @@ TEST_CASE("vertices of circles slide all round, no further from them than they m
   CHECK(straight.result.sliding->vertices == 0);
 }
 
+TEST_CASE("vertices slide to the same places on any number of threads") {
+  const Mesh mesh = uneven_annulus(1200, 3, 6);
+  Constraints constraints;
+  constraints.slide.along = Slide::curves;
+  constraints.slide.curve = SlideCurve::spline;
+  for (const Method method : {Method::smart, Method::mean_ratio}) {
+    std::vector<double> alone;
+    for (const int threads : {1, 2, 5}) {
+      trismooth::SmoothingOptions options;
+      options.method = method;
+      options.threads = threads;
+      options.max_sweeps = 20;
+      std::vector<double> xy = mesh.xy();
+      const auto result = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), constraints, options);
+      CHECK(result.sliding->slid > 1200);
+      if (threads == 1) {
+        alone = xy;
+      }
+      for (std::size_t i = 0; i < xy.size(); ++i) {
+        REQUIRE(same_bits(xy[i], alone[i]));
+      }
+    }
+  }
+}
+
 TEST_CASE("on the spline through its vertices a circle stays a circle, where edges would cut it") {
   constexpr std::int32_t around = 200;
   constexpr std::int32_t rings = 12;
