@@ -32,7 +32,7 @@ constexpr auto names_of_formats = std::to_array<FormatNames>({
     {FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}},
     {FileFormat::su2, "su2", "SU2", {".su2"}},
     {FileFormat::inp, "inp", "Abaqus", {".inp"}},
-    {FileFormat::adcirc, "adcirc", "ADCIRC", {".14", ".grd", ".gr3"}},
+    {FileFormat::adcirc, "adcirc", "ADCIRC", {".14", ".grd", ".gr3", ".ll"}},
     {FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}},
     {FileFormat::freefem, "freefem", "FreeFem", {".msh"}},
     {FileFormat::mfem, "mfem", "MFEM", {".mesh"}},

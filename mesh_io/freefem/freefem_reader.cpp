@@ -16,6 +16,7 @@
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/uniform_cells.h"
+#include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -204,10 +205,36 @@ std::optional<std::array<std::int64_t, columns>> next_freefem_line(TextScanner& 
   return ends ? std::optional(numbers) : std::nullopt;
 }
 
+constexpr std::size_t enough = std::size_t{1} << 14;  // of a file's beginning or end to tell what it is
+
+/// Whether the last rows of a file without edges are triangles, whose first number is a vertex, and not faces of OFF,
+/// whose first number is that of their corners.
+bool ends_in_freefem_triangles(std::string_view bytes, std::int64_t vertices, std::int64_t triangles) {
+  constexpr std::string_view white_space = " \t\v\f\r\n\x1a";
+  constexpr std::int64_t corners = 3;
+  bool has_vertex_first = false;
+  std::string_view rest = trimmed(bytes.substr(bytes.size() - std::min(bytes.size(), enough)), white_space);
+  for (std::int64_t row = 0; row < triangles; ++row) {
+    const std::size_t end = rest.find_last_of("\r\n");
+    if (end == std::string_view::npos) {
+      break;  // that row may be cut
+    }
+    TextScanner scanner(rest.substr(end + 1), {});
+    const auto numbers = next_freefem_line<4>(scanner);
+    if (!numbers || !std::ranges::all_of(std::span(*numbers).first(3), [vertices](std::int64_t number) {
+          return 1 <= number && number <= vertices;
+        })) {
+      return false;
+    }
+    has_vertex_first = has_vertex_first || numbers->front() != corners;
+    rest = trimmed(rest.substr(0, end), white_space);
+  }
+  return has_vertex_first;
+}
+
 }  // namespace
 
 bool begins_as_freefem(std::string_view bytes) {
-  constexpr std::size_t enough = std::size_t{1} << 14;
   const bool is_whole = bytes.size() <= enough;
   // No line that is cut.
   const std::string_view head = is_whole ? bytes : bytes.substr(0, bytes.find_last_of("\r\n", enough) + 1);
@@ -244,7 +271,8 @@ bool begins_as_freefem(std::string_view bytes) {
     }
   }
   // The beginning of a long OFF file without a keyword looks alike, but for its edges, which it leaves at 0.
-  return rows > 0 && (edges > 0 || (rows == vertices + triangles && is_whole && scanner.at_end()));
+  const bool is_all = rows == vertices + triangles && is_whole && scanner.at_end();
+  return rows > 0 && (edges > 0 || is_all || (!is_whole && ends_in_freefem_triangles(bytes, vertices, triangles)));
 }
 
 MeshDocument read_freefem(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {

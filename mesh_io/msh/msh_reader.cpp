@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -26,6 +27,8 @@ namespace {
 bool has_msh_label(const std::vector<std::int32_t>& values) {
   return std::ranges::any_of(values, [](std::int32_t value) { return value != 0; });
 }
+
+constexpr int any_dimension = -1;  // of a name in files of version 2.0
 
 class MshReader {
  public:
@@ -177,7 +180,8 @@ class MshReader {
     for (std::size_t at = input_.offset(); (at = bytes.find("$E", at)) != std::string_view::npos; ++at) {
       const bool begins_line = at > 0 && (bytes[at - 1] == '\n' || bytes[at - 1] == '\r' || input_.header().binary);
       const std::string_view rest = bytes.substr(at, section_.size() + 5);
-      const bool ends_word = rest.size() < section_.size() + 5 || is_white_space(rest.back());
+      const bool ends_word =
+          rest.size() < section_.size() + 5 || is_white_space(rest.back()) || without_end_mark(rest) != rest;
       if (begins_line && ends_word && (rest.starts_with("$End") || rest.starts_with("$END")) &&
           rest.substr(4, section_.size()) == section_) {
         input_.seek(at);
@@ -194,7 +198,14 @@ class MshReader {
     const std::int64_t count = text.next_integer("the number of names", 0, largest_msh_int);
     std::map<std::pair<int, std::int64_t>, bool> named;
     for (std::int64_t i = 0; i < count; ++i) {
-      const auto dimension = static_cast<int>(text.next_integer("the dimension of a group", 0, 3));
+      const std::size_t begin = text.offset();
+      auto dimension = static_cast<int>(text.next_integer("the dimension of a group", any_dimension, largest_msh_int));
+      if (text.peek_token().starts_with('"')) {
+        text.seek(begin);  // of version 2.0: the number is the group's
+        dimension = any_dimension;
+      } else if (dimension < 0 || dimension > 3) {
+        text.fail("expected the dimension of a group from 0 to 3, got " + std::to_string(dimension));
+      }
       const std::int64_t tag = text.next_integer("the tag of a group", -largest_msh_int, largest_msh_int);
       std::string_view name = trimmed(text.next_line());
       if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
@@ -204,6 +215,36 @@ class MshReader {
         value_names_.push_back({tag, dimension, std::string(name)});
       }
     }
+  }
+
+  /// A name without a dimension is one of every dimension in which its group has elements.
+  void give_names_dimensions() {
+    if (std::ranges::find(value_names_, any_dimension, &ValueName::dimension) == value_names_.end()) {
+      return;
+    }
+    std::set<std::pair<std::int64_t, int>> used;
+    for (std::size_t cell = 0; cell < elements_.physical.size(); ++cell) {
+      used.emplace(elements_.physical[cell], cell_type::dimension(document_.cells.types[cell]));
+    }
+    for (const auto& [group, members] : elements_.further_groups) {
+      used.emplace(group.second, group.first);
+    }
+    std::vector<ValueName> names;
+    for (const ValueName& name : value_names_) {
+      if (name.dimension != any_dimension) {
+        names.push_back(name);
+        continue;
+      }
+      const auto first = used.lower_bound({name.value, 0});
+      const auto behind = used.lower_bound({name.value + 1, 0});
+      std::transform(first, behind, std::back_inserter(names), [&name](const auto& group) {
+        return ValueName{group.first, group.second, name.name};
+      });
+      if (first == behind) {
+        names.push_back({name.value, 2, name.name});
+      }
+    }
+    value_names_ = std::move(names);
   }
 
   /// The section is kept whatever it holds, and the input stands at its beginning again.
@@ -255,6 +296,7 @@ class MshReader {
         document_.cell_arrays.push_back(std::move(array));
       }
     };
+    give_names_dimensions();
     if (!elements_.further_groups.empty()) {
       all_physical_ = elements_.physical;
       all_physical_.resize(document_.cells.size());

@@ -60,6 +60,10 @@ class SmsReader {
       line.fail("expected more of the nodestring, whose last node has a negative number, got " + quoted(card));
     }
     const auto* const element = std::ranges::find(sms_elements, card, &SmsElement::card);
+    if (is_in_kept_card_ && !line.is_quoted() && parse_fortran_number<double>(card)) {
+      return;  // a row of its table, as those of time curves
+    }
+    is_in_kept_card_ = false;
     if (card == "ND") {
       read_node(line);
     } else if (element != sms_elements.end()) {
@@ -75,6 +79,7 @@ class SmsReader {
       line.fail("expected an element of two dimensions (E2L, E3L, E3T, E4Q, E6T, E8Q, E9Q), got " + quoted(card));
     } else if (card != "MESH2D" && card != "NUM_MATERIALS_PER_ELEM" && card != "MESHNAME") {
       other_cards_.emplace(card);
+      is_in_kept_card_ = true;
     }
   }
 
@@ -229,6 +234,7 @@ class SmsReader {
   std::vector<std::size_t> nodestring_offsets_;
   std::set<std::string, std::less<>> other_cards_;
   bool in_nodestring_ = false;
+  bool is_in_kept_card_ = false;  ///< the last card is one that is kept, with what it says
   bool has_other_materials_ = false;
 };
 

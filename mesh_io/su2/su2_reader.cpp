@@ -116,6 +116,9 @@ class Su2Reader {
       declared_zones_ = count_of(line, "the number of zones", 1);
     } else if (is("IZONE")) {
       begin_numbered_zone(line);
+    } else if (is("NDIME") && !zone_.is_begun && zones_follow()) {
+      require_once(dimension_of_zones_.has_value(), line);
+      dimension_of_zones_ = dimension_of(line);
     } else if (is("NDIME") || is("NPOIN") || is("NELEM") || is("NMARK") || is("MARKER_TAG") || is("MARKER_ELEMS")) {
       if (!zone_.is_begun) {
         begin_zone(scanner_.token_offset());
@@ -125,6 +128,19 @@ class Su2Reader {
       note_section(line.keyword);
     }
   }
+
+  /// Whether the next line with a keyword says that zones are to come: what stands before it is said of all of them.
+  bool zones_follow() const {
+    TextScanner ahead = scanner_;
+    while (!ahead.at_end()) {
+      if (const auto line = parse_su2_keyword_line(ahead.next_line())) {
+        return line->keyword == "NZONE" || line->keyword == "IZONE";
+      }
+    }
+    return false;
+  }
+
+  std::int64_t dimension_of(const Su2KeywordLine& line) const { return integer_of(line, "the dimension", 2, 3); }
 
   void read_section_of_zone(const Su2KeywordLine& line) {
     if (line.keyword == "NDIME") {
@@ -176,7 +192,7 @@ class Su2Reader {
     zone_.first_point = static_cast<std::int32_t>(document_.point_count());
     ++zones_found_;
     std::optional<std::int64_t> dimension;
-    const std::string_view text = scanner_.text();
+    const std::string_view text = without_end_mark(scanner_.text());
     while (offset < text.size() && !(dimension && zone_.points)) {
       const std::size_t end = find_line_end(text, offset);
       const std::size_t begin = text.find_first_not_of(blanks, offset);
@@ -186,13 +202,14 @@ class Su2Reader {
           break;
         }
         if (line && line->keyword == "NDIME" && !dimension) {
-          dimension = integer_of(*line, "the dimension", 2, 3);
+          dimension = dimension_of(*line);
         } else if (line && line->keyword == "NPOIN" && !zone_.points) {
           zone_.points = point_count_of(*line);
         }
       }
       offset = end + 1;
     }
+    dimension = dimension ? dimension : dimension_of_zones_;
     if (!dimension || !zone_.points) {
       scanner_.fail(name_of_zone() + " has no " + (dimension ? "NPOIN=" : "NDIME=") +
                     ": it is cut off, or no SU2 mesh");
@@ -447,6 +464,7 @@ class Su2Reader {
   int dimension_ = 0;  ///< 0: not known yet
   ReadZone zone_;
   std::optional<std::int64_t> declared_zones_;
+  std::optional<std::int64_t> dimension_of_zones_;  ///< that stands before the first of them, for those without one
   std::int64_t zones_found_ = 0;
   std::set<std::int32_t> zone_numbers_;
   std::optional<std::string_view> marker_;  ///< whose elements are to come

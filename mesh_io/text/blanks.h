@@ -31,6 +31,12 @@ inline std::string_view trimmed(std::string_view text, std::string_view characte
   return text.substr(begin, text.find_last_not_of(characters) + 1 - begin);
 }
 
+/// The text up to the Ctrl-Z with which DOS ended text files, where it has one: nothing but white space is behind it.
+constexpr std::string_view without_end_mark(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\v\f\r\n");
+  return last != std::string_view::npos && text[last] == '\x1a' ? text.substr(0, last) : text;
+}
+
 /// The words of a line.
 inline std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> found;

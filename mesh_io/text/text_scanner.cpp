@@ -41,6 +41,14 @@ constexpr bool is_line_end(char c) {
   return class_of(c) == line_end;
 }
 
+/// Whether the byte at `offset` is the Ctrl-Z with which DOS ended text files: only white space follows.
+bool ends_text(std::string_view text, std::size_t offset) {
+  constexpr char control_z = '\x1a';
+  return offset < text.size() && text[offset] == control_z &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(offset) + 1, text.end(),
+                     [](char c) { return (class_of(c) & (blank | line_end)) != 0; });
+}
+
 /// Lines before `offset`; CR LF counts once.
 std::size_t line_at(std::string_view text, std::size_t offset) {
   std::size_t line = 1;
@@ -90,6 +98,9 @@ void TextScanner::skip_blanks() {
       ++offset_;
     }
   }
+  if (ends_text(text_, offset_)) {
+    offset_ = text_.size();
+  }
 }
 
 void TextScanner::skip_space() {
@@ -118,7 +129,7 @@ std::string_view TextScanner::peek_token() {
          ((class_of(text_[end]) & token_ends_) == 0 || (text_[end] == '\\' && !is_continuation(end)))) {
     ++end;
   }
-  return text_.substr(offset_, end - offset_);
+  return text_.substr(offset_, end - offset_ - (end > offset_ && ends_text(text_, end - 1) ? 1 : 0));
 }
 
 std::string_view TextScanner::next_token(std::string_view what) {
@@ -170,7 +181,8 @@ std::string_view TextScanner::next_line() {
   while (offset_ < text_.size() && !is_line_end(text_[offset_])) {
     ++offset_;
   }
-  const std::string_view line = text_.substr(begin, offset_ - begin);
+  const bool has_end_mark = offset_ > begin && ends_text(text_, offset_ - 1);
+  const std::string_view line = text_.substr(begin, offset_ - begin - (has_end_mark ? 1 : 0));
   if (offset_ < text_.size()) {
     offset_ += line_end_length(offset_);
   }

@@ -11,7 +11,8 @@ namespace trismooth {
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// Reads the white-space separated tokens of a text file and knows where it stands, for messages with a line number.
-/// LF, CR LF and CR alone end a line. Locale-independent. The text must outlive the scanner.
+/// LF, CR LF and CR alone end a line; a Ctrl-Z with nothing but white space behind it ends the text.
+/// Locale-independent. The text must outlive the scanner.
 class TextScanner {
  public:
   /// The character that starts a comment, which runs to the end of the line.

@@ -45,7 +45,7 @@ class UnvReader {
     if (scanner_.peek_token() != end_of_data_set) {
       scanner_.fail_at(scanner_.offset(), "is not a universal file: expected a line with -1, which begins a data set");
     }
-    while (!scanner_.at_end()) {
+    while (!skip_text_between()) {
       scanner_.next_token(end_of_data_set);
       if (!is_end()) {
         scanner_.fail("expected a line with -1, which begins a data set, got " + quoted(token()));
@@ -62,6 +62,17 @@ class UnvReader {
   }
 
  private:
+  /// Lines of text behind a data set: remarks of the program that wrote it. One that begins with a number may be of a
+  /// data set whose -1 is missing, and is not passed over. True at the end of the file.
+  bool skip_text_between() {
+    // (A file that is cut off may end with a minus.)
+    while (!scanner_.at_end() && scanner_.peek_token() != "-" && !parse_fortran_number<double>(scanner_.peek_token())) {
+      scanner_.next_line();
+      has_text_between_ = true;
+    }
+    return scanner_.at_end();
+  }
+
   void read_data_set(std::string_view number) {
     begin_ = scanner_.token_offset();
     if (number == "2411" || number == "781") {
@@ -373,6 +384,9 @@ class UnvReader {
       }
       document_.notes.push_back("What the data sets " + names + " say is kept in UNV output only.");
     }
+    if (has_text_between_) {
+      document_.notes.emplace_back("Text between the data sets is kept in UNV output only.");
+    }
     if (has_other_members_) {
       document_.notes.emplace_back(
           "Members of groups that are neither nodes nor elements are kept in UNV output only.");
@@ -396,6 +410,7 @@ class UnvReader {
   std::set<std::pair<std::int64_t, std::int64_t>> unknown_;  ///< descriptors and numbers of nodes
   std::vector<UnvGroup> groups_;
   bool has_other_members_ = false;
+  bool has_text_between_ = false;
   std::set<std::string, std::less<>> kept_;  ///< numbers of data sets
 };
 

@@ -40,7 +40,7 @@ std::uint64_t VtkXmlArrayPlaces::appended_offset_of(const XmlElement& array) con
     fail(array, "is in appended data, but there is no <AppendedData>");
   }
   const std::string* const text = array.attribute("offset");
-  const auto offset = text == nullptr ? std::nullopt : parse_xml_number<std::uint64_t>(*text);
+  const auto offset = text == nullptr ? std::nullopt : parse_xml_count(*text);
   const std::uint64_t size = appended_size();
   if (!offset || *offset > size) {
     fail(array, "has offset " + (text == nullptr ? "(none)" : trismooth::quoted(*text)) + "; the appended data have " +

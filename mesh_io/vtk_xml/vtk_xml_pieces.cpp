@@ -1,12 +1,12 @@
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_pieces.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <utility>
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_text.h"
 
 namespace trismooth {
 
@@ -60,12 +60,30 @@ void report_other_children(const XmlElement& section, std::vector<std::string>& 
   }
 }
 
+/// The kind of data set whose cells stand in elements of that name, or nothing.
+std::optional<VtkXmlKind> kind_of_cells(std::string_view name) {
+  constexpr std::array<std::string_view, 4> in_poly_data{"Verts", "Lines", "Polys", "Strips"};
+  if (std::ranges::find(in_poly_data, name) != in_poly_data.end()) {
+    return VtkXmlKind::poly_data;
+  }
+  return name == "Cells" ? std::optional(VtkXmlKind::unstructured_grid) : std::nullopt;
+}
+
+/// They would be lost without their cells.
+void refuse_cells_of_other_kind(const std::filesystem::path& path, const XmlElement& piece, VtkXmlKind kind) {
+  for (const XmlElement& child : piece.children) {
+    if (const auto of_cells = kind_of_cells(child.name); of_cells && *of_cells != kind) {
+      const std::string other(to_string(*of_cells));
+      throw ReadError(path, child.line,
+                      "<" + child.name + "> is of files of type " + other + ", and this one says that it is of type " +
+                          std::string(to_string(kind)) + "; write " + other + " there if that is what it is");
+    }
+  }
+}
+
 bool is_known_in_piece(std::string_view name, VtkXmlKind kind) {
   constexpr std::array<std::string_view, 3> always{"PointData", "CellData", "Points"};
-  constexpr std::array<std::string_view, 4> in_poly_data{"Verts", "Lines", "Polys", "Strips"};
-  return std::ranges::find(always, name) != always.end() ||
-         (kind == VtkXmlKind::unstructured_grid ? name == "Cells"
-                                                : std::ranges::find(in_poly_data, name) != in_poly_data.end());
+  return std::ranges::find(always, name) != always.end() || kind_of_cells(name) == kind;
 }
 
 }  // namespace
@@ -85,10 +103,8 @@ std::optional<std::uint64_t> whole_number_attribute(const std::filesystem::path&
   if (text == nullptr) {
     return std::nullopt;
   }
-  std::uint64_t number = 0;
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, number);
-  if (stop != end || error != std::errc()) {
+  const std::optional<std::uint64_t> number = parse_xml_count(*text);
+  if (!number) {
     throw ReadError(path, element.line,
                     "expected a whole number as " + std::string(attribute) + ", got " + trismooth::quoted(*text));
   }
@@ -118,6 +134,7 @@ std::vector<VtkXmlPiece> find_vtk_xml_pieces(const std::filesystem::path& path, 
   }
   std::uint64_t points = 0;
   for (const VtkXmlPiece& piece : pieces) {
+    refuse_cells_of_other_kind(path, *piece.element, kind);
     points += piece.points;
     if (points > most_points) {
       throw ReadError(path, piece.element->line,

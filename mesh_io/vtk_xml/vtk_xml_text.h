@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -36,6 +37,13 @@ std::optional<T> parse_xml_number(std::string_view token) {
   } else {
     return parse_integer_as<T>(token);
   }
+}
+
+/// The whole number that an attribute states, with or without white space around it (writers in Fortran pad numbers);
+/// nothing where it is none.
+inline std::optional<std::uint64_t> parse_xml_count(std::string_view text) {
+  const std::string_view token = take_xml_token(text);
+  return take_xml_token(text).empty() ? parse_xml_number<std::uint64_t>(token) : std::nullopt;
 }
 
 }  // namespace trismooth

@@ -207,7 +207,7 @@ class RangeReader {
 
   std::uint64_t offset_of(const XmlElement& array) const {
     const std::string* const text = array.attribute("offset");
-    const auto offset = text == nullptr ? std::nullopt : parse_xml_number<std::uint64_t>(*text);
+    const auto offset = text == nullptr ? std::nullopt : parse_xml_count(*text);
     if (!offset || *offset > end_ - begin_) {
       give_up(path(), "an array has no offset");
     }

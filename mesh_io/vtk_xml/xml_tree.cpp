@@ -9,6 +9,7 @@
 #include <expat.h>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {
 
@@ -142,6 +143,7 @@ XmlHead parse(const std::filesystem::path& path, std::string_view bytes, std::st
   XML_SetCharacterDataHandler(parser.get(), &on_text);
   XML_SetStartDoctypeDeclHandler(parser.get(), &on_document_type);
 
+  bytes = without_end_mark(bytes);  // which is none of XML's
   // expat takes int lengths, and copies what it is given.
   constexpr std::size_t least_chunk = std::size_t{1} << 16;
   constexpr std::size_t largest_chunk = std::size_t{1} << 30;

@@ -98,6 +98,32 @@ TEST_CASE("Line ends may be mixed in every text format") {
   REQUIRE_NONE(faults);
 }
 
+TEST_CASE("A Ctrl-Z at the end, as DOS wrote it, ends every text format and is written back") {
+  Faults faults;
+  for (const AcceptedFile& file : accepted_files::all()) {
+    if (!is_text(file) || !accepted_files::is_one_file(file)) {
+      continue;
+    }
+    const MeshDocument whole = read(file).document.value();
+    std::string trimmed = file.bytes;
+    while (is_line_end(trimmed.back())) {
+      trimmed.pop_back();
+    }
+    for (const std::string& text : {file.bytes + "\x1a", trimmed + "\x1a", trimmed + "\r\n\x1a\r\n"}) {
+      const Outcome outcome = read(file, text);
+      faults.add_any(file.name, "read", outcome.fault + outcome.message);
+      if (!outcome.document) {
+        continue;
+      }
+      faults.add_any(file.name, "read", difference(whole, *outcome.document));
+      if (!is_vtk_xml(file) && written_back(*outcome.document) != text) {
+        faults.add(file.name, "written", "other bytes are written back");
+      }
+    }
+  }
+  REQUIRE_NONE(faults);
+}
+
 TEST_CASE("A locale that writes numbers with a comma changes neither what is read nor what is written") {
   Faults faults;
   for (const AcceptedFile& file : accepted_files::all()) {

@@ -34,7 +34,7 @@ const std::string bay = head + nodes + elements + boundaries;
 }  // namespace
 
 TEST_CASE("ADCIRC: the grid is read with depths, and boundaries as sets of points") {
-  for (const char* const extension : {".14", ".grd", ".gr3", ".GRD"}) {
+  for (const char* const extension : {".14", ".grd", ".gr3", ".ll", ".GRD"}) {
     const MeshDocument document = TextFormat(extension).read(bay);
     CHECK(document.format == FileFormat::adcirc);
     CHECK(document.points == std::vector<double>{0, 0, 0, 1.5, 0, 0, 1, 1, 0, 0, 1, 0});

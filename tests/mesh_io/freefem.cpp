@@ -97,8 +97,11 @@ TEST_CASE("FreeFem: what breaks the rules is refused with the line and the reaso
 TEST_CASE("FreeFem: its files are recognised, and no others of numbers alone") {
   const std::string long_file =
       "3000 1 1\n" + replace_all(std::string(3000, 'v'), "v", "0.125 0.25 0\n") + "1 2 3 0\n1 2 0\n";
+  const std::string nodes = "3000 2000 0\n" + replace_all(std::string(3000, 'v'), "v", "0.125 0.25 0\n");
+  const std::string no_edges = nodes + replace_all(std::string(1000, 't'), "t", "3 2 1 0\n7 8 3000 0\n");
+  const std::string few_triangles = replace_all(nodes, "3000 2000", "3000 2") + "1 2 3 0\r\n3 2 4 0\r\n\x1a";
   for (const std::string& text : {halves, replace_all(halves, "\n", " \r\n"), "\xEF\xBB\xBF\n" + halves, long_file,
-                                  std::string("3 1 0\n0 0 1\n1 0 1\n0 1 1\n1 2 3 1\n")}) {
+                                  no_edges, few_triangles, std::string("3 1 0\n0 0 1\n1 0 1\n0 1 1\n1 2 3 1\n")}) {
     CHECK(freefem_codec.recognises(text));
   }
   for (const std::string& text :
@@ -107,7 +110,11 @@ TEST_CASE("FreeFem: its files are recognised, and no others of numbers alone") {
         // OFF without its keyword; TetGen's and Triangle's nodes.
         std::string("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), std::string("4 2 0 1\n1 0 0 1\n"),
         std::string("3 1 1\n1 0.5 0.5 1\n"), replace_all(long_file, "3000 1 1", "3000 1 0"),
-        replace_all(halves, "1 2 5 0", "1 2 6 0"), replace_all(halves, "0 0 1\n", "0 0 1 2\n")}) {
+        // A long file of OFF without its keyword, and one whose triangles have too large a number or too few.
+        nodes + replace_all(std::string(1000, 't'), "t", "3 2 1 9\n3 8 2999 5\n"),
+        nodes + replace_all(std::string(1000, 't'), "t", "3 2 1 0\n7 8 3001 0\n"),
+        nodes + replace_all(std::string(1000, 't'), "t", "3 2 1 0\n7 8 0\n"), replace_all(halves, "1 2 5 0", "1 2 6 0"),
+        replace_all(halves, "0 0 1\n", "0 0 1 2\n")}) {
     CAPTURE(text.substr(0, 40));
     CHECK_FALSE(freefem_codec.recognises(text));
   }

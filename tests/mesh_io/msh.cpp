@@ -98,6 +98,17 @@ TEST_CASE("every version of MSH, as text and binary, gives the same cells, group
   }
 }
 
+TEST_CASE("names of version 2.0 have no dimension, and are of those in which their group has elements") {
+  const std::string text =
+      "$MeshFormat\n2.0 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n7 \"wall\"\n8 \"1 fluid\"\n9 \"none\"\n"
+      "$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+      "$Elements\n3\n1 1 2 7 1 1 2\n2 1 2 8 1 2 3\n3 2 2 8 1 1 2 3\n$EndElements\n";
+  const MeshDocument document = read_msh_text(text);
+  CHECK(find_array(document.cell_arrays, "gmsh:physical")->description->value_names ==
+        std::vector<trismooth::ValueName>{{7, 1, "wall"}, {8, 1, "1 fluid"}, {8, 2, "1 fluid"}, {9, 2, "none"}});
+  CHECK(written_back(document) == text);
+}
+
 TEST_CASE("parts of a partitioned surface are of that surface, and their numbers are told") {
   for (const int version : {22, 40, 41}) {
     const MeshDocument document = read_msh_text(accepted_files::msh::file({.version = version, .partitioned = true}));

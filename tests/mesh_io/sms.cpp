@@ -8,6 +8,7 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
+#include "support/says.h"
 #include "support/text_format.h"
 
 using trismooth::FileFormat;
@@ -87,6 +88,20 @@ TEST_CASE("2dm: the mesh is the same in any order of cards, with any line ends a
     CHECK(values_of<double>(document.point_arrays, "elevation") == values_of<double>(plain.point_arrays, "elevation"));
     CHECK(sms.written(document) == text);
   }
+}
+
+TEST_CASE("2dm: tables behind cards that are kept, as of time curves, are kept with them") {
+  const std::string curves =
+      "BEGCURVE Version: 1\nXYS 1 3 \"inflow\"\n0.0 1.5\n1.0 2D0\n-2.0 1e3\nXYS 2 1 \"level\"\n0 0\nENDCURVE\n";
+  const std::string text = river + curves + "NS 2 -3\n";
+  const MeshDocument document = sms.read(text);
+  CHECK(document.points == sms.read(river).points);
+  CHECK(document.point_sets.back() == NamedSet{"nodestring 4", {1, 2}});
+  CHECK(document.notes ==
+        std::vector<std::string>{"Cards that are kept in 2dm output only: 'BEGCURVE', 'ENDCURVE', 'GM', 'XYS'."});
+  CHECK(sms.written(document) == text);
+  // A row behind a card of the mesh is one whose card is missing.
+  CHECK(says(sms.failure_of(river + "ND 6 3 3 0\n7 4 4 0\n"), "expected a card, got '7'"));
 }
 
 TEST_CASE("2dm: only numbers of what changed are written, also elevations") {

@@ -11,6 +11,7 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
+#include "support/says.h"
 #include "support/text_format.h"
 
 using trismooth::DataArray;
@@ -102,6 +103,22 @@ TEST_CASE("SU2: zones are one mesh; points that coincide stay two; markers are k
   document.points[9] = 0.25;
   const std::size_t second = text.rfind("\n0 0\n");
   CHECK(su2.written(document) == text.substr(0, second) + "\n0.25 0\n" + text.substr(second + 5));
+}
+
+TEST_CASE("SU2: the dimension may stand once, before the zones") {
+  const std::string behind_dimension = house.substr(house.find('\n') + 1);
+  const MeshDocument plain = su2.read("NZONE= 2\nIZONE= 1\n" + house + "IZONE= 2\n" + house);
+  for (const std::string& text : {"NDIME= 2\nNZONE= 2\nIZONE= 1\n" + behind_dimension + "IZONE= 2\n" + behind_dimension,
+                                  "NZONE= 2\n% all\nNDIME= 2\n\n% one\nIZONE= 1\n" + house + "IZONE= 2\n" + house}) {
+    CAPTURE(text);
+    const MeshDocument document = su2.read(text);
+    CHECK(document.points == plain.points);
+    CHECK(document.cells.connectivity == plain.cells.connectivity);
+    CHECK(su2.written(document) == text);
+  }
+  check_house(su2.read("NDIME= 2\nNZONE= 1\n" + behind_dimension));
+  CHECK(says(su2.failure_of("NDIME= 2\nNDIME= 2\nIZONE= 1\n" + behind_dimension), "NPOIN"));
+  CHECK(says(su2.failure_of("NZONE= 1\nIZONE= 1\n" + behind_dimension), "zone 1 has no NDIME="));
 }
 
 TEST_CASE("SU2: halo points are vertex cells") {

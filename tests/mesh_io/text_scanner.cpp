@@ -90,6 +90,25 @@ TEST_CASE("offsets point at tokens, also after a start that is not zero") {
   CHECK(scanner.next_token("a number") == "45");
 }
 
+TEST_CASE("a Ctrl-Z ends the text where only white space follows, and is a character elsewhere") {
+  for (const std::string text : {"a 1\x1a", "a 1\n\x1a", "a 1 \x1a\r\n \n"}) {
+    CAPTURE(text);
+    TextScanner scanner(text, "mesh");
+    CHECK(scanner.next_token("a") == "a");
+    CHECK_FALSE(scanner.at_end_of_line());
+    CHECK(scanner.next_integer("a number", 0, 9) == 1);
+    CHECK(scanner.at_end_of_line());
+    CHECK(scanner.at_end());
+  }
+  TextScanner lines("one\nlast\x1a", "mesh");
+  lines.next_line();
+  CHECK(lines.next_line() == "last");
+  CHECK(lines.at_end());
+  TextScanner within("a\x1a b", "mesh");
+  CHECK(within.next_token("a word") == "a\x1a");
+  CHECK(within.next_token("a word") == "b");
+}
+
 TEST_CASE("lines are taken as they are") {
   TextScanner scanner("a # b\r\n\rc\\\nd", "", Comments::hash, 0, Continuation::backslash);
   scanner.next_token("a");

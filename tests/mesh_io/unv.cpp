@@ -10,6 +10,7 @@
 
 #include "catch.h"
 #include "mesh_io/text_template.h"
+#include "support/says.h"
 #include "support/text_format.h"
 
 using trismooth::FileFormat;
@@ -87,6 +88,17 @@ TEST_CASE("UNV: nodes, elements of all families and groups are read, and written
   CHECK(document.point_sets == std::vector<NamedSet>{{"supports", {0, 1}}});
   CHECK(document.notes.empty());
   CHECK(unv.written(document) == plate);
+}
+
+TEST_CASE("UNV: text between data sets is kept, and named; numbers there are a data set without its -1") {
+  const std::string text = plate_nodes + "Written by a program,\n  on Monday\n\n" + plate_elements + "end of file\n";
+  const MeshDocument document = unv.read(text);
+  CHECK(document.points == unv.read(plate_nodes + plate_elements).points);
+  CHECK(document.cells.size() == 5);
+  CHECK(document.notes == std::vector<std::string>{"Text between the data sets is kept in UNV output only."});
+  CHECK(unv.written(document) == text);
+  const std::string without_begin = plate_elements.substr(plate_elements.find("  2412"));
+  CHECK(says(unv.failure_of(plate_nodes + without_begin), "expected a line with -1"));
 }
 
 TEST_CASE("UNV: numbers of moved nodes stand in the columns of the old ones") {

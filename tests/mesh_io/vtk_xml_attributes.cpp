@@ -8,6 +8,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
+#include "mesh_io/text_template.h"
 #include "vtk_xml_samples.h"
 
 using trismooth::MeshDocument;
@@ -69,6 +70,18 @@ TEST_CASE("the tag of a VTU or VTP stays: version, byte order, width of sizes, a
       CHECK(document.notes[0] == "what <VTKFile> says as 'creator', 'xmlns:x' is kept in this format only");
     }
   }
+}
+
+TEST_CASE("numbers in attributes may be padded with blanks, as writers in Fortran leave them") {
+  std::string text = tags::file("type=\"UnstructuredGrid\"", "", "", "");
+  const MeshDocument plain = tags::read(text);
+  text = replace_all(text, "NumberOfPoints=\"5\"", "NumberOfPoints=\"           5\"");
+  text = replace_all(text, "NumberOfCells=\"4\"", "NumberOfCells=\" 4 \"");
+  text = replace_all(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"\t3\"");
+  const MeshDocument document = tags::read(text);
+  CHECK(document.points == plain.points);
+  CHECK(document.cells.connectivity == plain.cells.connectivity);
+  CHECK(document.point_arrays.size() == plain.point_arrays.size());
 }
 
 TEST_CASE("attributes that VTK does not know are told with their lines, once each") {

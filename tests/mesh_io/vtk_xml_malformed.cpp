@@ -249,6 +249,15 @@ TEST_CASE("malformed elements are refused with the place and the reason") {
     CHECK(message.find('\n') == std::string::npos);
   }
   CHECK(message_of(VtkXmlKind::poly_data, good_vtu).find("expected a VTKFile of type PolyData") != std::string::npos);
+  // Cells of the other kind would be lost, and the mesh written without them.
+  std::string as_polygons = good_vtu;
+  for (std::size_t at = 0; (at = as_polygons.find("UnstructuredGrid", at)) != std::string::npos;) {
+    as_polygons.replace(at, std::string("UnstructuredGrid").size(), "PolyData");
+  }
+  CHECK(message_of(VtkXmlKind::poly_data, as_polygons).find("<Cells> is of files of type UnstructuredGrid") !=
+        std::string::npos);
+  CHECK(message_of(VtkXmlKind::unstructured_grid, replaced(good_vtu, "<Cells>", "<Polys/><Cells>"))
+            .find("<Polys> is of files of type PolyData") != std::string::npos);
   CHECK(silence.broken_by() == "");
 }
 
