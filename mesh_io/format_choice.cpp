@@ -74,6 +74,12 @@ std::optional<FileFormat> only_one_recognised(std::string_view bytes) {
                             "; --format NAME tells it: " + format_names() + "; known are " + titled_format_list());
 }
 
+/// Whether bytes at the beginning are zero, which no text has.
+bool has_zeros(std::string_view bytes) {
+  constexpr std::size_t looked_at = 64;
+  return bytes.substr(0, looked_at).find('\0') != std::string_view::npos;
+}
+
 /// "as its name says", "as was told".
 FormatChoice otherwise(FileFormat format, std::optional<FileFormat> named, bool is_told) {
   const std::string title(title_of(format));
@@ -96,6 +102,10 @@ FormatChoice choose_format(const std::filesystem::path& path, std::string_view b
       std::ranges::find_if(named, [bytes](FileFormat format) { return is_recognised(format, bytes); });
   if (recognising != named.end()) {
     return {*recognising, {}};
+  }
+  // A format that shows nothing is text, and what has zeros is none.
+  if (const auto unread = recognise_unread_format(bytes); unread && has_zeros(bytes)) {
+    throw ReadError(path, describe_unread(*unread));
   }
   // What is told is of the output, too, which is to be of another format then.
   if (named.size() == 1 && !is_told && is_available(named.front()) && codec_of(named.front()).recognises == nullptr) {

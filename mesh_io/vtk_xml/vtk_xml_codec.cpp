@@ -259,8 +259,10 @@ std::vector<DataArray> views_of(vtkFieldData& fields, std::string_view where, Vt
       }
       views.push_back(std::move(*view));
     } else {
-      notes.push_back("the " + std::string(where) + " array " + array->GetName() +
-                      " does not hold numbers: no vertices are held by it as fixed, and no other format gets it");
+      const bool has_strings = vtkStringArray::SafeDownCast(array) != nullptr;
+      notes.push_back(std::string(where) + " array " + trismooth::quoted(array->GetName()) +
+                      (has_strings ? " holds strings" : " holds no numbers") +
+                      ": it is kept in VTU and VTP only, not in other formats");
     }
   }
   if (auto* const attributes = vtkDataSetAttributes::SafeDownCast(&fields)) {

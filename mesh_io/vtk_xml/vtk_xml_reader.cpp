@@ -28,6 +28,7 @@
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_attributes.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_cells_reader.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_cuts.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_decoder.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_pieces.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_shared_arrays.h"
@@ -139,6 +140,7 @@ class Reader {
 
  private:
   vtkSmartPointer<vtkPoints> read_points();
+  void note_cuts(vtkPoints& points);
   MemoryBlock as_float64(ScalarType type, const MemoryBlock& numbers, std::size_t line) const;
   vtkSmartPointer<vtkPointSet> read_unstructured_grid();
   vtkSmartPointer<vtkPointSet> read_poly_data();
@@ -175,6 +177,15 @@ MemoryBlock Reader::as_float64(ScalarType type, const MemoryBlock& numbers, std:
     }
   });
   return converted;
+}
+
+/// Pieces that do not share their points are apart from each other.
+void Reader::note_cuts(vtkPoints& points) {
+  if (const std::size_t shared = pieces_.size() > 1 ? count_shared_places(pieces_, points) : 0; shared > 0) {
+    file_.notes.push_back("the pieces have points of their own in " + std::to_string(shared) +
+                          (shared == 1 ? " place" : " places") +
+                          " where they meet: the cuts between them are boundaries, whose vertices are held");
+  }
 }
 
 vtkSmartPointer<vtkPoints> Reader::read_points() {
@@ -392,6 +403,7 @@ VtkXmlFile Reader::read() {
   refuse_second(path_, head_.root, data_set_name);
   pieces_ = find_vtk_xml_pieces(path_, *data_set, file_.kind, file_.losses);
   const vtkSmartPointer<vtkPoints> points = read_points();
+  note_cuts(*points);
   file_.data = file_.kind == VtkXmlKind::unstructured_grid ? read_unstructured_grid() : read_poly_data();
   file_.data->SetPoints(points);
   read_attributes("PointData", &VtkXmlPiece::points, {}, *file_.data->GetPointData());

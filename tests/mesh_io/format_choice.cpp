@@ -161,12 +161,24 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
       {"CDF\x02....", "is NetCDF"},
       {"<?xml version=\"1.0\"?><Xdmf Version=\"3.0\">", "is XDMF"},
       {"(0 \"GAMBIT to Fluent File\")\n", "is Ansys Fluent"},
+      {"(0 grid written by a program)\n(2 2)\n", "is Ansys Fluent"},
       {"mesh3d\ndimension\n2\n", "is Netgen"},
+      {"# plate.msh; created by JIGSAW\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", "is JIGSAW"},
+      {"100079  1000  4  UTM-33\r\n1 0 0 -5 1\r\n", "is MIKE (DHI)"},
+      {"4 PROJCS[\"UTM-33\",GEOGCS[\"Unused\"]]\n1 0 0 -5 1\n", "is MIKE (DHI)"},
+      {std::string("\0\0\0\x50", 4) + std::string(80, ' ') + std::string("\0\0\0\x50\0", 5), "is Selafin"},
+      {std::string("\xFF\xFEO\0F\0F\0", 8), "is text in UTF-16"},
+      {std::string("O\0F\0F\0\r\0\n\0003\0 \0001\0", 16), "is text in UTF-16"},
   };
   for (const auto& [bytes, words] : by_content) {
     CAPTURE(bytes);
     CHECK(says(refusal("plate.dat", bytes), words));
     CHECK(says(refusal("plate.off", bytes), words));
+    CHECK(says(refusal("plate.msh", bytes), words));
+    // A grid of ADCIRC may begin with any text, but is text.
+    const bool has_zeros = bytes.find('\0') != std::string::npos;
+    CHECK((has_zeros || choose_format("plate.grd", bytes, std::nullopt).format == FileFormat::adcirc));
+    CHECK((!has_zeros || says(refusal("plate.grd", bytes), words)));
   }
   for (const std::string bytes : {"", "CDF", "CDF\x07", "-1 2411\n", "(0 )", "-1\n", "-1"}) {
     CAPTURE(bytes);

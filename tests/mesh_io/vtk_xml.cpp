@@ -256,6 +256,9 @@ TEST_CASE("pieces are joined as VTK joins them") {
   const MeshDocument document = trismooth::read_mesh(input.path());
   REQUIRE(document.losses.size() == 1);
   CHECK(document.losses[0].find("pieces") != std::string::npos);
+  CHECK(document.notes ==
+        std::vector<std::string>{"the pieces have points of their own in 3 places where they meet: the cuts between "
+                                 "them are boundaries, whose vertices are held"});
   CHECK(document.point_count() == 6);
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{2, 5, 0, 1, 2, 3, 4, 5});
   const auto cells = document.cell_arrays.at(0).as<std::int32_t>();
