@@ -32,6 +32,7 @@ struct GenerateSettings {
   std::optional<FileFormat> format;
   std::int64_t vertices = 0;
   std::uint64_t seed = 1;
+  bool quiet = false;
   RandomMeshOptions options;
 };
 
@@ -55,7 +56,7 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
       line->draw({std::string(stage), " ..."});
     }
   };
-  if (environment.terminal.stream != nullptr) {
+  if (environment.terminal.stream != nullptr && !settings.quiet) {
     line.emplace(environment.terminal);
   }
   show("making the mesh");
@@ -63,6 +64,9 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   show("writing");
   write_mesh(settings.output, document_of(mesh), {}, FileOptions{1, settings.format});
   line.reset();
+  if (settings.quiet) {
+    return ExitCode::done;
+  }
   std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
   results << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
                                                      mesh.triangles.size(), settings.seed))
@@ -105,6 +109,7 @@ Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environ
       command, "--boundary", settings->options.boundary,
       "random: the hull of the points, a few long edges, the paper's data; resolved: the square, with edges "
       "as long as those inside");
+  command.add_flag("--quiet,-q", settings->quiet, "Print errors only");
   return {&command, [settings, &environment] { return run_generate(*settings, environment); }};
 }
 

@@ -66,4 +66,12 @@ double parse_finite(std::string_view text) {
   return *value;
 }
 
+double parse_finite(std::string_view text, double lowest) {
+  const double value = parse_finite(text);
+  if (value < lowest) {
+    throw std::invalid_argument(fmt::format("expected a number from {}, got '{}'", lowest, text));
+  }
+  return value;
+}
+
 }  // namespace trismooth

@@ -70,7 +70,7 @@ void add_mean_ratio_options(CLI::App& command, PipelineOptions& pipeline) {
   const char* const group = "Method mean-ratio";
   add_parsed_option(command, "--size-weight", "X",
                     "How much the sizes of triangles count beside their shapes; 0: not at all [1]",
-                    [&options](const std::string& text) { options.size_weight = parse_finite(text); })
+                    [&options](const std::string& text) { options.size_weight = parse_finite(text, 0); })
       ->group(group);
   add_parsed_option(command, "--size-array", "NAME",
                     "Array of the sizes to aim at, in place of those that triangles have: edge lengths at points, or "
@@ -125,10 +125,10 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
       ->group(group);
   add_parsed_option(command, "--tolerance", "X",
                     "Stop when no vertex moves by more than X of its edge length; 0: only when none moves [1e-6]",
-                    [&options](const std::string& text) { options.tolerance = parse_finite(text); })
+                    [&options](const std::string& text) { options.tolerance = parse_finite(text, 0); })
       ->group(group);
   add_parsed_option(command, "--time-limit", "SECONDS", "Stop sweeping after this time [none]",
-                    [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text); })
+                    [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text, 0); })
       ->group(group);
   add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles reaches X [none]",
                     [&options](const std::string& text) { options.target_quality = parse_finite(text); })

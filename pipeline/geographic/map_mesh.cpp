@@ -93,6 +93,33 @@ void set_apart(PlanarMesh& mesh, std::span<const std::int32_t> cut) {
                   cut.size() == 1 ? "it is" : "they are", cut.size() == 1 ? "its" : "their"));
 }
 
+/// A basin in metres, which begins at the axes or has them in its middle. (The globe does so, too.)
+bool is_at_axes(const DegreeRange& range) {
+  constexpr double globe = 90;
+  const auto is_at = [](double low, double high) { return low == 0 || high == 0 || low == -high; };
+  return range.east - range.west < globe && is_at(range.west, range.east) && is_at(range.south, range.north);
+}
+
+/// Near the equator shapes are the same on the sphere, to one per cent.
+bool has_shapes_of_its_own(const DegreeRange& range) {
+  constexpr double same_below = 8;
+  return std::max(std::abs(range.south), std::abs(range.north)) > same_below;
+}
+
+/// The mean side is one of meshes of coasts and oceans: a metre to a thousand kilometres.
+bool has_sides_in_degrees(const PlanarMesh& mesh, const MeshDocument& document) {
+  constexpr double shortest = 1e-5;
+  constexpr double longest = 10;
+  double sum = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const double* const a = document.points.data() + 3 * static_cast<std::size_t>(triangle[0]);
+    const double* const b = document.points.data() + 3 * static_cast<std::size_t>(triangle[1]);
+    sum += std::hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  const double mean = sum / static_cast<double>(mesh.triangles.size());
+  return mean >= shortest && mean <= longest;
+}
+
 }  // namespace
 
 void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path) {
@@ -141,7 +168,8 @@ bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document) {
   const double extent = std::max(range.east - range.west, range.north - range.south);
   const double distance = std::max(std::abs(range.east + range.west), std::abs(range.north + range.south)) / 2;
   return range.west >= -180 && range.east <= 360 && range.south >= -90 && range.north <= 90 &&
-         (extent > least_extent || distance > least_distance * extent);
+         (extent > least_extent || distance > least_distance * extent) && !is_at_axes(range) &&
+         has_shapes_of_its_own(range) && has_sides_in_degrees(mesh, document);
 }
 
 }  // namespace trismooth

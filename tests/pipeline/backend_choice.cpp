@@ -2,11 +2,13 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
+#include "support/scratch_folder.h"
 
 using trismooth::BackendChoice;
 using trismooth::CudaOrCpu;
@@ -51,6 +53,18 @@ SmoothingOptions unordered() {
 }
 
 }  // namespace
+
+TEST_CASE("where --devices asks for CUDA that is not there, it is what is to be left out") {
+  const auto message = [](const CudaSupport& cuda, BackendChoice choice) {
+    SmoothingOptions options;
+    return message_of<trismooth::DeviceError>(
+        [&] { trismooth::choose_devices(std::vector<int>{0}, choice, cuda, options); });
+  };
+  CHECK(
+      message({}, BackendChoice::automatic) ==
+      "this build has no CUDA backend; leave out '--devices' to smooth on the CPU, or build with -DTRISMOOTH_CUDA=ON");
+  CHECK(message({}, BackendChoice::cuda).find("leave out '--backend cuda'") != std::string::npos);
+}
 
 TEST_CASE("in a build without CUDA, cpu and auto are the CPU and everything else is refused with what to do") {
   const CudaSupport cuda;

@@ -26,6 +26,16 @@ TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothe
   CHECK(folder.size() == 1);
 }
 
+TEST_CASE("--quiet prints nothing, as it does elsewhere") {
+  const ScratchFolder folder;
+  for (const char* const quiet : {"-q", "--quiet"}) {
+    const Outcome made = call({"generate", (folder / "mesh.off").string(), "--vertices", "50", quiet});
+    CHECK(made.code == 0);
+    CHECK(made.out.empty());
+    CHECK(made.err.empty());
+  }
+}
+
 TEST_CASE("the same seed makes the same file, another seed another") {
   const ScratchFolder folder;
   const auto made_with = [&](const std::string& seed) {

@@ -109,6 +109,11 @@ TEST_CASE("a mesh of the oceans' formats that looks like degrees gets a note wit
       coordinate *= 1000;
     }
     CHECK_FALSE(is_noted(kilometres, extension, false));
+    // Flumes and basins of 20 m, from the axes on or in the middle of them, and a model of a few millimetres.
+    CHECK_FALSE(is_noted(patch(0, 0, 20, 20), extension, false));
+    CHECK_FALSE(is_noted(patch(-10, 0, 20, 12), extension, false));
+    CHECK_FALSE(is_noted(patch(-3, -0.5, 20, 1), extension, false));
+    CHECK_FALSE(is_noted(patch(50, 50, 2e-5, 1e-5), extension, false));
   }
   CHECK_FALSE(is_noted(degrees, ".off", false));
 }
