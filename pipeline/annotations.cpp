@@ -8,6 +8,7 @@
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
 
@@ -84,22 +85,40 @@ DataArray displacement_annotation(std::span<const double> before, std::span<cons
   return make_data_array(annotation_name("displacement"), 3, std::move(displacements));
 }
 
-std::vector<Metric> parse_metrics(std::string_view text) {
-  std::vector<Metric> metrics;
+DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
+                                Workers& workers, std::string_view suffix) {
+  const std::vector<double> ratios = size_ratios(view, workers.count());
+  std::vector<double> values = zeros<double>(cell_count, workers);
+  for (std::size_t t = 0; t < ratios.size(); ++t) {
+    double& of_cell = values[static_cast<std::size_t>(cells[t])];
+    of_cell = std::max(of_cell, std::min(ratios[t], largest_annotation));  // 0 before the first of a strip
+  }
+  return make_data_array(annotation_name(size_ratio_info.name).append(suffix), 1, std::move(values));
+}
+
+AnnotatedMetrics parse_metrics(std::string_view text) {
+  AnnotatedMetrics annotated;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string_view name = text.substr(begin, end - begin);
     const auto metric = metric_named(name);
-    if (!metric) {
-      throw std::invalid_argument("unknown metric '" + std::string(name) + "'; valid are " + metric_names());
+    const bool is_size_ratio = name == size_ratio_info.name;
+    if (!metric && !is_size_ratio) {
+      throw std::invalid_argument("unknown metric '" + std::string(name) + "'; valid are " + metric_names() + ", " +
+                                  std::string(size_ratio_info.name));
     }
-    if (std::ranges::find(metrics, *metric) != metrics.end()) {
+    if (is_size_ratio ? annotated.size_ratio
+                      : std::ranges::find(annotated.metrics, *metric) != annotated.metrics.end()) {
       throw std::invalid_argument("the metric '" + std::string(name) + "' is named twice");
     }
-    metrics.push_back(*metric);
+    if (is_size_ratio) {
+      annotated.size_ratio = true;
+    } else {
+      annotated.metrics.push_back(*metric);
+    }
     begin = end + 1;
   }
-  return metrics;
+  return annotated;
 }
 
 }  // namespace trismooth

@@ -40,8 +40,18 @@ DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& worke
 /// From x, y, z of every vertex before and after. An array of float64, 3 a vertex.
 DataArray displacement_annotation(std::span<const double> before, std::span<const double> after, Workers& workers);
 
-/// The metrics that `text` names, separated by commas: "shape,min_angle". Throws std::invalid_argument for a name that
-/// is none, with those that are, and for one that comes twice.
-std::vector<Metric> parse_metrics(std::string_view text);
+/// The size ratio (size_ratio.h) of each cell, as metric_annotations() has the others: of a strip the largest.
+DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
+                                Workers& workers, std::string_view suffix = {});
+
+/// What annotations are to show of triangles.
+struct AnnotatedMetrics {
+  std::vector<Metric> metrics;
+  bool size_ratio = false;
+};
+
+/// The metrics that `text` names, separated by commas: "shape,min_angle,size_ratio". Throws std::invalid_argument for a
+/// name that is none, with those that are, and for one that comes twice.
+AnnotatedMetrics parse_metrics(std::string_view text);
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "trismooth/base/suggestion.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
 
@@ -54,8 +56,15 @@ std::optional<double> find_value(std::string_view name, const QualityReport& rep
   if (name == info(Metric::max_angle).name) {
     return report[Metric::max_angle].max;
   }
+  constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+  if (name == size_ratio_info.name) {
+    return report.size_ratio ? report.size_ratio->max : not_known;
+  }
   for (const auto& [prefix, statistic] : statistics) {
     if (name.starts_with(prefix)) {
+      if (name.substr(prefix.size()) == size_ratio_info.name) {
+        return report.size_ratio ? *report.size_ratio.*statistic : not_known;
+      }
       if (const auto metric = metric_named(name.substr(prefix.size()))) {
         return report[*metric].*statistic;
       }
@@ -111,10 +120,13 @@ std::vector<std::string> gate_names() {
                                  "degenerate",
                                  std::string(invalid_quadratic),
                                  std::string(info(Metric::min_angle).name),
-                                 std::string(info(Metric::max_angle).name)};
-  for (const MetricInfo& metric : all_metrics()) {
+                                 std::string(info(Metric::max_angle).name),
+                                 std::string(size_ratio_info.name)};
+  QualityReport with_all;
+  with_all.size_ratio.emplace();
+  for (const MetricInfo* const metric : metrics_of(with_all)) {
     for (const auto& [prefix, statistic] : statistics) {
-      names.emplace_back(prefix).append(metric.name);
+      names.emplace_back(prefix).append(metric->name);
     }
   }
   return names;
@@ -130,9 +142,14 @@ double gate_value(std::string_view name, const QualityReport& report,
     prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
   }
   throw std::invalid_argument(
-      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, {}, min_angle, max_angle, and one "
-                  "of {} before one of {}{}",
-                  name, invalid_quadratic, prefixes, metric_names(), did_you_mean(name, gate_names())));
+      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, {}, min_angle, max_angle, {}, and "
+                  "one of {} before one of {}, {}{}",
+                  name, invalid_quadratic, size_ratio_info.name, prefixes, metric_names(), size_ratio_info.name,
+                  did_you_mean(name, gate_names())));
+}
+
+bool needs_size_ratio(const Gate& gate) {
+  return std::string_view(gate.name).ends_with(size_ratio_info.name);
 }
 
 Gate parse_gate(std::string_view text) {

@@ -44,12 +44,15 @@ struct GateOutcome {
 };
 
 /// Every name that a gate may have: triangles, inverted, degenerate, invalid_quadratic, min_angle and max_angle (the
-/// smallest and the largest angle of the mesh), and for each metric min_M, mean_M, max_M, stddev_M and acceptable_M
-/// (the acceptable fraction, 0 to 1).
+/// smallest and the largest angle of the mesh), size_ratio (the largest), and for each metric, size_ratio too, min_M,
+/// mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1).
 std::vector<std::string> gate_names();
 
-/// The value of that name in the report; invalid_quadratic is that of `quadratic`, and 0 for a mesh without quadratic
-/// triangles. Throws std::invalid_argument for a name that is not one of gate_names().
+/// Whether it takes a report that has the size ratio (PipelineOptions::size_ratio).
+bool needs_size_ratio(const Gate& gate);
+
+/// The value of that name in the report, NaN where it has none; invalid_quadratic is that of `quadratic`, and 0 for a
+/// mesh without quadratic triangles. Throws std::invalid_argument for a name that is not one of gate_names().
 double gate_value(std::string_view name, const QualityReport& report,
                   const std::optional<QuadraticQuality>& quadratic = std::nullopt);
 

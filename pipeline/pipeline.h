@@ -53,6 +53,9 @@ struct PipelineOptions {
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
   std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
+  /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move
+  /// together; the file keeps all of them. Absent: none are joined.
+  std::optional<double> merge;
   /// Which vertices of boundaries and interfaces slide along them. Lines, their tags and links are those of the file,
   /// in place of its own. Meshes of quadratic triangles, in tilted planes and in files of few digits do not
   /// slide; a note says so.
@@ -83,6 +86,8 @@ struct PipelineOptions {
   /// Where the mesh goes as it was read, with annotations; for a run without `output` alone.
   std::optional<std::filesystem::path> annotated;
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
+  bool annotated_size_ratio = false;                     ///< they show that one, too
+  bool size_ratio = false;                               ///< reports have it, which takes a while
   std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
 
@@ -105,8 +110,9 @@ struct InputSummary {
   std::int64_t quadratic_triangles = 0;  ///< those of the triangles that have six nodes
   std::int64_t middle_nodes = 0;         ///< vertices that are neither fixed nor free, but follow the side they are on
   std::int32_t regions = 0;              ///< 0: no region array
-  std::string region_array;     ///< the array that gave them, or empty; the names of several, separated by ", "
-  std::int32_t components = 0;  ///< connected through edges with exactly two triangles
+  std::string region_array;          ///< the array that gave them, or empty; the names of several, separated by ", "
+  std::int32_t components = 0;       ///< connected through edges with exactly two triangles
+  std::int64_t merged_vertices = 0;  ///< that go with another one, neither fixed nor free: PipelineOptions::merge
   std::int64_t fixed_vertices = 0;
   std::int64_t free_vertices = 0;
   std::int64_t reoriented_triangles = 0;   ///< listed against their component's majority

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "trismooth/base/triangle_view.h"
@@ -39,6 +40,7 @@ struct QualityReport {
   std::int64_t inverted = 0;                          ///< triangles of shape < 0
   std::int64_t degenerate = 0;                        ///< triangles whose shape is neither above nor below 0: no area
   std::array<MetricSummary, metric_count> metrics{};  ///< indexed by Metric; area in units of the file
+  std::optional<MetricSummary> size_ratio;            ///< for who has asked for it (see size_ratio.h)
   /// Bin i counts the triangles with i <= 20 shape < i + 1; the last one has 1 and what is rounded above it, too.
   /// Inverted triangles are in no bin, degenerate ones in the first: the bins and `inverted` add up to `triangles`.
   std::array<std::int64_t, shape_bins> shape_histogram{};

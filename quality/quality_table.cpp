@@ -9,6 +9,7 @@
 
 #include "trismooth/base/digits.h"
 #include "trismooth/quality/report_text.h"
+#include "trismooth/quality/size_ratio.h"
 #include "trismooth/quality/text_columns.h"
 
 namespace trismooth {
@@ -35,8 +36,9 @@ std::string acceptable_text(const MetricInfo& metric) {
 std::string metrics_text(const QualityReport& report) {
   TextColumns columns({{0, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
   columns.add_row({"metric", "min", "mean", "max", "stddev", "acceptable", "where"});
-  for (const MetricInfo& metric : all_metrics()) {
-    const MetricSummary& summary = report[metric.metric];
+  for (const MetricInfo* const shown : metrics_of(report)) {
+    const MetricInfo& metric = *shown;
+    const MetricSummary& summary = summary_of(report, metric);
     const int digits = decimals(metric.metric);
     columns.add_row({std::string(metric.name), cell_text(summary.min, digits), cell_text(summary.mean, digits),
                      cell_text(summary.max, digits), cell_text(summary.stddev, digits),
@@ -59,7 +61,8 @@ std::string change_text(double before, double after) {
 std::string metrics_text(const QualityReport& before, const QualityReport& after) {
   TextColumns columns({{0, Align::left}, {1, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
   columns.add_row({"metric", "", "min", "mean", "max", "ok %", "worst by"});
-  for (const MetricInfo& metric : all_metrics()) {
+  for (const MetricInfo* const shown : metrics_of(after)) {
+    const MetricInfo& metric = *shown;
     const int digits = decimals(metric.metric);
     const auto row = [&](std::string name, std::string_view when, const MetricSummary& summary) {
       return std::vector<std::string>{std::move(name),
@@ -69,8 +72,8 @@ std::string metrics_text(const QualityReport& before, const QualityReport& after
                                       cell_text(summary.max, digits),
                                       percent_text(summary.acceptable_fraction)};
     };
-    const MetricSummary& from = before[metric.metric];
-    const MetricSummary& to = after[metric.metric];
+    const MetricSummary& from = summary_of(before, metric);
+    const MetricSummary& to = summary_of(after, metric);
     columns.add_row(row(std::string(metric.name), "before", from));
     std::vector<std::string> last = row("", "after", to);
     last.push_back(change_text(worst_of(metric.metric, from), worst_of(metric.metric, to)));

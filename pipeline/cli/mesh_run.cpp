@@ -178,6 +178,11 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       .add_flag("--geographic", options.geographic,
                 "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
       ->group(option_group::coordinates);
+  add_parsed_option(command, "--merge", "DISTANCE",
+                    "Corners of triangles that are no further apart count as one vertex, in the file's unit; they move "
+                    "together, and the file keeps all of them [none are joined]",
+                    [&options](const std::string& text) { options.merge = parse_finite(text, 0); })
+      ->group(option_group::constraints);
   add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
                     [&options](const std::string& text) { options.fixed_ids = text; })
       ->group(option_group::constraints);
@@ -213,7 +218,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
-      "degenerate, invalid_quadratic, triangles, and min_, mean_, max_, stddev_ or acceptable_ before a metric: "
+      "degenerate, invalid_quadratic, triangles, size_ratio, and min_, mean_, max_, stddev_ or acceptable_ before a "
+      "metric: "
       "min_shape. Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
       ->group(option_group::results);
@@ -234,7 +240,11 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
 void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(command, "--annotate-metrics", "M,M,...",
                     "Metrics that --annotate shows: shape, min_angle, ...; all names are in README [shape]",
-                    [&settings](const std::string& text) { settings.pipeline.annotated_metrics = parse_metrics(text); })
+                    [&settings](const std::string& text) {
+                      AnnotatedMetrics annotated = parse_metrics(text);
+                      settings.pipeline.annotated_metrics = std::move(annotated.metrics);
+                      settings.pipeline.annotated_size_ratio = annotated.size_ratio;
+                    })
       ->needs("--annotate")
       ->group(option_group::results);
 }
@@ -243,6 +253,10 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   PipelineOptions& options = settings.pipeline;
   const Verbosity verbosity = settings.verbosity;
   options.smoothing.record_min_shape = verbosity == Verbosity::verbose || options.smoothing.target_quality.has_value();
+
+  // Every rank is to know it; a job says it only where it is asked to, and so does standard output.
+  options.size_ratio =
+      std::ranges::any_of(settings.gates, &needs_size_ratio) || (!environment.over_ranks && !settings.reports.empty());
 
   RunRecord record{environment.command, date_text(std::chrono::system_clock::now()), {}};
   if (environment.follows) {

@@ -40,6 +40,7 @@ struct PlanarMesh {
   BulkVector<std::int32_t> cells;             ///< the document's cell of each triangle, ascending; a strip has several
   std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
   std::vector<MiddleNode> middles;            ///< the middles that follow their sides: see settle_middles()
+  std::vector<std::int32_t> merged;           ///< per vertex the one it goes with: see merge_corners(); or empty
   std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it
   std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;               ///< cells that are not triangles

@@ -50,6 +50,8 @@ std::string_view what_needs_whole_mesh(const PipelineOptions& options) {
          : options.size_array                                ? "--size-array"
          : options.fields == Fields::interpolate             ? "--fields interpolate"
          : !options.field_arrays.empty()                     ? "--field-array"
+         : options.merge                                     ? "--merge"
+         : options.size_ratio                                ? "--require size_ratio"
          : options.annotate || options.annotated.has_value() ? "--annotate"
                                                              : "";
 }

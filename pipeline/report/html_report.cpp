@@ -18,6 +18,7 @@
 #include "trismooth/pipeline/report/text_report.h"
 #include "trismooth/pipeline/report/timings.h"
 #include "trismooth/quality/report_text.h"
+#include "trismooth/quality/size_ratio.h"
 #include "trismooth/version.h"
 
 namespace trismooth {
@@ -176,8 +177,9 @@ std::string metric_table(const QualityReport& report) {
   std::string html =
       "<table class=\"stack\">\n<thead><tr><th>metric</th><th>min</th><th>mean</th><th>max</th><th>std. deviation</th>"
       "<th>acceptable %</th></tr></thead>\n<tbody>\n";
-  for (const MetricInfo& metric : all_metrics()) {
-    const MetricSummary& summary = report[metric.metric];
+  for (const MetricInfo* const shown : metrics_of(report)) {
+    const MetricInfo& metric = *shown;
+    const MetricSummary& summary = summary_of(report, metric);
     const int digits = decimals(metric.metric);
     html += "<tr>" + metric_name_cell(metric) +
             html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "", "min") +
@@ -205,9 +207,10 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
     html += "<th class=\"start\">before</th><th>after</th>";
   }
   html += "<th></th></tr></thead>\n<tbody>\n";
-  for (const MetricInfo& metric : all_metrics()) {
-    const MetricSummary& from = before[metric.metric];
-    const MetricSummary& to = after[metric.metric];
+  for (const MetricInfo* const shown : metrics_of(after)) {
+    const MetricInfo& metric = *shown;
+    const MetricSummary& from = summary_of(before, metric);
+    const MetricSummary& to = summary_of(after, metric);
     const int digits = decimals(metric.metric);
     // The bad end of the range is what decides: it stands out, in enough digits to see a change.
     const auto end_of_range = [&](std::string_view label, double MetricSummary::*value, bool is_bad_end) {

@@ -10,6 +10,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/timings.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/size_ratio.h"
 #include "trismooth/version.h"
 
 namespace trismooth {
@@ -68,6 +69,7 @@ Json input_json(const InputSummary& input) {
           {"components", input.components},
           {"fixed_vertices", input.fixed_vertices},
           {"free_vertices", input.free_vertices},
+          {"merged_vertices", input.merged_vertices},
           {"reoriented_triangles", input.reoriented_triangles},
           {"region_arrays", std::move(region_arrays)},
           {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
@@ -96,6 +98,9 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
   Json annotated = Json::array();
   for (const Metric metric : options.annotated_metrics) {
     annotated.push_back(std::string(info(metric).name));
+  }
+  if (options.annotated_size_ratio) {
+    annotated.push_back(std::string(size_ratio_info.name));
   }
   const bool annotates = options.annotate || options.annotated.has_value();
   return {{"output", written ? Json(shown_output(*written).string()) : Json(nullptr)},
@@ -132,6 +137,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"region_arrays", options.region_arrays},
           {"fixed_array", text_or_null(options.fixed_array)},
           {"fixed_sets", options.fixed_sets},
+          {"merge", options.merge ? Json(*options.merge) : Json(nullptr)},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
           {"annotate", annotates},
           {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
@@ -140,13 +146,13 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
 /// `names`: of regions.
 Json quality_json(const QualityReport& report, const std::vector<std::string>& names) {
   Json metrics = Json::object();
-  for (const MetricInfo& metric : all_metrics()) {
-    const MetricSummary& summary = report[metric.metric];
-    metrics[std::string(metric.name)] = {{"min", number_json(summary.min)},
-                                         {"mean", number_json(summary.mean)},
-                                         {"max", number_json(summary.max)},
-                                         {"stddev", number_json(summary.stddev)},
-                                         {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
+  for (const MetricInfo* const metric : metrics_of(report)) {
+    const MetricSummary& summary = summary_of(report, *metric);
+    metrics[std::string(metric->name)] = {{"min", number_json(summary.min)},
+                                          {"mean", number_json(summary.mean)},
+                                          {"max", number_json(summary.max)},
+                                          {"stddev", number_json(summary.stddev)},
+                                          {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {

@@ -45,6 +45,10 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
                                                   input.region_arrays.size() > 1 ? "s" : "", input.region_array));
   }
   text += labelled_line("fixed:", held_text(input));
+  if (input.merged_vertices > 0) {
+    text += labelled_line("merged:",
+                          counted(input.merged_vertices, "vertex goes with another one", "vertices go with others"));
+  }
   if (input.middle_nodes > 0) {
     text += labelled_line("middles:",
                           counted(input.middle_nodes, "vertex moves with its side", "vertices move with their sides"));
@@ -186,8 +190,11 @@ std::string inverted_line(const PipelineResult& result) {
   if (!result.after) {
     return fmt::format("{} inverted.\n", counted(now, "triangle is", "triangles are"));
   }
-  return fmt::format("{} ({} before).\n", counted(now, "inverted triangle remains", "inverted triangles remain"),
-                     before);
+  const bool is_untangled = result.smoothing && result.smoothing->untangling;
+  return wrapped(
+      fmt::format("{} ({} before){}.", counted(now, "inverted triangle remains", "inverted triangles remain"), before,
+                  is_untangled ? "" : "; --untangle on mends what can be mended"),
+      "", "");
 }
 
 std::string quadratic_lines(const PipelineResult& result) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
 
@@ -13,6 +14,9 @@ namespace {
 
 QualityReport quality_of(const RunState& run) {
   QualityReport report = quality_report(run.view(), {.threads = run.options.smoothing.threads});
+  if (run.options.size_ratio) {
+    report.size_ratio = size_ratio_summary(run.view(), run.options.smoothing.threads);
+  }
   report.degenerate += run.mesh.repeating_triangles;
   for (WorstElement& element : report.worst) {
     const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.triangle)];

@@ -11,7 +11,9 @@
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/input/near_corners.h"
 #include "trismooth/pipeline/stages/field_stage.h"
+#include "trismooth/pipeline/stages/growth_note.h"
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/pipeline/stages/stored_result.h"
 #include "trismooth/pipeline/stages/warnings.h"
@@ -24,8 +26,9 @@ namespace trismooth {
 
 namespace {
 
-/// `input`: the points that were read, where they are needed.
-void hash_coordinates(RunState& run, std::span<const double> input, const SmoothingResult& smoothing) {
+/// `input`, `before_merging`: the points that were read, where they are needed.
+void hash_coordinates(RunState& run, std::span<const double> input, std::span<const double> before_merging,
+                      const SmoothingResult& smoothing) {
   run.result.coordinates_hash = run.result.unguarded_hash = coordinates_hash(run.document.points);
   if (smoothing.reverted.empty()) {
     return;
@@ -40,6 +43,7 @@ void hash_coordinates(RunState& run, std::span<const double> input, const Smooth
   if (!input.empty()) {
     fit_to_file(run, input, unguarded);
   }
+  follow_merged(run.mesh, before_merging, unguarded);
   run.result.unguarded_hash = coordinates_hash(unguarded);
 }
 
@@ -50,8 +54,11 @@ void compare_sizes(RunState& run, const TriangleView& before) {
   result.size_change = size_change(before, run.view(), threads);
   if (run.smoothing.aims_at_sizes()) {
     const std::vector<double> asked = inverse_sizes(run.smoothing, run.found.fixed);
-    result.size_fit_before = size_fit(before, asked, run.found.fixed, threads);
-    result.size_fit_after = size_fit(run.view(), asked, run.found.fixed, threads);
+    // Corners that slide change sizes, too.
+    const std::vector<std::uint8_t> held =
+        run.found.slidable.any() ? run.found.slidable.truly_fixed(run.found.fixed) : run.found.fixed;
+    result.size_fit_before = size_fit(before, asked, held, threads);
+    result.size_fit_after = size_fit(run.view(), asked, held, threads);
   }
   result.timings_ms.check_after += watch.milliseconds();
 }
@@ -92,6 +99,7 @@ void smooth_mesh(RunState& run) {
     run.metrics_before = metrics_of_cells(run, "_before");
   }
   const std::vector<double> points_read = is_stored_otherwise(run) ? run.document.points : std::vector<double>{};
+  const std::vector<double> before_merging = run.mesh.merged.empty() ? std::vector<double>{} : run.document.points;
   SmoothingResult smoothing = smooth_points(run);
   smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
   if (smoothing.stop_reason == StopReason::cancelled) {
@@ -99,6 +107,14 @@ void smooth_mesh(RunState& run) {
   }
   if (!points_read.empty()) {
     store_result(run, points_read, smoothing);
+  }
+  follow_merged(run.mesh, before_merging, run.document.points);
+  for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
+    if (!std::equal(before_merging.begin() + 3 * static_cast<std::ptrdiff_t>(v),
+                    before_merging.begin() + 3 * static_cast<std::ptrdiff_t>(v + 1),
+                    run.document.points.begin() + 3 * static_cast<std::ptrdiff_t>(v))) {
+      run.mesh.points[v] = run.mesh.points[static_cast<std::size_t>(run.mesh.merged[v])];
+    }
   }
   const LocalPoints input = std::exchange(run.local, {});
   const std::vector<std::uint8_t> input_reversed = run.found.reversed;
@@ -110,9 +126,11 @@ void smooth_mesh(RunState& run) {
   }
   warn_of_folds_put_back(run, smoothing);
   move_fields(run, input);
-  hash_coordinates(run, points_read, smoothing);
+  hash_coordinates(run, points_read, before_merging, smoothing);
   const TriangleView before{input.points, run.mesh.triangles, input_reversed, input.frame.exponent};
   compare_sizes(run, before);
+  warn_of_sizes_out_of_reach(run, smoothing);
+  note_growth_bound(run, before);
   if (smoothing.sliding) {
     compare_areas(run, before);
   }

@@ -13,6 +13,7 @@
 #include "trismooth/pipeline/geographic/map_mesh.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/line_groups.h"
+#include "trismooth/pipeline/input/near_corners.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
@@ -61,11 +62,14 @@ void require_vertices(const std::vector<std::int32_t>& numbers, std::int64_t cou
   }
 }
 
-/// The vertices by what holds them, but for the middles that follow their sides.
+/// The vertices by what holds them, but for the middles that follow their sides and those that go with another vertex.
 ReasonCounts count_vertices(RunState& run) {
   ReasonCounts counts = count_reasons(run.found.fixed, run.workers);
   for (const MiddleNode& middle : run.mesh.middles) {
     --counts[run.found.fixed[static_cast<std::size_t>(middle.vertex)]];
+  }
+  for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
+    counts[run.found.fixed[v]] -= run.mesh.merged[v] != static_cast<std::int32_t>(v) ? 1 : 0;
   }
   return counts;
 }
@@ -83,6 +87,25 @@ void find_sizes(RunState& run) {
     run.result.input.sizes_are_areas = run.sizes.of_cells;
     run.smoothing.mean_ratio.target_lengths = run.sizes.lengths;
   }
+}
+
+/// Joins corners that nearly coincide, where the options want it.
+void merge_near_corners(RunState& run) {
+  const PipelineOptions& options = run.options;
+  if (!options.merge) {
+    return;
+  }
+  if (options.geographic || options.project || options.slide.along != Slide::off) {
+    throw std::invalid_argument(std::string("--merge is for meshes as they lie in their plane; leave out ") +
+                                (options.geographic ? "--geographic"
+                                 : options.project  ? "--project"
+                                                    : "--slide") +
+                                ", or --merge");
+  }
+  const std::int64_t merged = merge_corners(run.mesh, *options.merge);
+  run.result.input.merged_vertices = merged;
+  run.note(std::to_string(merged) + (merged == 1 ? " vertex goes" : " vertices go") +
+           " with another one within the distance of --merge; the file keeps all of them");
 }
 
 /// Finds whether vertices of this mesh can slide where the options want it.
@@ -150,7 +173,7 @@ void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   input.free_vertices = reasons[0];
   input.quadratic_triangles = std::ssize(run.mesh.quadratics);
   input.middle_nodes = std::ssize(run.mesh.middles);
-  input.fixed_vertices = input.vertices - input.middle_nodes - input.free_vertices;
+  input.fixed_vertices = input.vertices - input.middle_nodes - input.merged_vertices - input.free_vertices;
   input.reoriented_triangles = run.found.reoriented_triangles;
   input.held = count_held(reasons, run.found.layers);
   input.layers = run.found.layers;
@@ -173,6 +196,7 @@ void connect_mesh(RunState& run) {
         "x and y look like longitude and latitude in degrees: --geographic smooths shapes as they are on the sphere");
   }
   std::ranges::copy(mesh.notes, std::back_inserter(result.notes));
+  merge_near_corners(run);
   run.enter_frame();
   find_sizes(run);
   run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");
@@ -193,6 +217,10 @@ void connect_mesh(RunState& run) {
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
     settle_middles(mesh, fixed);
+  }
+  if (!mesh.merged.empty()) {
+    add_vertices(fixed, ids, document.point_count());
+    merge_flags(mesh, fixed);
   }
   settle_sliding(run);
   const SlideLines lines = slide_lines_of(run);
@@ -216,6 +244,9 @@ void connect_mesh(RunState& run) {
     run.note(std::move(note));
   }
   summarise_mesh(run, reasons);
+  if (input.free_vertices == 0 && input.triangles > 1 && input.components == input.triangles) {
+    run.note(describe_apart_triangles(mesh.points, mesh.triangles));
+  }
   input.fixed_array = named.array;
   input.fixed_array_vertices = named.vertices;
   input.point_sets = std::move(sets.sets);

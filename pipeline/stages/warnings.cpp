@@ -77,10 +77,23 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
   if (given.power != usual.power) {
     names.emplace_back("--power");
   }
-  return options.smoothing.method == Method::mean_ratio || names.empty()
-             ? std::string()
-             : fmt::format("the method {} takes no notice of {}; --method mean-ratio does",
-                           to_string(options.smoothing.method), fmt::join(names, ", "));
+  std::string warning = options.smoothing.method == Method::mean_ratio || names.empty()
+                            ? std::string()
+                            : fmt::format("the method {} takes no notice of {}; --method mean-ratio does",
+                                          to_string(options.smoothing.method), fmt::join(names, ", "));
+  const Sliding usual_slide;
+  std::vector<std::string_view> of_curves;
+  if (options.slide.deviation != usual_slide.deviation) {
+    of_curves.emplace_back("--deviation");
+  }
+  if (options.slide.curve != usual_slide.curve) {
+    of_curves.emplace_back("--curve");
+  }
+  if (options.slide.along == Slide::straight && !of_curves.empty()) {
+    warning += fmt::format("{}--slide straight takes no notice of {}; --slide curves does", warning.empty() ? "" : "; ",
+                           fmt::join(of_curves, ", "));
+  }
+  return warning;
 }
 
 std::string note_of_layers(const LayersResult& layers) {
@@ -126,6 +139,18 @@ void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {
         fmt::format("the never-worse check put vertices back whose moves had inverted valid triangles: {} triangles "
                     "are not valid now, {} were after the untangling; --guard off leaves them moved",
                     untangling->inverted_after, untangling->inverted_untangled));
+  }
+}
+
+void warn_of_sizes_out_of_reach(RunState& run, const SmoothingResult& smoothing) {
+  constexpr double far_off = 1;  // of the logarithm of areas: by a factor of e, in the root of the mean square
+  const auto& fit = run.result.size_fit_after;
+  if (fit && smoothing.moved_vertices == 0 && run.result.input.free_vertices > 0 && fit->rms_log_ratio > far_off) {
+    run.warn(
+        fmt::format("no vertex moved: the sizes of '{}' are too far from those of the mesh for any move to bring them "
+                    "nearer (rms ln(A/A*) {:.3g}); smoothing shifts triangles, it makes none: ask for sizes nearer "
+                    "to those that the mesh has, or let --size-weight be smaller",
+                    run.result.input.size_array, fit->rms_log_ratio));
   }
 }
 

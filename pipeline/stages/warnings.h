@@ -21,7 +21,7 @@ void warn_before_smoothing(RunState& run);
 /// The sentences of these warnings. There is something lost, and a boundary that is too coarse.
 std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& options);
 std::string warning_of(const CoarseBoundary& coarse);
-/// Empty where the method takes notice of all options.
+/// Empty where the method, and the way of sliding, take notice of all options.
 std::string warning_of_options_without_effect(const PipelineOptions& options);
 
 /// What was held since it is flat on purpose, and what is smoothed though it is flat in one direction, with the way
@@ -32,7 +32,8 @@ std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_kept_annotations(std::span<const std::string_view> names);
 
-/// And after it: folds that the never-worse check put back.
+/// And after it: folds that the never-worse check put back, and sizes so far from those of the mesh that nothing moved.
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing);
+void warn_of_sizes_out_of_reach(RunState& run, const SmoothingResult& smoothing);
 
 }  // namespace trismooth

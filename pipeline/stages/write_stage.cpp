@@ -42,6 +42,9 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
       holds[v] = has_slid ? std::uint8_t{0} : holds[v];
     }
   }
+  for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
+    holds[v] = holds[static_cast<std::size_t>(run.mesh.merged[v])];
+  }
   for (const MiddleNode& middle : run.mesh.middles) {
     const bool follows =
         std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[static_cast<std::size_t>(end)] == 0; });
@@ -66,8 +69,13 @@ AddedArrays annotations_of(RunState& run) {
 }
 
 std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) {
-  return metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, run.document.cells.size(),
-                            run.workers, suffix);
+  const std::size_t cells = run.document.cells.size();
+  std::vector<DataArray> arrays =
+      metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, cells, run.workers, suffix);
+  if (run.options.annotated_size_ratio) {
+    arrays.push_back(size_ratio_annotation(run.view(), run.mesh.cells, cells, run.workers, suffix));
+  }
+  return arrays;
 }
 
 void write_output(RunState& run, const std::filesystem::path& path, bool annotate) {

@@ -16,7 +16,7 @@ import sample_meshes
 import tool
 
 METRICS = {"shape", "area", "min_angle", "max_angle", "aspect_ratio", "radius_ratio", "edge_ratio", "condition",
-           "scaled_jacobian", "equiangle_skew"}
+           "scaled_jacobian", "equiangle_skew", "size_ratio"}
 REPORT_KEYS = {
     "": {"trismooth", "date", "command", "input", "options", "before", "after", "size_change", "size_array",
          "size_fit", "fields", "areas", "gates", "smoothing", "coordinates_hash", "uncommitted_hash", "warnings", "timings_ms",
@@ -34,9 +34,9 @@ REPORT_KEYS = {
                    "fields", "check_after", "write", "total"},
 }
 # What a report may hold beyond the keys that are promised.
-MORE_KEYS = {"input": {"region_array", "quadratic_triangles", "middle_nodes", "point_sets", "cell_sets", "line_groups"},
+MORE_KEYS = {"input": {"region_array", "quadratic_triangles", "middle_nodes", "merged_vertices", "point_sets", "cell_sets", "line_groups"},
              "options": {"output", "guard", "untangle", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
-                         "fixed_ids", "fixed_sets", "annotate", "annotated_metrics"}}
+                         "fixed_ids", "fixed_sets", "merge", "annotate", "annotated_metrics"}}
 
 
 class Reports(tool.ToolTest):

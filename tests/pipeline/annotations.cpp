@@ -118,8 +118,13 @@ TEST_CASE("what holds a vertex and how far it moved, by every number of threads"
 }
 
 TEST_CASE("metrics are named in a list, each once") {
-  CHECK(parse_metrics("shape") == std::vector{Metric::shape});
-  CHECK(parse_metrics("min_angle,shape,area") == std::vector{Metric::min_angle, Metric::shape, Metric::area});
+  CHECK(parse_metrics("size_ratio,shape").size_ratio);
+  CHECK(parse_metrics("size_ratio,shape").metrics == std::vector{Metric::shape});
+  CHECK(parse_metrics("size_ratio").metrics.empty());
+  CHECK_FALSE(parse_metrics("shape").size_ratio);
+  CHECK_THROWS_AS(parse_metrics("size_ratio,size_ratio"), std::invalid_argument);
+  CHECK(parse_metrics("shape").metrics == std::vector{Metric::shape});
+  CHECK(parse_metrics("min_angle,shape,area").metrics == std::vector{Metric::min_angle, Metric::shape, Metric::area});
   for (const char* text : {"", ",", "shape,", ",shape", "shape min_angle", "shape,,area", "Shape", "shape,shape"}) {
     CAPTURE(text);
     CHECK_THROWS_AS(parse_metrics(text), std::invalid_argument);

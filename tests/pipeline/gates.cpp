@@ -64,6 +64,20 @@ TEST_CASE("a gate is a name, a comparison and a number, with or without blanks")
   CHECK(parse_gate("min_shape>-1e-3").bound == -1e-3);
 }
 
+TEST_CASE("gates of the size ratio want a report that has it, and know the largest by its own name") {
+  QualityReport report;
+  for (const std::string gate : {"size_ratio<=2", "mean_size_ratio<=2", "acceptable_size_ratio>=0"}) {
+    CHECK(needs_size_ratio(parse_gate(gate)));
+    CHECK_FALSE(passes(gate, report));
+  }
+  CHECK_FALSE(needs_size_ratio(parse_gate("max_edge_ratio<=2")));
+  report.size_ratio = trismooth::MetricSummary{1, 1.5, 2, 0.25, 0.75};
+  CHECK(passes("size_ratio<=2", report));
+  CHECK_FALSE(passes("size_ratio<2", report));
+  CHECK(passes("mean_size_ratio==1.5", report));
+  CHECK(passes("acceptable_size_ratio==0.75", report));
+}
+
 TEST_CASE("text that is no gate is refused with what is expected") {
   for (const char* text : {"", "min_shape", "min_shape 0.3", ">=0.3", "min_shape>=", "min_shape>=x", "min_shape>=0.3x",
                            "min_shape>=nan", "min_shape>=inf", "min_shape>=0,3", "min_shape=0.3", "min_shape=>0.3",
@@ -121,7 +135,7 @@ TEST_CASE("min_angle and max_angle are the extreme angles of the mesh") {
 
 TEST_CASE("the list of names is complete, without repeats, and every one is taken") {
   const auto names = gate_names();
-  CHECK(names.size() == 6 + 5 * trismooth::metric_count);
+  CHECK(names.size() == 7 + 5 * (trismooth::metric_count + 1));
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   for (const std::string& name : names) {
     CAPTURE(name);

@@ -48,6 +48,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "components",
                                          "fixed_vertices",
                                          "free_vertices",
+                                         "merged_vertices",
                                          "reoriented_triangles",
                                          "region_arrays",
                                          "fixed_array",

@@ -19,6 +19,14 @@ launcher = shlex.split(os.environ["TRISMOOTH_LAUNCHER"])
 longest_run = 60
 
 
+def without_size_ratio(report):
+    """A job says it where a gate asks for it, reports of one process always."""
+    for part in ("before", "after"):
+        if report[part]:
+            report[part]["metrics"].pop("size_ratio", None)
+    return report
+
+
 class RanksTest(tool.ToolTest):
     """A test with a folder of its own, as ToolTest's, and a mesh in it."""
 
@@ -42,7 +50,10 @@ class RanksTest(tool.ToolTest):
         return self.read_report()
 
     def read_report(self):
-        return json.loads(self.read("report.json"))
+        return without_size_ratio(json.loads(self.read("report.json")))
+
+    def report(self, *arguments, **options):
+        return without_size_ratio(super().report(*arguments, **options))
 
     def random_mesh(self, vertices):
         """The paper's random mesh, with an array at points, one at cells and two regions."""

@@ -1,0 +1,101 @@
+#include "trismooth/quality/size_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/workers.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Triangles are taken in blocks of this size whatever the number of threads; sums of blocks are added up in their
+/// order, so no rounding depends on scheduling.
+constexpr std::int64_t ratios_a_block = 1024;
+
+double ratio_of(double a, double b) {
+  const double smaller = std::min(a, b);
+  return smaller > 0 ? std::max(a, b) / smaller : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
+  std::vector<double> areas(view.triangles.size());
+  workers.for_blocks(std::ssize(areas), ratios_a_block, [&](std::int64_t begin, std::int64_t end) {
+    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
+      const auto [a, b, c] = canonical_corners(view, t);
+      areas[t] = std::abs(evaluate(Metric::area, view.points[static_cast<std::size_t>(a)],
+                                   view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]));
+    }
+  });
+  return areas;
+}
+
+}  // namespace
+
+std::vector<double> size_ratios(const TriangleView& view, int threads) {
+  Workers workers(threads);
+  const MatchedSides sides = match_sides(static_cast<std::int32_t>(view.points.size()), view.triangles, workers);
+  const std::vector<double> areas = areas_of(view, workers);
+  std::vector<double> ratios(areas.size(), 1);
+  workers.for_blocks(std::ssize(ratios), ratios_a_block, [&](std::int64_t begin, std::int64_t end) {
+    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
+      for (std::size_t side = 3 * t; side < 3 * t + 3; ++side) {
+        if (const std::int32_t twin = sides.twins[side]; twin >= 0) {
+          ratios[t] = std::max(ratios[t], ratio_of(areas[t], areas[static_cast<std::size_t>(twin) / 3]));
+        }
+      }
+    }
+  });
+  return ratios;
+}
+
+MetricSummary size_ratio_summary(const TriangleView& view, int threads) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (view.triangles.empty()) {
+    return {nan, nan, nan, nan, nan};
+  }
+  const std::vector<double> ratios = size_ratios(view, threads);
+  const auto count = static_cast<double>(ratios.size());
+  Workers workers(threads);
+  const auto sum_of = [&](const auto& value) {
+    std::vector<double> sums((ratios.size() + ratios_a_block - 1) / ratios_a_block, 0);
+    workers.for_blocks(std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
+      for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
+        const std::size_t last = std::min(ratios.size(), (block + 1) * ratios_a_block);
+        for (std::size_t t = block * ratios_a_block; t < last; ++t) {
+          sums[block] += value(ratios[t]);
+        }
+      }
+    });
+    double sum = 0;
+    for (const double of_block : sums) {
+      sum += of_block;
+    }
+    return sum;
+  };
+  const auto [min, max] = std::ranges::minmax(ratios);
+  const double mean = sum_of([](double ratio) { return ratio; }) / count;
+  const double squares = sum_of([mean](double ratio) { return (ratio - mean) * (ratio - mean); });
+  const auto accepted = std::ranges::count_if(ratios, [](double r) { return r <= size_ratio_info.acceptable_high; });
+  return {min, mean, max, std::sqrt(squares / count), static_cast<double>(accepted) / count};
+}
+
+std::vector<const MetricInfo*> metrics_of(const QualityReport& report) {
+  std::vector<const MetricInfo*> metrics;
+  for (const MetricInfo& metric : all_metrics()) {
+    metrics.push_back(&metric);
+  }
+  if (report.size_ratio) {
+    metrics.push_back(&size_ratio_info);
+  }
+  return metrics;
+}
+
+const MetricSummary& summary_of(const QualityReport& report, const MetricInfo& metric) {
+  return metric.name == size_ratio_info.name ? report.size_ratio.value() : report[metric.metric];
+}
+
+}  // namespace trismooth
