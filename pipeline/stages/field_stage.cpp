@@ -76,6 +76,17 @@ class FieldTriangles {
   std::span<const std::int32_t> regions_;
 };
 
+/// Vertices that go with another one, which has moved as well, are of no triangle: they are where that is.
+void place_merged(const PlanarMesh& mesh, std::span<const std::int32_t> moved, std::span<MeshPlace> places) {
+  for (std::size_t i = 0; i < moved.size() && !mesh.merged.empty(); ++i) {
+    const std::int32_t goes_with = mesh.merged[static_cast<std::size_t>(moved[i])];
+    const auto found = std::ranges::lower_bound(moved, goes_with);
+    if (found != moved.end() && *found == goes_with) {
+      places[i] = places[static_cast<std::size_t>(found - moved.begin())];
+    }
+  }
+}
+
 /// Gives the vertices the third coordinate that the mesh has at their places.
 void move_heights(RunState& run, std::span<const Triangle> triangles, std::span<const std::int32_t> moved,
                   std::span<const MeshPlace> places) {
@@ -128,7 +139,8 @@ void move_fields(RunState& run, const LocalPoints& input) {
   const std::vector<std::int32_t> moved = moved_vertices(input.points, after.points);
   const FieldTriangles mesh(run.mesh, run.regions.of_triangle);
   const PointLocation location(input.points, mesh.triangles(), mesh.regions());
-  const std::vector<MeshPlace> places = location.places_of(moved, after.points, run.workers);
+  std::vector<MeshPlace> places = location.places_of(moved, after.points, run.workers);
+  place_merged(run.mesh, moved, places);
   const auto found = std::ranges::count_if(places, [](const MeshPlace& place) { return place.triangle >= 0; });
   if (has_heights) {
     move_heights(run, mesh.triangles(), moved, places);

@@ -52,7 +52,7 @@ class Usage(CommandLineTest):
                 ("smooth", "plate.off", "out.off", "--tolerance", "nan"): "--tolerance.*'nan'",
                 ("smooth", "plate.off", "out.off", "--tolerance", "-1"): "tolerance",
                 ("smooth", "plate.off", "out.off", "--tolerance", "1,5"): "--tolerance.*'1,5'",
-                ("smooth", "plate.off", "out.off", "--time-limit", "-1"): "time limit",
+                ("smooth", "plate.off", "out.off", "--time-limit", "-1"): "--time-limit: expected a number from 0",
                 ("smooth", "plate.off", "out.off", "--target-quality", "2"): "quality",
                 ("smooth", "plate.off", "out.off", "--report", "report.txt"): "report.txt.*json.*html",
                 ("smooth", "plate.off", "out.off", "--require", "min_shape"): "min_shape",

@@ -136,6 +136,24 @@ TEST_CASE("merged corners move as the vertices of the whole mesh do, and the fil
   }
 }
 
+TEST_CASE("values that follow the mesh are those of the place at all corners that are merged there") {
+  CutMesh mesh(0);
+  const auto value_at = [&](std::size_t v) { return 10 + mesh.cut.points[3 * v] + 2 * mesh.cut.points[3 * v + 1]; };
+  std::vector<double> values(mesh.original.size());
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    values[v] = value_at(v);
+  }
+  mesh.cut.point_arrays.push_back(trismooth::make_data_array("head", 1, values));
+  PipelineOptions options;
+  options.merge = 0;
+  options.fields = trismooth::Fields::interpolate;
+  options.output = "out.vtk";
+  CHECK(smooth_document(mesh.cut, options).fields.front().interpolated_vertices > 100);
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    CHECK(mesh.cut.point_arrays.front().value(v) == Approx(value_at(v)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("what holds a merged corner holds all that it goes with") {
   CutMesh mesh(0);
   PipelineOptions options;
