@@ -150,7 +150,7 @@ std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target
   std::vector<std::string> lost = codec_of(target).what_is_lost(document);
   if (!has_names(target)) {
     // Names of arrays that are lost as a whole are not worth a word.
-    if (has_arrays(target)) {
+    if (has_arrays(target) || target == FileFormat::ply) {
       std::ranges::move(describe_lost_names(title_of(target), document), std::back_inserter(lost));
     }
     std::ranges::move(describe_lost_sets(title_of(target), document), std::back_inserter(lost));

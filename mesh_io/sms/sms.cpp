@@ -30,16 +30,17 @@ bool is_material_name(const std::string& name) {
          std::ranges::all_of(name, [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != '"'; });
 }
 
-/// The names of the materials. Where faces and lines have one number with two names, those of faces stay.
+/// The names of the materials. Where faces and lines have one number, the name is that of the faces, if any.
 std::map<std::int64_t, std::string> written_materials(const CellGroups& groups) {
   std::map<std::int64_t, std::string> names;
   for (const int dimension : {2, 1}) {
     for (const CellGroup& group : groups.groups) {
-      if (group.dimension == dimension && is_material_name(group.name)) {
-        names.emplace(group.number, group.name);
+      if (group.dimension == dimension) {
+        names.emplace(group.number, is_material_name(group.name) ? group.name : "");
       }
     }
   }
+  std::erase_if(names, [](const auto& material) { return material.second.empty(); });
   return names;
 }
 
@@ -107,17 +108,28 @@ void write_sms(const std::filesystem::path& path, const MeshDocument& document, 
 std::vector<std::string> lost_material_names(const CellGroups& groups) {
   const auto written = written_materials(groups);
   std::string lost;
+  std::string named;
   for (const CellGroup& group : groups.groups) {
     const auto found = written.find(group.number);
     if (!group.name.empty() && (found == written.end() || found->second != group.name)) {
       lost.append(lost.empty() ? "" : ", ").append(group.name);
     }
+    if (group.name.empty() && found != written.end()) {
+      named.append(named.empty() ? "" : ", ").append(std::to_string(group.number) + " (" + found->second + ")");
+    }
   }
-  return lost.empty() ? std::vector<std::string>{}
-                      : std::vector<std::string>{
-                            "2dm holds one name for a number of materials, without quotation "
-                            "marks: not written are " +
-                            lost};
+  std::vector<std::string> sentences;
+  if (!lost.empty()) {
+    sentences.push_back("2dm holds one name for a number of materials, without quotation marks: not written are " +
+                        lost);
+  }
+  if (!named.empty()) {
+    sentences.push_back(
+        "2dm holds one name for a number of materials: lines without a name get that of the faces of "
+        "their number: " +
+        named);
+  }
+  return sentences;
 }
 
 std::vector<std::string> lost_set_names(const MeshDocument& document) {

@@ -76,9 +76,16 @@ WrittenElements written_elements(const CellList& cells) {
   return written;
 }
 
-/// Groups of cells under their numbers; where these are taken, or none, as sets are, under further ones.
+/// "1 (a) to 3": a group that is written under another number than its own.
+std::string renumbered(std::int64_t from, const WrittenGroup& group) {
+  return std::to_string(from) + (group.name.empty() ? "" : " (" + group.name + ")") + " to " +
+         std::to_string(group.number);
+}
+
+/// Groups of cells under their numbers; where these are taken, or none, as sets are, under further ones. `changed`,
+/// where it is not null, gets those that have a number and are written under another one.
 std::vector<WrittenGroup> written_groups(const MeshDocument& document, const CellGroups& groups,
-                                         const WrittenElements& elements) {
+                                         const WrittenElements& elements, std::vector<std::string>* changed = nullptr) {
   std::vector<WrittenGroup> written;
   std::set<std::int64_t> taken;
   std::vector<std::size_t> of_group(groups.groups.size());
@@ -92,7 +99,9 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
       written.push_back({.number = group.number, .name = unv_name(group.name), .is_apart = true});
     }
   }
+  std::vector<std::int64_t> numbers;
   for (WrittenGroup& group : written) {
+    numbers.push_back(group.number);
     if (group.number < 1 || !taken.insert(group.number).second) {
       group.number = 0;
     }
@@ -127,6 +136,11 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
         ++next;
       }
       group.number = next;
+    }
+  }
+  for (std::size_t i = 0; changed != nullptr && i < numbers.size(); ++i) {
+    if (written[i].number != numbers[i]) {
+      changed->push_back(renumbered(numbers[i], written[i]));
     }
   }
   return written;
@@ -223,6 +237,14 @@ std::vector<std::uint8_t> types_of_unv() {
   return types;
 }
 
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    all.append(all.empty() ? "" : ", ").append(text);
+  }
+  return all;
+}
+
 std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
   MeshDocument lost;
@@ -233,14 +255,22 @@ std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   std::vector<std::string> sentences =
       describe_lost_cells("UNV", "lines, faces and solids", types_of_unv(), document.cells);
   std::ranges::move(describe_lost_arrays("UNV", lost), std::back_inserter(sentences));
-  std::string renumbered;
-  for (const CellGroup& group : groups.groups) {
-    if (group.number < 1) {
-      renumbered.append(renumbered.empty() ? "" : ", ").append(std::to_string(group.number));
-    }
+  std::vector<std::string> changed;
+  (void)written_groups(document, groups, written_elements(document.cells), &changed);
+  if (!changed.empty()) {
+    sentences.push_back("UNV numbers groups from 1 on, each number once: changed are " + joined(changed));
   }
-  if (!renumbered.empty()) {
-    sentences.push_back("UNV numbers groups from 1 on: changed are " + renumbered);
+  std::vector<std::string> renamed;
+  const auto compare = [&renamed](const std::string& name) {
+    if (const std::string written = unv_name(name); written != name) {
+      renamed.push_back(trismooth::quoted(name) + " (as " + (written.empty() ? "its number" : written) + ")");
+    }
+  };
+  std::ranges::for_each(groups.groups, compare, &CellGroup::name);
+  std::ranges::for_each(document.cell_sets, compare, &NamedSet::name);
+  std::ranges::for_each(document.point_sets, compare, &NamedSet::name);
+  if (!renamed.empty()) {
+    sentences.push_back("UNV has names on a line, without blanks around them: changed are " + joined(renamed));
   }
   return sentences;
 }
