@@ -58,28 +58,14 @@ class MshEntityPlanner {
 
   void plan_groups() {
     plan_.group_array = groups_.array;
-    std::map<int, std::set<std::int32_t>> taken;
-    std::map<int, std::int32_t> lowest_free;  ///< no tag below is
     const auto can_be_tag = [](std::int64_t number) {
       return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
     };
     for (const CellGroup& group : groups_.groups) {
       if (can_be_tag(group.number)) {
-        taken[group.dimension].insert(static_cast<std::int32_t>(group.number));
+        taken_[group.dimension].insert(static_cast<std::int32_t>(group.number));
       }
     }
-    const auto free_tag = [&taken, &lowest_free](int dimension) {
-      std::set<std::int32_t>& tags = taken[dimension];
-      std::int32_t tag = tags.empty() ? 1 : *tags.rbegin() + 1;
-      if (tag <= 0 || tag == std::numeric_limits<std::int32_t>::max()) {
-        std::int32_t& lowest = lowest_free[dimension];
-        for (lowest = std::max(lowest, 1); tags.contains(lowest); ++lowest) {
-        }
-        tag = lowest;
-      }
-      tags.insert(tag);
-      return tag;
-    };
     for (const CellGroup& group : groups_.groups) {
       const bool keeps = can_be_tag(group.number);
       plan_.renumbers_groups = plan_.renumbers_groups || !keeps;
@@ -98,11 +84,34 @@ class MshEntityPlanner {
         const int dimension = dimension_of(cell);
         std::int32_t& place = places[static_cast<std::size_t>(dimension)];
         if (place < 0) {
-          place = place_of_set(set.name, dimension, free_tag);
+          place = place_of_set(set.name, dimension);
         }
         groups_of_cells_[cell].push_back(place);
       }
     }
+  }
+
+  std::int32_t free_tag(int dimension) {
+    std::set<std::int32_t>& tags = taken_[dimension];
+    std::int32_t tag = tags.empty() ? 1 : *tags.rbegin() + 1;
+    if (tag <= 0 || tag == std::numeric_limits<std::int32_t>::max()) {
+      std::int32_t& lowest = lowest_free_[dimension];
+      for (lowest = std::max(lowest, 1); tags.contains(lowest); ++lowest) {
+      }
+      tag = lowest;
+    }
+    tags.insert(tag);
+    return tag;
+  }
+
+  /// The group of a dimension's cells that are in no other.
+  std::int32_t place_of_rest(int dimension) {
+    const auto [rest, is_new] = rests_.try_emplace(dimension, static_cast<std::int32_t>(plan_.groups.size()));
+    if (is_new) {
+      plan_.groups.push_back({dimension, free_tag(dimension), ""});
+      plan_.rests.push_back(plan_.groups.back());
+    }
+    return rest->second;
   }
 
   /// Names stand between quotation marks, on one line. Those that are changed stay apart from all others.
@@ -124,8 +133,7 @@ class MshEntityPlanner {
   }
 
   /// A set of a group's name has some of its cells, or all, and others.
-  template <class FreeTag>
-  std::int32_t place_of_set(const std::string& name, int dimension, const FreeTag& free_tag) {
+  std::int32_t place_of_set(const std::string& name, int dimension) {
     const auto next = static_cast<std::int32_t>(plan_.groups.size());
     if (!name.empty()) {
       if (const auto [named, is_new] = places_of_names_.try_emplace({dimension, name}, next); !is_new) {
@@ -161,10 +169,14 @@ class MshEntityPlanner {
         }
       }
     }
+    if (key.groups.empty() && has_groups_) {
+      key.groups.push_back(place_of_rest(key.dimension));
+    }
     return key;
   }
 
   void find_entities() {
+    has_groups_ = !plan_.groups.empty();
     std::map<MshEntityKey, std::int32_t> places;
     std::vector<const MshEntityKey*> keys;
     plan_.of_cell.assign(cells_.size(), -1);
@@ -241,6 +253,10 @@ class MshEntityPlanner {
   CellGroups groups_;
   std::vector<std::vector<std::int32_t>> groups_of_cells_;               ///< beside the first one
   std::map<std::pair<int, std::string>, std::int32_t> places_of_names_;  ///< of groups, by dimension and name
+  std::map<int, std::set<std::int32_t>> taken_;                          ///< tags of groups, by dimension
+  std::map<int, std::int32_t> lowest_free_;                              ///< no tag below is
+  std::map<int, std::int32_t> rests_;                                    ///< place_of_rest() by dimension
+  bool has_groups_ = false;                                              ///< in the document
   std::span<const std::int32_t> geometrical_;
   MshEntityPlan plan_;
 };

@@ -34,6 +34,9 @@ struct MshEntityPlan {
   bool keeps_entities = false;             ///< the tags are those of the array gmsh:geometrical
   bool renumbers_groups = false;           ///< some group's number is none that Gmsh can have
   std::vector<std::string> renamed{};      ///< "'a"b' (as a_b)": groups whose names Gmsh cannot have
+  /// Groups, without names, of the cells that the document has in none, one a dimension, where it has groups at all:
+  /// programs that save a file again leave out what is in no group, or cannot open it.
+  std::vector<MshPlannedGroup> rests{};
 };
 
 /// Complexity: n log g in the cells and their groups.

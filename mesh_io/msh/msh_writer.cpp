@@ -287,6 +287,12 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
   if (plan.renumbers_groups) {
     sentences.push_back("MSH numbers groups from 1: those of " + plan.group_array + " with other numbers get new ones");
   }
+  for (const MshPlannedGroup& rest : plan.rests) {
+    constexpr std::array<std::string_view, 4> kinds{"points", "lines", "surfaces", "volumes"};
+    sentences.push_back("MSH drops what is in no physical group where any is, once Gmsh saves it again: " +
+                        std::string(kinds.at(static_cast<std::size_t>(rest.dimension))) +
+                        " without a group are written in a further one, " + std::to_string(rest.tag));
+  }
   MeshDocument others;
   others.field_arrays = document.field_arrays;
   others.point_sets = document.point_sets;

@@ -14,6 +14,7 @@ except (ImportError, OSError) as missing:
 
 import nastran_columns
 import number_texts
+import part_groups
 import tool
 
 # name -> (extension, options of Gmsh, whether the file is text, whether Gmsh reads the format itself)
@@ -383,6 +384,23 @@ class MshBecomesUnv(GmshTest):
     def rounded(self, cells):
         """Gmsh itself lays periodic nodes of MSH files on each other, to the last digit."""
         return sorted(tuple(sorted(tuple(round(float(x), 12) for x in place) for place in cell)) for cell in cells)
+
+
+class PartsInGroups(GmshTest):
+
+    def test_msh_with_groups_for_a_part_of_the_cells_is_opened_and_saved_again_with_all_of_them(self):
+        for name, content in part_groups.FILES.items():
+            with self.subTest(name):
+                self.write(name, content())
+                self.run_tool("smooth", name, "out.msh")
+                gmsh.clear()
+                gmsh.open(self.path("out.msh"))
+                gmsh.write(self.path("again.msh"))
+                gmsh.clear()
+                gmsh.open(self.path("again.msh"))
+                for dimension, kind, count in ((2, 2, part_groups.TRIANGLES), (1, 1, part_groups.LINES)):
+                    types, tags, _ = gmsh.model.mesh.getElements(dimension)
+                    self.assertEqual({int(t): len(of_type) for t, of_type in zip(types, tags)}, {kind: count})
 
 
 if __name__ == "__main__":

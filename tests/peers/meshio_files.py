@@ -14,6 +14,7 @@ except ImportError as missing:
 
 import nastran_columns
 import number_texts
+import part_groups
 import tool
 
 # name -> (extension, arguments of meshio's writer). Of SU2 meshio 5.3 has a reader alone: its writer fails.
@@ -197,6 +198,22 @@ class Converted(MeshioTest):
                 if extension == ".su2":
                     tags = mesh.cell_data_dict[array]["line"].tolist()
                     self.assertEqual(len(set(tags)), len(set(marks)))
+
+
+class PartsInGroups(MeshioTest):
+
+    def test_msh_with_groups_for_a_part_of_the_cells_is_opened_and_saved_again_with_all_of_them(self):
+        for name, content in part_groups.FILES.items():
+            with self.subTest(name):
+                self.write(name, content())
+                outcome = self.run_tool("smooth", name, "out.msh")
+                self.assertIn("without a group are written in a further one", outcome.err)
+                mesh = self.read_mesh("out.msh")
+                meshio.write(self.path("again.msh"), mesh, file_format="gmsh")
+                for read in (mesh, self.read_mesh("again.msh")):
+                    for kind, count in (("triangle", part_groups.TRIANGLES), ("line", part_groups.LINES)):
+                        self.assertEqual(len(read.get_cells_type(kind)), count)
+                        self.assertTrue((read.get_cell_data("gmsh:physical", kind) > 0).all())
 
 
 if __name__ == "__main__":
