@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,7 +31,8 @@ class OriginalFile {
 
   /// Writes the file that was read to `path`, with the coordinates of `document` in place of those that differ and
   /// with the arrays of `added_point_arrays` and `added_cell_arrays` added (where it takes_added_arrays() only). Where
-  /// any is added, annotations of an earlier run (see annotation_names.h) are left out. All else is as it was read.
+  /// any is added, or the document has_stale_annotations, those of an earlier run (see annotation_names.h) are left out
+  /// (where it takes_added_arrays(), likewise). All else is as it was read.
   /// Throws WriteError. The path is plain: no temporary, no renaming. The bytes are the same for every number of
   /// `workers`.
   virtual void write(const std::filesystem::path& path, const MeshDocument& document,
@@ -73,7 +75,13 @@ struct MeshDocument {
   std::vector<DataArray> cell_arrays;   ///< a row for every cell
   std::vector<LabelArray> cell_labels;  ///< arrays of a text for every cell; the original alone keeps them
   std::vector<DataArray> field_arrays;  ///< of any length, of the whole mesh
-  std::vector<NamedSet> point_sets;     ///< in the file's order: corners of Medit, NSETs of Abaqus, open boundaries
+  /// The original has annotations of an earlier run that show the mesh no more, and are not among the arrays here.
+  bool has_stale_annotations = false;
+  std::vector<NamedSet> point_sets;  ///< in the file's order: corners of Medit, NSETs of Abaqus, open boundaries
+  /// The number that the file itself gives its first point: its label. Absent where points have no numbers in the file.
+  std::optional<std::int64_t> first_point_label;
+  /// The labels of all points; empty where they count on from the first.
+  std::vector<std::int64_t> point_labels;
   /// Points that the file tells to be bound though no set of it names them: nodes of points and curves of the geometry,
   /// periodic ones. They hold where they are inside the mesh. Files of other formats do not get these sets.
   std::vector<NamedSet> implied_sets;

@@ -79,7 +79,23 @@ void require_rows(const std::filesystem::path& path, std::span<const DataArray> 
 }
 
 bool is_written_back(const MeshDocument& document, FileFormat target) {
-  return document.original != nullptr && document.format == target;
+/// A file that can neither take arrays nor leave them out is made anew where it has stale ones.
+  return document.original != nullptr && document.format == target &&
+         (!document.has_stale_annotations || document.original->takes_added_arrays());
+}
+
+/// That a file of the format gives its first point without saying so; nothing where it gives none, or says so.
+std::optional<std::int64_t> counted_from(FileFormat format) {
+  switch (format) {
+    case FileFormat::obj:
+    case FileFormat::medit:
+    case FileFormat::freefem:
+      return 1;
+    case FileFormat::su2:
+      return 0;
+    default:
+      return std::nullopt;
+  }
 }
 
 void replace_annotations(std::vector<DataArray>& arrays, std::span<const DataArray> added) {
@@ -193,6 +209,9 @@ MeshDocument read_mesh(const std::filesystem::path& path, const FileOptions& opt
   MeshDocument document = codec.read_shared(content.name, std::move(content.bytes), file_workers);
   document.format = choice.format;
   for (std::string& note : {std::ref(content.note), std::ref(choice.note)}) {
+  if (!document.first_point_label) {
+    document.first_point_label = counted_from(choice.format);
+  }
     if (!note.empty()) {
       document.notes.push_back(std::move(note));
     }

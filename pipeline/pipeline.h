@@ -51,7 +51,8 @@ struct PipelineOptions {
   std::vector<std::string> region_arrays;          ///< cell arrays; empty: those that give regions
   std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
-  std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers
+  std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers, rows of the file from 0
+  bool fixed_ids_are_labels = false;               ///< those are the numbers that the mesh's own file gives its points
   std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
   /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move
   /// together; the file keeps all of them. Absent: none are joined.

@@ -78,6 +78,7 @@ class AdcircReader {
                        "node " + std::to_string(ids[*repeated]) + " stands in the file twice");
     }
     document_.point_arrays.push_back(make_data_array("depth", 1, std::move(depths)));
+    set_point_labels(document_, std::move(ids));
   }
 
   double next_site(std::string_view what, std::size_t site) {

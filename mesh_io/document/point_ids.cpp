@@ -1,6 +1,9 @@
 #include "trismooth/mesh_io/document/point_ids.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
 
@@ -61,6 +64,16 @@ std::optional<std::int32_t> PointIds::find_other(std::int64_t id, std::uint64_t 
       sorted_.begin(), sorted_.end(), id,
       [](const std::pair<std::int64_t, std::int32_t>& pair, std::int64_t wanted) { return pair.first < wanted; });
   return found != sorted_.end() && found->first == id ? std::optional(found->second) : std::nullopt;
+}
+
+void set_point_labels(MeshDocument& document, std::vector<std::int64_t> labels) {
+  if (labels.empty()) {
+    return;
+  }
+  document.first_point_label = labels.front();
+  const bool count_on =
+      std::ranges::adjacent_find(labels, [](std::int64_t a, std::int64_t b) { return a + 1 != b; }) == labels.end();
+  document.point_labels = count_on ? std::vector<std::int64_t>() : std::move(labels);
 }
 
 }  // namespace trismooth

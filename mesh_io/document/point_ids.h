@@ -8,6 +8,8 @@
 
 namespace trismooth {
 
+struct MeshDocument;
+
 /// The points behind the ids that a file gives them: any whole numbers, in any order. Finding one takes constant time
 /// where the ids follow each other, as in nearly all files, or leave few out; else logarithmic time.
 class PointIds {
@@ -40,5 +42,8 @@ class PointIds {
   std::vector<std::pair<std::int64_t, std::int32_t>> sorted_;  ///< id and point, else
   std::optional<std::size_t> first_repeated_;
 };
+
+/// Gives the document's points these labels, one each: the numbers that its file gives them. Complexity: linear.
+void set_point_labels(MeshDocument& document, std::vector<std::int64_t> labels);
 
 }  // namespace trismooth

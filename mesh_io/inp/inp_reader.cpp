@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/inp/inp_cells.h"
 #include "trismooth/mesh_io/inp/inp_lines_reader.h"
@@ -61,6 +62,20 @@ void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<s
   }
 }
 
+/// The numbers of the nodes, where the file has one list of them: parts number each their own.
+void add_labels(const InpModel& model, MeshDocument& document) {
+  const auto has_nodes = [](const InpScope& scope) { return !scope.nodes.labels.empty(); };
+  const auto scope = std::ranges::find_if(model.scopes, has_nodes);
+  if (scope == model.scopes.end() || std::ranges::count_if(model.scopes, has_nodes) > 1) {
+    return;
+  }
+  std::vector<std::int64_t> labels(document.point_count());
+  for (std::size_t i = 0; i < scope->nodes.labels.size(); ++i) {
+    labels[static_cast<std::size_t>(scope->nodes.indices[i])] = scope->nodes.labels[i];
+  }
+  set_point_labels(document, std::move(labels));
+}
+
 /// A node has all its coordinates nearly always, or all but z, which is 0 for all.
 void drop_needless_gaps(InpModel& model) {
   bool is_flat = true;
@@ -102,6 +117,7 @@ MeshDocument read_inp(const std::filesystem::path& path, FileBytes bytes, const 
   add_notes(model, unknown_members, document.notes);
   document.most_coordinate_characters = 20;
   document.points = model.points;
+  add_labels(model, document);
   drop_needless_gaps(model);
   drop_needless_vertices(model);
   document.original = make_inp_original(std::move(model.sources), std::move(model.points));

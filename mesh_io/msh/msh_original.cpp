@@ -9,6 +9,7 @@
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_affine_map.h"
 #include "trismooth/mesh_io/msh/msh_excerpt.h"
@@ -30,6 +31,11 @@ class MshOriginal : public OriginalFile {
   MeshDocument read(const std::filesystem::path& path, const FileWorkers& workers) {
     MeshDocument document = read_msh(path, bytes_, workers, layout_);
     vertex_count_ = document.point_count();
+    if (const auto run = layout_.node_tags.only_run()) {
+      document.first_point_label = run->first;
+    } else {
+      set_point_labels(document, layout_.node_tags.listed());
+    }
     maps_.resize(layout_.nodes.size());
     std::string entities;
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {

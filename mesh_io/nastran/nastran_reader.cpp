@@ -184,6 +184,7 @@ MeshDocument read_nastran(const std::filesystem::path& path, FileBytes bytes, co
   document.most_coordinate_characters = most_nastran_characters;
   document.coordinate_form = NumberForm::nastran;
   document.points = std::move(model.points);
+  set_point_labels(document, std::move(model.node_ids));
   drop_needless_vertices(model);
   document.original = make_nastran_original(std::move(model.sources), document.points);
   return document;

@@ -157,6 +157,7 @@ class SmsReader {
       scanner_.fail_at(sites_.offsets[3 * *repeated],
                        "node " + std::to_string(ids_[*repeated]) + " stands in the file twice");
     }
+    set_point_labels(document_, ids_);
     CellList& cells = document_.cells;
     cells.connectivity.reserve(references_.size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {

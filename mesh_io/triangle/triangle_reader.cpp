@@ -204,6 +204,7 @@ MeshDocument read_triangle_files(TriangleFile nodes, TriangleFile elements, cons
   NumberSites sites;
   const std::int32_t first_node = read_nodes(nodes, workers, document, sites);
   read_elements(elements, workers, first_node, document);
+  document.first_point_label = first_node;
   document.original =
       std::make_shared<TriangleOriginal>(std::move(nodes.bytes), std::move(sites), std::move(elements.bytes));
   return document;

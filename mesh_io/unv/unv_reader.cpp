@@ -336,6 +336,7 @@ class UnvReader {
       scanner_.fail_at(sites_.offsets[3 * *repeated],
                        "node " + std::to_string(node_ids_[*repeated]) + " stands in the file twice");
     }
+    set_point_labels(document_, node_ids_);
     const PointIds elements(element_ids_);
     if (const auto repeated = elements.first_repeated()) {
       scanner_.fail_at(element_offsets_[*repeated],

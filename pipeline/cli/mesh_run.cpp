@@ -183,8 +183,19 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
                     "together, and the file keeps all of them [none are joined]",
                     [&options](const std::string& text) { options.merge = parse_finite(text, 0); })
       ->group(option_group::constraints);
-  add_parsed_option(command, "--fixed-ids", "FILE", "Text file of the numbers (from 0) of vertices to fix",
-                    [&options](const std::string& text) { options.fixed_ids = text; })
+  CLI::Option* const ids = add_parsed_option(
+      command, "--fixed-ids", "FILE",
+      "Text file of vertices to fix: their places in the mesh file, which count from 0 whatever numbers the file gives",
+      [&options](const std::string& text) { options.fixed_ids = text; });
+  ids->group(option_group::constraints);
+  add_parsed_option(command, "--fixed-labels", "FILE",
+                    "Text file of vertices to fix: the numbers that the mesh file itself gives them, as node tags of "
+                    "MSH or nodes of Abaqus",
+                    [&options](const std::string& text) {
+                      options.fixed_ids = text;
+                      options.fixed_ids_are_labels = true;
+                    })
+      ->excludes(ids)
       ->group(option_group::constraints);
 }
 

@@ -71,6 +71,7 @@ void require_piece_options(const PipelineOptions& options) {
   refuse(options.format && !options.single && is_read_in_pieces, "--format", "the extension says it");
   refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set",
          "files of VTK have no sets; hold vertices by --fixed-array");
+  refuse(options.fixed_ids_are_labels, "--fixed-labels", "--fixed-ids takes rows of the file, which count from 0");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");
   refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge", "the result is the same without it");
 }

@@ -139,6 +139,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"fixed_sets", options.fixed_sets},
           {"merge", options.merge ? Json(*options.merge) : Json(nullptr)},
           {"fixed_ids", options.fixed_ids ? Json(options.fixed_ids->string()) : Json(nullptr)},
+          {"fixed_ids_are_labels", options.fixed_ids_are_labels},
           {"annotate", annotates},
           {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
 }

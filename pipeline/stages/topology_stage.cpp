@@ -74,6 +74,25 @@ ReasonCounts count_vertices(RunState& run) {
   return counts;
 }
 
+/// The vertices that the user's file names. Where rows are asked for and the mesh's own file has other numbers, a note
+/// tells the two apart.
+std::vector<std::int32_t> ids_of_file(RunState& run) {
+  const PipelineOptions& options = run.options;
+  const MeshDocument& document = run.document;
+  if (!options.fixed_ids) {
+    return {};
+  }
+  if (options.fixed_ids_are_labels) {
+    return read_vertex_labels(*options.fixed_ids, document);
+  }
+  if (document.first_point_label && (*document.first_point_label != 0 || !document.point_labels.empty())) {
+    run.note(
+        "--fixed-ids takes rows of the file, which count from 0; the file has numbers of its own for its points, " +
+        std::to_string(*document.first_point_label) + " for the first, which --fixed-labels takes");
+  }
+  return read_vertex_ids(*options.fixed_ids, run.result.input.vertices);
+}
+
 void find_sizes(RunState& run) {
   if (run.options.size_array && run.smoothing.method == Method::mean_ratio) {
     if (run.options.geographic) {
@@ -206,8 +225,7 @@ void connect_mesh(RunState& run) {
                                  options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
-  std::vector<std::int32_t> ids =
-      options.fixed_ids ? read_vertex_ids(*options.fixed_ids, input.vertices) : std::vector<std::int32_t>{};
+  std::vector<std::int32_t> ids = ids_of_file(run);
   input.fixed_ids_vertices = count_different(ids);
   if (options.fixed_ids && ids.empty()) {
     run.warn(options.fixed_ids->string() + ": names no vertices, so it holds none");

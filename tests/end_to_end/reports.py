@@ -35,8 +35,8 @@ REPORT_KEYS = {
 }
 # What a report may hold beyond the keys that are promised.
 MORE_KEYS = {"input": {"region_array", "quadratic_triangles", "middle_nodes", "merged_vertices", "point_sets", "cell_sets", "line_groups"},
-             "options": {"output", "guard", "untangle", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
-                         "fixed_ids", "fixed_sets", "merge", "annotate", "annotated_metrics"}}
+             "options": {"output", "guard", "untangle", "layers", "time_limit", "target_quality", "region_array", "region_arrays", "fixed_array",
+                         "fixed_ids", "fixed_ids_are_labels", "fixed_sets", "merge", "annotate", "annotated_metrics"}}
 
 
 class Reports(tool.ToolTest):

@@ -1,0 +1,115 @@
+"""Vertices that the user holds by the numbers that the file itself gives them."""
+
+import os
+import re
+
+import mesh_reader
+import sample_meshes
+import tool
+
+DONE, WRONG_USAGE, BAD_INPUT = 0, 2, 3
+
+
+class Labels(tool.ToolTest):
+
+    def setUp(self):
+        super().setUp()
+        self.grid = sample_meshes.Grid()
+        self.write("plate.off", sample_meshes.off(self.grid))
+        self.run_tool("smooth", "plate.off", "all.off")
+        moved = sorted(self.moved("all.off"))
+        self.held = {moved[1], moved[len(moved) // 2], moved[-1]}
+
+    def moved(self, name):
+        after = mesh_reader.read(self.path(name)).points
+        return {v for v, (p, q) in enumerate(zip(self.grid.points, after)) if tuple(map(float, p)) != tuple(q)}
+
+    def labelled(self, kind, label):
+        """The plate as a file of that kind whose point i has label(i)."""
+        points, cells = self.grid.points, [cell for _, cell in self.grid.cells if len(cell) == 3]
+        self.assertEqual(len(cells), len(self.grid.cells))
+        if kind == "inp":
+            return ("*NODE\n" + "".join(f"{label(i)}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(points)) +
+                    "*ELEMENT, TYPE=CPS3\n" +
+                    "".join(f"{i + 1}, " + ", ".join(str(label(v)) for v in cell) + "\n"
+                            for i, cell in enumerate(cells)))
+        if kind == "msh":
+            return (f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n" +
+                    "".join(f"{label(i)} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)) +
+                    f"$EndNodes\n$Elements\n{len(cells)}\n" +
+                    "".join(f"{i + 1} 2 2 0 1 " + " ".join(str(label(v)) for v in cell) + "\n"
+                            for i, cell in enumerate(cells)) + "$EndElements\n")
+        if kind == "2dm":
+            return ("MESH2D\n" + "".join(f"E3T {i + 1} " + " ".join(str(label(v)) for v in cell) + " 1\n"
+                                         for i, cell in enumerate(cells)) +
+                    "".join(f"ND {label(i)} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)))
+        if kind == "grd":
+            return (f"plate\n{len(cells)} {len(points)}\n" +
+                    "".join(f"{label(i)} {x} {y} 1\n" for i, (x, y, z) in enumerate(points)) +
+                    "".join(f"{i + 1} 3 " + " ".join(str(label(v)) for v in cell) + "\n"
+                            for i, cell in enumerate(cells)) + "0\n0\n0\n0\n")
+        if kind == "bdf":
+            return ("BEGIN BULK\n" + "".join(f"GRID,{label(i)},,{float(x)},{float(y)},{float(z)}\n"
+                                             for i, (x, y, z) in enumerate(points)) +
+                    "".join(f"CTRIA3,{i + 1},1," + ",".join(str(label(v)) for v in cell) + "\n"
+                            for i, cell in enumerate(cells)) + "ENDDATA\n")
+        raise ValueError(kind)
+
+    def assert_holds(self, name, label):
+        self.write("labels.txt", "# held\n" + "".join(f"{label(v)}\n" for v in self.held))
+        report = self.report("smooth", name, "out" + os.path.splitext(name)[1], "--fixed-labels", "labels.txt")
+        self.assertEqual(report["input"]["fixed_ids_vertices"], len(self.held))
+        self.assertTrue(report["options"]["fixed_ids_are_labels"])
+        self.run_tool("smooth", name, "held.off", "--fixed-labels", "labels.txt")
+        moved = self.moved("held.off")
+        self.assertFalse(moved & self.held)
+        self.assertTrue(moved)
+
+    def test_labels_of_files_that_number_their_points(self):
+        count = len(self.grid.points)
+        labels = {"from 1": lambda i: i + 1, "from 100": lambda i: i + 100, "backwards": lambda i: count - i,
+                  "with gaps": lambda i: 5 + 7 * i + i % 3}
+        for kind in ("inp", "msh", "2dm", "grd", "bdf"):
+            for name, label in labels.items():
+                with self.subTest(kind, labels=name):
+                    self.write(f"in.{kind}", self.labelled(kind, label))
+                    self.assert_holds(f"in.{kind}", label)
+
+    def test_files_that_count_their_points(self):
+        for name, first in (("in.mesh", 1), ("in.su2", 0), ("in.obj", 1), ("in.unv", 1), ("in.node", 1)):
+            with self.subTest(name):
+                self.run_tool("smooth", "plate.off", name, "--fixed-ids", self.all_rows())
+                self.assert_holds(name, lambda i, first=first: i + first)
+
+    def all_rows(self):
+        self.write("rows.txt", " ".join(map(str, range(len(self.grid.points)))))
+        return "rows.txt"
+
+    def test_a_file_without_numbers_is_refused_with_the_way_out(self):
+        self.write("labels.txt", "1\n")
+        for name in ("plate.off", "plate.vtk", "plate.ply"):
+            with self.subTest(name):
+                if name != "plate.off":
+                    self.run_tool("smooth", "plate.off", name)
+                outcome = self.run_tool("smooth", name, "out.off", "--fixed-labels", "labels.txt", expect=WRONG_USAGE)
+                self.assertIn("--fixed-ids", outcome.err)
+
+    def test_a_label_that_no_point_has_is_refused(self):
+        self.write("in.inp", self.labelled("inp", lambda i: 5 + 7 * i))
+        self.write("labels.txt", "5\n6\n")
+        outcome = self.run_tool("smooth", "in.inp", "out.inp", "--fixed-labels", "labels.txt", expect=BAD_INPUT)
+        self.assertRegex(outcome.err, "labels.txt: names the vertex 6, ")
+        self.run_tool("smooth", "in.inp", "out.inp", "--fixed-labels", "labels.txt", "--fixed-ids", "labels.txt",
+                      expect=WRONG_USAGE)
+
+    def test_rows_are_told_from_numbers_of_the_file(self):
+        self.assertRegex(re.sub(r"\s+", " ", self.run_tool("smooth", "--help").out), "--fixed-ids FILE .*count from 0")
+        self.write("rows.txt", "0\n")
+        self.write("in.msh", self.labelled("msh", lambda i: i + 1))
+        for name, is_said in (("in.msh", True), ("plate.off", False)):
+            outcome = self.run_tool("smooth", name, "out.off", "--fixed-ids", "rows.txt")
+            self.assertEqual("--fixed-labels" in outcome.err, is_said, outcome)
+
+
+if __name__ == "__main__":
+    tool.main()
