@@ -18,6 +18,7 @@
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/format_choice.h"
+#include "trismooth/mesh_io/mesh_output.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_support.h"
@@ -78,8 +79,8 @@ void require_rows(const std::filesystem::path& path, std::span<const DataArray> 
   }
 }
 
-bool is_written_back(const MeshDocument& document, FileFormat target) {
 /// A file that can neither take arrays nor leave them out is made anew where it has stale ones.
+bool is_written_back(const MeshDocument& document, FileFormat target) {
   return document.original != nullptr && document.format == target &&
          (!document.has_stale_annotations || document.original->takes_added_arrays());
 }
@@ -208,10 +209,10 @@ MeshDocument read_mesh(const std::filesystem::path& path, const FileOptions& opt
   }
   MeshDocument document = codec.read_shared(content.name, std::move(content.bytes), file_workers);
   document.format = choice.format;
-  for (std::string& note : {std::ref(content.note), std::ref(choice.note)}) {
   if (!document.first_point_label) {
     document.first_point_label = counted_from(choice.format);
   }
+  for (std::string& note : {std::ref(content.note), std::ref(choice.note)}) {
     if (!note.empty()) {
       document.notes.push_back(std::move(note));
     }
@@ -223,8 +224,8 @@ MeshDocument read_mesh(const std::filesystem::path& path, int threads) {
   return read_mesh(path, FileOptions{threads, std::nullopt});
 }
 
-void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
-                const FileOptions& options) {
+WrittenAside write_mesh_aside(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
+                              const FileOptions& options) {
   const FileFormat format = output_format(path, document.format, options.format);
   const std::filesystem::path name = shown_output(path);
   Workers workers(options.threads);
@@ -235,11 +236,14 @@ void write_mesh(const std::filesystem::path& path, const MeshDocument& document,
     require_rows(name, arrays, document.cells.size(), "cells");
   }
   const auto write = [&](const std::filesystem::path& plain) { write_plain(plain, format, document, added, workers); };
-  if (const auto partner_of = codec_of(format).partner_of; partner_of != nullptr) {
-    write_two_files(path, partner_of, write);
-  } else {
-    write_content(path, FileWorkers(workers), write);
-  }
+  const auto partner_of = codec_of(format).partner_of;
+  return partner_of != nullptr ? write_two_files_aside(path, partner_of, write)
+                               : write_content_aside(path, FileWorkers(workers), write);
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
+                const FileOptions& options) {
+  write_mesh_aside(path, document, added, options).commit();
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,

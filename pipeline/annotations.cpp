@@ -8,6 +8,7 @@
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
@@ -83,6 +84,21 @@ DataArray displacement_annotation(std::span<const double> before, std::span<cons
     }
   });
   return make_data_array(annotation_name("displacement"), 3, std::move(displacements));
+}
+
+std::vector<std::string> drop_annotations(MeshDocument& document) {
+  std::vector<std::string> names;
+  for (std::vector<DataArray>* const arrays : {&document.cell_arrays, &document.point_arrays}) {
+    std::erase_if(*arrays, [&names](const DataArray& array) {
+      const bool is_ours = is_annotation(array.name);
+      if (is_ours) {
+        names.push_back(array.name);
+      }
+      return is_ours;
+    });
+  }
+  document.has_stale_annotations = document.has_stale_annotations || !names.empty();
+  return names;
 }
 
 DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,

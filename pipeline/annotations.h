@@ -16,6 +16,7 @@
 namespace trismooth {
 
 class Workers;
+struct MeshDocument;
 
 /// The annotations of a run. Their names, here and in docs/command_line.md, stay:
 ///
@@ -39,6 +40,10 @@ DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& worke
 
 /// From x, y, z of every vertex before and after. An array of float64, 3 a vertex.
 DataArray displacement_annotation(std::span<const double> before, std::span<const double> after, Workers& workers);
+
+/// Takes annotations of an earlier run out of the document's arrays, and has none of them be written. Answers their
+/// names, those of cells first.
+std::vector<std::string> drop_annotations(MeshDocument& document);
 
 /// The size ratio (size_ratio.h) of each cell, as metric_annotations() has the others: of a strip the largest.
 DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/stages/check_stage.h"
 #include "trismooth/pipeline/stages/read_stage.h"
@@ -62,8 +64,8 @@ class Run {
     starting_ = start_backend(options_);
     timed(Stage::read, timings.read, read_input);
     check_and_smooth();
-    write();
-    return result_after(watch);
+    write(watch);
+    return std::move(state_.result);
   }
 
   /// The stages behind reading.
@@ -74,8 +76,8 @@ class Run {
     state_.document = std::move(document);
     take_input(state_);
     check_and_smooth();
-    write();
-    return result_after(watch);
+    write(watch);
+    return std::move(state_.result);
   }
 
   /// The stages between reading and writing, on `document`, which is as it was where they fail. `annotations`, where it
@@ -96,19 +98,42 @@ class Run {
       document.point_arrays = point_arrays;
       throw;
     }
-    if (annotations != nullptr && (options_.annotate || options_.annotated)) {
+    const bool annotates = annotations != nullptr && (options_.annotate || options_.annotated);
+    if (annotates) {
       *annotations = annotations_of(state_);
     }
+    if (options_.output || annotates) {
+      const std::vector<std::string> dropped = drop_annotations(state_.document);
+      if (!annotates && !dropped.empty()) {
+        state_.note(note_of_dropped_annotations(dropped));
+      }
+    }
     document = std::move(state_.document);
-    return result_after(watch);
+    complete(watch);
+    return std::move(state_.result);
   }
 
  private:
-  void write() {
+  /// The mesh and what belongs to it: first complete under other names, then put in place, the mesh last. Completes the
+  /// result.
+  void write(const Stopwatch& watch) {
+    std::optional<WrittenAside> mesh;
     if (const auto& path = options_.written()) {
       timed(Stage::write, state_.result.timings_ms.write,
-            [&](RunState& run) { write_output(run, *path, !options_.output || options_.annotate); });
+            [&](RunState& run) { mesh.emplace(write_output(run, *path, !options_.output || options_.annotate)); });
     }
+    complete(watch);
+    if (!mesh) {
+      return;
+    }
+    if (options_.beside.prepare) {
+      options_.beside.prepare(state_.result);
+    }
+    mesh->send();
+    if (options_.beside.place) {
+      options_.beside.place();
+    }
+    mesh->commit();
   }
 
   void check_and_smooth() {
@@ -123,10 +148,9 @@ class Run {
     }
   }
 
-  PipelineResult result_after(const Stopwatch& watch) {
+  void complete(const Stopwatch& watch) {
     state_.result.timings_ms.total = watch.milliseconds();
     state_.result.peak_memory_bytes = peak_memory_bytes();
-    return std::move(state_.result);
   }
 
   void begin(Stage stage) const {

@@ -42,6 +42,18 @@ struct EnumText<Stage> {
                                                                             {Stage::write, "write"}}};
 };
 
+struct PipelineResult;
+
+/// What belongs to the mesh that a run writes and is to be there with it or not at all, as reports. Both are called
+/// where the run writes a mesh alone, by rank 0 alone. Empty: there is nothing.
+struct BesideOutput {
+  /// Is told the result, up to its last notes and times, when the mesh is complete under another name. Where it throws,
+  /// the run does: nothing takes its place, nothing is left.
+  std::function<void(const PipelineResult&)> prepare;
+  /// Puts in place what was prepared, right before the mesh takes its own place. Where it throws, the mesh does not.
+  std::function<void()> place;
+};
+
 /// What to run.
 struct PipelineOptions {
   std::filesystem::path input;                  ///< `-`: standard input
@@ -91,6 +103,7 @@ struct PipelineOptions {
   bool size_ratio = false;                               ///< reports have it, which takes a while
   std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
+  BesideOutput beside;                             ///< what belongs to the mesh that the run writes
 
   /// The mesh file that the run writes, if any.
   const std::optional<std::filesystem::path>& written() const { return output ? output : annotated; }

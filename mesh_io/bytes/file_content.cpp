@@ -1,10 +1,11 @@
 #include "trismooth/mesh_io/bytes/file_content.h"
 
 #include <array>
+#include <memory>
 #include <new>
-#include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
@@ -58,17 +59,39 @@ FileContent read_content(const std::filesystem::path& path, const FileWorkers& w
   return content;
 }
 
-void write_content(const std::filesystem::path& path, const FileWorkers& workers,
-                   const std::function<void(const std::filesystem::path&)>& write) {
+WrittenAside::WrittenAside(std::vector<std::unique_ptr<OutputFile>> files) : files_(std::move(files)) {}
+
+WrittenAside::WrittenAside(std::unique_ptr<MemoryFile> stream) : stream_(std::move(stream)) {}
+
+WrittenAside::WrittenAside(WrittenAside&& other) noexcept = default;
+WrittenAside& WrittenAside::operator=(WrittenAside&& other) noexcept = default;
+WrittenAside::~WrittenAside() = default;
+
+void WrittenAside::send() {
+  if (stream_ != nullptr) {
+    write_standard_output(stream_->view());
+    stream_.reset();
+  }
+}
+
+void WrittenAside::commit() {
+  send();
+  for (const std::unique_ptr<OutputFile>& file : files_) {
+    file->commit();
+  }
+}
+
+WrittenAside write_content_aside(const std::filesystem::path& path, const FileWorkers& workers,
+                                 const std::function<void(const std::filesystem::path&)>& write) {
   const std::filesystem::path name = shown_output(path);
+  std::vector<std::unique_ptr<OutputFile>> files;
   try {
     if (is_standard_stream(path)) {
-      MemoryFile plain(name);
-      write(plain.path());
-      write_standard_output(plain.view());
-      return;
+      auto plain = std::make_unique<MemoryFile>(name);
+      write(plain->path());
+      return WrittenAside(std::move(plain));
     }
-    OutputFile output(path);
+    OutputFile& output = *files.emplace_back(std::make_unique<OutputFile>(path));
     if (names_gzip(path)) {
       MemoryFile plain(name);
       write(plain.path());
@@ -76,42 +99,40 @@ void write_content(const std::filesystem::path& path, const FileWorkers& workers
     } else {
       write(output.path());
     }
-    output.commit();
+    output.prepare();
   } catch (const WriteError& error) {
     // Codecs know the temporary file only.
     throw WriteError(name, error.reason);
   }
+  return WrittenAside(std::move(files));
 }
 
-void write_two_files(const std::filesystem::path& path,
-                     std::filesystem::path (*partner_of)(const std::filesystem::path& path),
-                     const std::function<void(const std::filesystem::path&)>& write) {
+WrittenAside write_two_files_aside(const std::filesystem::path& path,
+                                   std::filesystem::path (*partner_of)(const std::filesystem::path& path),
+                                   const std::function<void(const std::filesystem::path&)>& write) {
   const char* const needs_plain_files = "the mesh is two files, which are written as plain files, uncompressed";
   if (is_standard_stream(path) || names_gzip(path)) {
     throw WriteError(shown_output(path), needs_plain_files);
   }
   const std::array names{path, partner_of(path)};
-  std::array<std::optional<OutputFile>, 2> outputs;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    outputs.at(i).emplace(names.at(i));
-    if (outputs.at(i)->is_direct()) {
-      throw WriteError(names.at(i), needs_plain_files);
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (const std::filesystem::path& name : names) {
+    if (files.emplace_back(std::make_unique<OutputFile>(name))->is_direct()) {
+      throw WriteError(name, needs_plain_files);
     }
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     try {
-      write(outputs.at(i)->path());
+      write(files[i]->path());
     } catch (const WriteError& error) {
       // Codecs know the temporary file only.
       throw WriteError(names.at(i), error.reason);
     }
   }
-  for (std::optional<OutputFile>& output : outputs) {
-    output->prepare();
+  for (const std::unique_ptr<OutputFile>& file : files) {
+    file->prepare();
   }
-  for (std::optional<OutputFile>& output : outputs) {
-    output->commit();
-  }
+  return WrittenAside(std::move(files));
 }
 
 }  // namespace trismooth

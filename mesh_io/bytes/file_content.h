@@ -2,12 +2,17 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
 
 namespace trismooth {
+
+class MemoryFile;
+class OutputFile;
 
 /// What a file holds, decompressed where gzip has compressed it.
 struct FileContent {
@@ -21,17 +26,42 @@ struct FileContent {
 /// and where the name says that gzip has compressed it and it has not.
 FileContent read_content(const std::filesystem::path& path, const FileWorkers& workers);
 
-/// Has `write` write a file at a path that it is given, and brings what it wrote to `path`: through an OutputFile, by
-/// gzip where the name says so, or to standard output where `path` is `-`. Throws WriteError, which names `path`
-/// whatever file `write` says that it could not write.
-void write_content(const std::filesystem::path& path, const FileWorkers& workers,
-                   const std::function<void(const std::filesystem::path&)>& write);
+/// Files that are complete under other names, on the disk, or in memory where they are for standard output. Without a
+/// commit() nothing is left of them, and what has their names stays as it was. What a pipe or a device was given is
+/// there already: it cannot be taken back. To be destroyed by the thread that made it.
+class WrittenAside {
+ public:
+  /// Files that are prepared.
+  explicit WrittenAside(std::vector<std::unique_ptr<OutputFile>> files);
+  /// What is for standard output.
+  explicit WrittenAside(std::unique_ptr<MemoryFile> stream);
+  WrittenAside(WrittenAside&& other) noexcept;
+  WrittenAside& operator=(WrittenAside&& other) noexcept;
+  ~WrittenAside();
+
+  /// Writes what is for standard output, if anything is: where several of these belong together, before the first of
+  /// them takes its place. Throws WriteError.
+  void send();
+
+  /// send(), and the files take their places, in their order. Throws WriteError.
+  void commit();
+
+ private:
+  std::vector<std::unique_ptr<OutputFile>> files_;
+  std::unique_ptr<MemoryFile> stream_;
+};
+
+/// Has `write` write a file at a path that it is given, as what is to come to `path`: through an OutputFile, by gzip
+/// where the name says so, or to standard output where `path` is `-`. Throws WriteError, which names `path` whatever
+/// file `write` says that it could not write.
+WrittenAside write_content_aside(const std::filesystem::path& path, const FileWorkers& workers,
+                                 const std::function<void(const std::filesystem::path&)>& write);
 
 /// The same for a mesh of two files: `write` is given a path for each, with the extensions of `path` and of
-/// `partner_of(path)`. Both are ready before the first of them is put in its place. Throws WriteError, also for
-/// standard output, pipes and devices, and names that ask for compression.
-void write_two_files(const std::filesystem::path& path,
-                     std::filesystem::path (*partner_of)(const std::filesystem::path& path),
-                     const std::function<void(const std::filesystem::path&)>& write);
+/// `partner_of(path)`. Throws WriteError, also for standard output, pipes and devices, and names that ask for
+/// compression.
+WrittenAside write_two_files_aside(const std::filesystem::path& path,
+                                   std::filesystem::path (*partner_of)(const std::filesystem::path& path),
+                                   const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace trismooth

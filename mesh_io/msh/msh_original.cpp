@@ -69,7 +69,7 @@ class MshOriginal : public OriginalFile {
     if (adds && !takes_added_arrays()) {
       throw WriteError(path, "no arrays can be added to the file that was read");
     }
-    if (adds && !layout_.annotations.empty()) {
+    if ((adds || document.has_stale_annotations) && !layout_.annotations.empty()) {
       write_as(without_annotations(), path, document, added_point_arrays, added_cell_arrays, workers);
       return;
     }

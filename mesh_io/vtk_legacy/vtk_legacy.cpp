@@ -55,7 +55,7 @@ class VtkLegacyFile : public OriginalFile {
     }
     std::vector<VtkLegacyChanges> changes = changed_values(bytes_, layout_, document.point_arrays);
     const FileWorkers file_workers(workers);
-    if (added_point_arrays.empty() && added_cell_arrays.empty()) {
+    if (added_point_arrays.empty() && added_cell_arrays.empty() && !document.has_stale_annotations) {
       shift_sites(changes, bytes.size() - bytes_.size());
       write_changed(path, bytes, *sites, document, changes, {}, file_workers);
       return;

@@ -154,7 +154,7 @@ class VtkXmlOriginal : public OriginalFile {
     points->CopyInformation(old_points->GetInformation(), 1);
     set_points(*copy, *points);
     replace_changed(*file_.data->GetPointData(), document.point_arrays, *copy);
-    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
+    if (!added_point_arrays.empty() || !added_cell_arrays.empty() || document.has_stale_annotations) {
       remove_annotations(*copy->GetPointData());
       remove_annotations(*copy->GetCellData());
     }

@@ -13,10 +13,11 @@
 
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/mesh_output.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/cli/format_option.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/output_attempts.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/terminal_line.h"
 #include "trismooth/pipeline/generate/random_document.h"
@@ -62,15 +63,21 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   show("making the mesh");
   const RandomMesh mesh = random_delaunay_mesh(settings.vertices, settings.seed, settings.options);
   show("writing");
-  write_mesh(settings.output, document_of(mesh), {}, FileOptions{1, settings.format});
+  WrittenAside written = write_mesh_aside(settings.output, document_of(mesh), {}, FileOptions{1, settings.format});
   line.reset();
   if (settings.quiet) {
     return ExitCode::done;
   }
   std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
-  results << labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
-                                                     mesh.triangles.size(), settings.seed))
-          << labelled_line("written:", shown_output(settings.output).string());
+  const std::string text =
+      labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
+                                              mesh.triangles.size(), settings.seed)) +
+      labelled_line("written:", shown_output(settings.output).string());
+  const bool has_reader = print_before_files(results, text);
+  written.commit();
+  if (!has_reader) {
+    end_without_reader();
+  }
   return ExitCode::done;
 }
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -106,12 +105,110 @@ std::size_t report_bytes(const PipelineResult& result) {
          result.regions_before.size() * of_a_region;
 }
 
-/// Runs the pipeline while it shows the progress.
-PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, const CommandEnvironment& environment) {
+/// What a run leaves beside the mesh: its reports, and the table on standard output. It is all there, or nothing is.
+class RunOutputs {
+ public:
+  RunOutputs(const MeshRunSettings& settings, const CommandEnvironment& environment)
+      : settings_(settings),
+        environment_(environment),
+        record_{environment.command, date_text(std::chrono::system_clock::now()), {}} {}
+
+  /// Writes the reports under other names, then prints the table. Throws WriteError.
+  void prepare(const PipelineResult& result) {
+    is_prepared_ = true;
+    for (const Gate& gate : settings_.gates) {
+      record_.gates.push_back(result.after ? check_gate(gate, *result.after, result.quadratic_after)
+                                           : check_gate(gate, result.before, result.quadratic_before));
+    }
+    write_reports(result);
+    if (settings_.verbosity != Verbosity::quiet) {
+      print_table(result);
+    }
+  }
+
+  /// Puts the reports in their places.
+  void place() {
+    for (WrittenAside& report : reports_) {
+      report.commit();
+    }
+    reports_.clear();
+  }
+
+  bool is_prepared() const { return is_prepared_; }
+  const std::vector<GateOutcome>& gates() const { return record_.gates; }
+
+  bool has_reader() const { return has_reader_; }
+
+ private:
+  /// All that fail are told; the last one is thrown.
+  void write_reports(const PipelineResult& result) {
+    std::optional<WriteError> failure;
+    for (const std::filesystem::path& report : settings_.reports) {
+      std::string reason;
+      try {
+        require_host_memory(report_bytes(result));
+        reports_.push_back(write_report_aside(report, settings_.pipeline, result, record_));
+        continue;
+      } catch (const WriteError& error) {
+        reason = error.reason;
+      } catch (const std::bad_alloc&) {
+        reason = "cannot be written: not enough memory";
+      }
+      if (failure) {
+        print_error(environment_.err, failure->what());
+      }
+      failure.emplace(report, reason + without_mesh());
+    }
+    if (failure) {
+      throw *failure;
+    }
+  }
+
+  /// What becomes of the mesh where these cannot be written.
+  std::string without_mesh() const {
+    const auto& mesh = settings_.pipeline.written();
+    return mesh ? "; so " + shown_output(*mesh).string() + " is not written either" : "";
+  }
+
+  void print_table(const PipelineResult& result) {
+    const PipelineOptions& options = settings_.pipeline;
+    const bool is_verbose = settings_.verbosity == Verbosity::verbose;
+    std::string text = text_report(options, result, is_verbose ? TextDetail::all : TextDetail::summary);
+    if (is_verbose && (result.smoothing || result.region_names.size() > few_regions)) {
+      text += region_table(result);
+    }
+    for (const std::filesystem::path& report : settings_.reports) {
+      text += labelled_line("report:", report.string());
+    }
+    // A mesh on standard output has it for itself.
+    const bool is_taken = options.written() && is_standard_stream(*options.written());
+    try {
+      has_reader_ = print_before_files(is_taken ? environment_.err : environment_.out, text);
+    } catch (const WriteError& error) {
+      throw WriteError("standard output", error.reason + without_mesh());
+    }
+  }
+
+  const MeshRunSettings& settings_;
+  const CommandEnvironment& environment_;
+  RunRecord record_;
+  std::vector<WrittenAside> reports_;
+  bool is_prepared_ = false;
+  bool has_reader_ = true;  ///< the standard output
+};
+
+/// Runs the pipeline while it shows the progress. `outputs` are there when the mesh is.
+PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, RunOutputs& outputs,
+                           const CommandEnvironment& environment) {
   std::optional<ProgressBar> bar;
   if (environment.terminal.stream != nullptr && verbosity == Verbosity::normal) {
     bar.emplace(environment.terminal, options.smoothing.max_sweeps);
   }
+  options.beside.prepare = [&](const PipelineResult& result) {
+    bar.reset();
+    outputs.prepare(result);
+  };
+  options.beside.place = [&] { outputs.place(); };
   options.stage_started = [&bar](Stage stage) {
     if (bar) {
       bar->stage_started(stage);
@@ -269,59 +366,34 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   options.size_ratio =
       std::ranges::any_of(settings.gates, &needs_size_ratio) || (!environment.over_ranks && !settings.reports.empty());
 
-  RunRecord record{environment.command, date_text(std::chrono::system_clock::now()), {}};
   if (environment.follows) {
     environment.run(options);
     return ExitCode::done;
   }
   try_outputs(settings, environment.over_ranks);
-  const PipelineResult result = run_watched(options, verbosity, environment);
-
-  for (const Gate& gate : settings.gates) {
-    record.gates.push_back(result.after ? check_gate(gate, *result.after, result.quadratic_after)
-                                        : check_gate(gate, result.before, result.quadratic_before));
+  RunOutputs outputs(settings, environment);
+  const PipelineResult result = run_watched(options, verbosity, outputs, environment);
+  if (!outputs.is_prepared()) {
+    outputs.prepare(result);
+    outputs.place();
   }
-  // Files first: a reader of the standard output that goes away (head) ends the program.
-  const auto lost = std::erase_if(settings.reports, [&](const std::filesystem::path& report) {
-    return !could_write(report, environment.err, [&] {
-      require_host_memory(report_bytes(result));
-      write_report(report, options, result, record);
-    });
-  });
-  // A mesh on standard output has it for itself.
-  const bool is_taken = options.written() && is_standard_stream(*options.written());
-  std::ostream& results = is_taken ? environment.err : environment.out;
-  std::exception_ptr not_printed;
   if (verbosity != Verbosity::quiet) {
-    std::string text =
-        text_report(options, result, verbosity == Verbosity::verbose ? TextDetail::all : TextDetail::summary);
-    if (verbosity == Verbosity::verbose && (result.smoothing || result.region_names.size() > few_regions)) {
-      text += region_table(result);
-    }
-    for (const std::filesystem::path& report : settings.reports) {
-      text += labelled_line("report:", report.string());
-    }
-    try {
-      print_results(results, text);
-    } catch (const WriteError&) {
-      not_printed = std::current_exception();
-    }
     print_notes(result, verbosity, environment.err);
   }
   if (verbosity == Verbosity::verbose) {
     environment.err << timings_line(result.timings_ms);
   }
   ExitCode code = ExitCode::done;
-  for (const GateOutcome& outcome : record.gates) {
+  for (const GateOutcome& outcome : outputs.gates()) {
     if (!outcome.passed) {
       environment.err << gate_failure(outcome) << '\n';
       code = ExitCode::gate_failed;
     }
   }
-  if (not_printed) {
-    std::rethrow_exception(not_printed);
+  if (!outputs.has_reader()) {
+    end_without_reader();
   }
-  return lost > 0 ? ExitCode::not_written : code;
+  return code;
 }
 
 }  // namespace trismooth

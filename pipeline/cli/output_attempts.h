@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <new>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/mesh_io/bytes/broken_pipe.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/cli/messages.h"
 
@@ -48,6 +50,29 @@ inline void print_results(std::ostream& stream, std::string_view text) {
   errno = 0;
   stream << text << std::flush;
   require_printed(stream);
+}
+
+/// print_results() before files take their places. Answers false where whoever read the standard output has gone away:
+/// that is the reader's choice (head), and keeps no file from being written. The program ends by end_without_reader()
+/// then.
+inline bool print_before_files(std::ostream& stream, std::string_view text) {
+  const BrokenPipeIsError this_thread;
+  try {
+    print_results(stream, text);
+  } catch (const WriteError&) {
+    if (errno != EPIPE) {
+      throw;
+    }
+    return false;
+  }
+  return true;
+}
+
+/// Ends the program as one whose standard output has lost its reader. Throws WriteError where the signal for it is
+/// ignored.
+[[noreturn]] inline void end_without_reader() {
+  std::raise(SIGPIPE);
+  throw WriteError("standard output", std::string("cannot be written: ") + std::strerror(EPIPE));
 }
 
 }  // namespace trismooth

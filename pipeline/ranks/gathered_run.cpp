@@ -106,8 +106,11 @@ PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, c
     moved.insert(field.name);
   }
   whole.hand_back(files, texts_of_all(moved, ranks), ranks);
-  write_pieces(files, *options.written(), ranks, workers);
-  result.timings_ms.write += watch.milliseconds();
+  const auto completed = [&]() -> const PipelineResult& {
+    result.timings_ms.write += watch.milliseconds();
+    return result;
+  };
+  write_pieces(files, *options.written(), ranks, workers, completed, options.beside);
   return result;
 }
 

@@ -8,9 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 
@@ -133,6 +135,33 @@ void write_text(OutputFile& file, const std::filesystem::path& target, const std
   }
 }
 
+/// The text of a parallel file without what it says of annotations.
+std::string without_annotations(const std::string& text) {
+  constexpr std::string_view element = "<PDataArray";
+  constexpr std::string_view end_tag = "</PDataArray>";
+  std::string kept;
+  std::size_t done = 0;
+  for (std::size_t at = text.find(element); at != std::string::npos; at = text.find(element, at + 1)) {
+    std::size_t end = std::min(text.find('>', at), text.size() - 1) + 1;
+    const std::string_view tag = std::string_view(text).substr(at, end - at);
+    const auto names_ours = [&tag](char quote) {
+      return tag.find(std::string("Name=") + quote + std::string(annotation_prefix)) != std::string_view::npos;
+    };
+    if (!names_ours('"') && !names_ours('\'')) {
+      continue;
+    }
+    if (!tag.ends_with("/>")) {
+      const std::size_t closed = text.find(end_tag, end);
+      end = closed == std::string::npos ? end : closed + end_tag.size();
+    }
+    const std::size_t line = text.find_last_not_of(" \t", at - 1);
+    const bool is_line = line != std::string::npos && text[line] == '\n' && end < text.size() && text[end] == '\n';
+    kept.append(text, done, (is_line ? line : at) - done);
+    done = end;
+  }
+  return kept.append(text, done);
+}
+
 }  // namespace
 
 PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers) {
@@ -197,8 +226,34 @@ void require_own_pieces(const PieceFiles& files, const std::filesystem::path& ou
   }
 }
 
-void write_pieces(const PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
-                  Workers& workers) {
+std::vector<std::string> drop_annotations(PieceFiles& files) {
+  std::vector<std::string> names;
+  for (const PieceArray::Of of : {PieceArray::Of::cells, PieceArray::Of::points}) {
+    for (const PieceArray& array : files.arrays) {
+      if (array.of == of && is_annotation(array.name)) {
+        names.push_back(array.name);
+      }
+    }
+  }
+  std::erase_if(files.arrays, [](const PieceArray& array) { return is_annotation(array.name); });
+  for (Piece& piece : files.pieces) {
+    drop_annotations(piece.document);
+  }
+  return names;
+}
+
+void prepare_beside(const BesideOutput& beside, const PipelineResult& result, const mpi::Communicator& ranks) {
+  agree(ranks, [&] {
+    if (ranks.rank() == 0 && beside.prepare) {
+      beside.prepare(result);
+    }
+  });
+}
+
+void write_pieces(PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
+                  Workers& workers, const std::function<const PipelineResult&()>& completed,
+                  const BesideOutput& beside) {
+  drop_annotations(files);
   std::vector<std::unique_ptr<OutputFile>> written;
   agree(ranks, [&] {
     const std::vector<std::string> sources = output_sources(files, output);
@@ -214,11 +269,17 @@ void write_pieces(const PieceFiles& files, const std::filesystem::path& output, 
     }
     if (ranks.rank() == 0) {
       written.push_back(std::make_unique<OutputFile>(output));
-      write_text(*written.back(), output, with_sources(files.bytes, files.file, sources));
+      write_text(*written.back(), output, without_annotations(with_sources(files.bytes, files.file, sources)));
       written.back()->prepare();
     }
   });
+  prepare_beside(beside, completed(), ranks);
   agree(ranks, [] { OutputFile::begin_commits(); });
+  agree(ranks, [&] {
+    if (ranks.rank() == 0 && beside.place) {
+      beside.place();
+    }
+  });
   const std::size_t pieces = files.pieces.size();
   agree(ranks, [&] {
     for (std::size_t i = 0; i < pieces; ++i) {

@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/ranks/piece.h"
 
 namespace trismooth {
@@ -58,10 +59,20 @@ std::vector<std::string> output_sources(const PieceFiles& files, const std::file
 /// would overwrite those of another file, the input.
 void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single);
 
-/// Writes the pieces with their points as they are now, and the parallel file: all of them beside their targets first,
-/// then, when every rank has done so, in their places, the parallel file last. Collective. Throws WriteError on all
-/// ranks; whatever stood there survives that.
-void write_pieces(const PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
-                  Workers& workers);
+/// Writes the pieces with their points as they are now, without annotations, and the parallel file: all of them beside
+/// their targets first, then, when every rank has done so, in their places, the parallel file last. In between
+/// `completed`, which is collective, gives the result, which `beside` is told by rank 0, and what that has prepared
+/// takes its place. Collective. Throws WriteError on all ranks, and what `beside` throws; whatever stood there survives
+/// that.
+void write_pieces(PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
+                  Workers& workers, const std::function<const PipelineResult&()>& completed,
+                  const BesideOutput& beside);
+
+/// Takes annotations of an earlier run out of all pieces, and has none of them be written. Answers their names, those
+/// of cells first, the same on all ranks.
+std::vector<std::string> drop_annotations(PieceFiles& files);
+
+/// Has rank 0 tell `beside` the result. Collective. Throws what `beside` throws, on all ranks.
+void prepare_beside(const BesideOutput& beside, const PipelineResult& result, const mpi::Communicator& ranks);
 
 }  // namespace trismooth

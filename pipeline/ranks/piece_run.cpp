@@ -16,7 +16,6 @@
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/release.h"
 #include "trismooth/base/stopwatch.h"
-#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
@@ -39,6 +38,7 @@
 #include "trismooth/pipeline/ranks/rank_topology.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/shared_vertices.h"
+#include "trismooth/pipeline/ranks/single_output.h"
 #include "trismooth/pipeline/ranks/vertex_numbers.h"
 #include "trismooth/pipeline/ranks/vertex_owners.h"
 #include "trismooth/pipeline/ranks/whole_mesh.h"
@@ -80,7 +80,6 @@ class PieceRun {
   }
 
   PipelineResult run() {
-    const Stopwatch watch;
     agree(*ranks_, [&] {
       options_.smoothing.validate();
       require_piece_options(options_);
@@ -90,8 +89,7 @@ class PieceRun {
     if (!gathered_for_.empty()) {
       run_with_whole_mesh();
     }
-    result_.timings_ms.total = watch.milliseconds();
-    result_.peak_memory_bytes = largest_memory_of_ranks(*ranks_);
+    complete();
     return std::move(result_);
   }
 
@@ -118,7 +116,8 @@ class PieceRun {
     warn();
     smooth();
     timed(Stage::check_after, result_.timings_ms.check_after, [&] { check_after(); });
-    timed(Stage::write, result_.timings_ms.write, [&] { write(); });
+    begin(Stage::write);
+    write(Stopwatch());
   }
 
   /// The same by rank 0, with what the readers have said.
@@ -127,17 +126,32 @@ class PieceRun {
     topology_.reset();
     quality_.reset();
     mesh_ = {};
-    result_ = run_gathered(files_, options_, *ranks_, workers_);
-    result_.timings_ms.read = read.timings_ms.read;
-    put_in_front(read_losses_, result_.losses);
-    put_in_front(read_notes_, result_.notes);
-    if (ranks_->size() > 1) {
-      note("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
-      if (result_.smoothing) {
-        std::string& said = result_.smoothing->backend_note;
-        said = joined_notes(said, result_.notes.back());
+    const auto with_what_was_read = [&](PipelineResult result) {
+      result.timings_ms.read = read.timings_ms.read;
+      result.timings_ms.total = watch_.milliseconds();
+      put_in_front(read_losses_, result.losses);
+      put_in_front(read_notes_, result.notes);
+      if (ranks_->size() > 1) {
+        result.notes.push_back("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
+        if (result.smoothing) {
+          std::string& said = result.smoothing->backend_note;
+          said = joined_notes(said, result.notes.back());
+        }
       }
+      return result;
+    };
+    PipelineOptions own = options_;
+    if (options_.beside.prepare) {
+      own.beside.prepare = [&](const PipelineResult& result) { options_.beside.prepare(with_what_was_read(result)); };
     }
+    result_ = with_what_was_read(run_gathered(files_, own, *ranks_, workers_));
+  }
+
+  /// Collective.
+  const PipelineResult& complete() {
+    result_.timings_ms.total = watch_.milliseconds();
+    result_.peak_memory_bytes = largest_memory_of_ranks(*ranks_);
+    return result_;
   }
 
   void begin(Stage stage) const {
@@ -424,39 +438,19 @@ class PieceRun {
     }
   }
 
-  void note_kept_annotations() {
-    std::vector<std::string_view> names;
-    for (const PieceArray::Of of : {PieceArray::Of::cells, PieceArray::Of::points}) {
-      for (const PieceArray& array : files_.arrays) {
-        if (array.of == of && is_annotation(array.name)) {
-          names.push_back(array.name);
-        }
-      }
+  void write(const Stopwatch& watch) {
+    const auto completed = [&]() -> const PipelineResult& {
+      result_.timings_ms.write = watch.milliseconds();
+      return complete();
+    };
+    if (const std::vector<std::string> dropped = drop_annotations(files_); !dropped.empty()) {
+      note(note_of_dropped_annotations(dropped));
     }
-    if (!names.empty()) {
-      note(note_of_kept_annotations(names));
-    }
-  }
-
-  void write() {
     if (!options_.single) {
-      note_kept_annotations();
-      write_pieces(files_, *options_.output, *ranks_, workers_);
-      return;
+      write_pieces(files_, *options_.output, *ranks_, workers_, completed, options_.beside);
+    } else {
+      write_single(files_, options_, *ranks_, workers_, result_.losses, completed);
     }
-    WholeMesh whole(files_, *ranks_);
-    std::set<std::string> losses(whole.document.losses.begin(), whole.document.losses.end());
-    agree(*ranks_, [&] {
-      if (ranks_->rank() == 0) {
-        const FileFormat target = output_format(*options_.output, whole.document.format, options_.format);
-        if (has_arrays(target)) {
-          note_kept_annotations();
-        }
-        std::ranges::move(what_is_lost(whole.document, target), std::inserter(losses, losses.end()));
-        write_mesh(*options_.output, whole.document, AddedArrays{}, FileOptions{workers_.count(), options_.format});
-      }
-    });
-    std::ranges::move(texts_of_all(losses, *ranks_), std::back_inserter(result_.losses));
   }
 
   void check_after() {
@@ -470,6 +464,7 @@ class PieceRun {
     result_.size_change = quality_->size_change(local_, frame_, local, frame, workers_.count());
   }
 
+  Stopwatch watch_;
   PipelineOptions options_;
   FileReading reading_;
   std::shared_ptr<const mpi::Communicator> ranks_;

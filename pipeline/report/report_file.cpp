@@ -25,9 +25,9 @@ void require_report_extension(const std::filesystem::path& path) {
   writer_of(path);
 }
 
-void write_report(const std::filesystem::path& path, const PipelineOptions& options, const PipelineResult& result,
-                  const RunRecord& record) {
-  write_report_text(path, writer_of(path)(options, result, record));
+WrittenAside write_report_aside(const std::filesystem::path& path, const PipelineOptions& options,
+                                const PipelineResult& result, const RunRecord& record) {
+  return write_report_text_aside(path, writer_of(path)(options, result, record));
 }
 
 }  // namespace trismooth

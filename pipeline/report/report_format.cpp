@@ -1,13 +1,18 @@
 #include "trismooth/pipeline/report/report_format.h"
 
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
 
-void write_report_text(const std::filesystem::path& path, std::string_view text) {
-  OutputFile file(path);
+WrittenAside write_report_text_aside(const std::filesystem::path& path, std::string_view text) {
+  std::vector<std::unique_ptr<OutputFile>> files;
+  OutputFile& file = *files.emplace_back(std::make_unique<OutputFile>(path));
   try {
     BufferedWriter writer(file.path());
     writer.write(text);
@@ -16,7 +21,12 @@ void write_report_text(const std::filesystem::path& path, std::string_view text)
     // The writer knows the temporary file only.
     throw WriteError(path, error.reason);
   }
-  file.commit();
+  file.prepare();
+  return WrittenAside(std::move(files));
+}
+
+void write_report_text(const std::filesystem::path& path, std::string_view text) {
+  write_report_text_aside(path, text).commit();
 }
 
 }  // namespace trismooth

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/mesh_io/bytes/file_content.h"
+
 namespace trismooth {
 
 /// A kind of report: the extension of the file name that asks for it (".json"), and the function that writes its text.
@@ -34,6 +36,9 @@ Writer writer_for(const std::filesystem::path& path, std::span<const ReportForma
   }
   throw std::invalid_argument("'" + path.string() + "' is no report file; its name must end in " + known);
 }
+
+/// Writes `text` to a file, which takes its place when it is committed. Throws WriteError.
+WrittenAside write_report_text_aside(const std::filesystem::path& path, std::string_view text);
 
 /// Writes `text` to a file. An old file of that name survives any failure. Throws WriteError.
 void write_report_text(const std::filesystem::path& path, std::string_view text);

@@ -127,9 +127,10 @@ void warn_before_smoothing(RunState& run) {
   warn_of_projection(run);
 }
 
-std::string note_of_kept_annotations(std::span<const std::string_view> names) {
-  return fmt::format("annotations of an earlier run are kept, and show that mesh: {}; --annotate makes new ones",
-                     fmt::join(names, ", "));
+std::string note_of_dropped_annotations(std::span<const std::string> names) {
+  return fmt::format(
+      "annotations of an earlier run, which show another mesh, are left out: {}; --annotate makes new ones",
+      fmt::join(names, ", "));
 }
 
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {

@@ -30,7 +30,7 @@ std::string note_of_layers(const LayersResult& layers);
 std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions& options);
 
 /// What to say where annotations of these names are in the output, made by an earlier run.
-std::string note_of_kept_annotations(std::span<const std::string_view> names);
+std::string note_of_dropped_annotations(std::span<const std::string> names);
 
 /// And after it: folds that the never-worse check put back, and sizes so far from those of the mesh that nothing moved.
 void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,20 +15,6 @@
 namespace trismooth {
 
 namespace {
-
-void note_old_annotations(RunState& run) {
-  std::vector<std::string_view> names;
-  for (const auto& arrays : {std::span(run.document.cell_arrays), std::span(run.document.point_arrays)}) {
-    for (const DataArray& array : arrays) {
-      if (is_annotation(array.name)) {
-        names.push_back(array.name);
-      }
-    }
-  }
-  if (!names.empty()) {
-    run.note(note_of_kept_annotations(names));
-  }
-}
 
 /// What holds each vertex. Nothing holds what has slid, and a middle is held where its side's ends are.
 std::vector<std::uint8_t> holds_of(const RunState& run) {
@@ -78,8 +63,9 @@ std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) 
   return arrays;
 }
 
-void write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
+WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
   const FileFormat target = output_format(path, run.document.format, run.options.format);
+  const std::vector<std::string> dropped = drop_annotations(run.document);
   std::ranges::copy(what_is_lost(run.document, target), std::back_inserter(run.result.losses));
   const bool annotates = annotate && takes_added_arrays(run.document, target);
   if (annotate && !annotates) {
@@ -89,11 +75,11 @@ void write_output(RunState& run, const std::filesystem::path& path, bool annotat
                   : "." + std::string(to_string(target)) + " holds no arrays") +
              "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
   }
-  if (!annotates && has_arrays(target)) {
-    note_old_annotations(run);
+  if (!annotates && !dropped.empty()) {
+    run.note(note_of_dropped_annotations(dropped));
   }
-  write_mesh(path, run.document, annotates ? annotations_of(run) : AddedArrays{},
-             FileOptions{run.options.smoothing.threads, run.options.format});
+  return write_mesh_aside(path, run.document, annotates ? annotations_of(run) : AddedArrays{},
+                          FileOptions{run.options.smoothing.threads, run.options.format});
 }
 
 }  // namespace trismooth

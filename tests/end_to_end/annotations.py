@@ -130,12 +130,32 @@ class Annotations(tool.ToolTest):
             self.assertEqual(after.points[held], before.points[held])
             self.assertEqual(after.point_arrays[PREFIX + "fixed"][held], (1,))
 
-    def test_annotations_that_a_run_keeps_are_said(self):
-        self.write("a.vtk", samples()["a.vtk"])
-        self.run_tool("smooth", "a.vtk", "b.vtk", "--annotate")
-        outcome = self.run_tool("smooth", "b.vtk", "c.vtk", "--verbose")
+    def test_annotations_of_an_earlier_run_are_never_left_stale(self):
+        for name, content in samples().items():
+            for target in ("c" + extension(name), "c.vtk", "c.vtu"):
+                with self.subTest(name, target=target):
+                    self.write(name, content)
+                    annotated = "b" + extension(name)
+                    self.run_tool("smooth", name, annotated, "--annotate", "--max-sweeps", "1")
+                    outcome = self.run_tool("smooth", annotated, target, "--verbose")
+                    self.assertIn("annotations of an earlier run, which show another mesh, are left out", outcome.err)
+                    self.assertIn("trismooth:shape_before", outcome.err)
+                    self.assert_own_arrays_stay(self.mesh(name), self.mesh(target))
+                    self.assert_annotated(self.mesh(target), set(), set())
+
+    def test_those_of_ply_are_left_out_or_renewed(self):
+        self.write("plate.off", sample_meshes.off(sample_meshes.Grid()))
+        self.run_tool("smooth", "plate.off", "once.ply", "--annotate", "--max-sweeps", "1")
+        self.assertIn(b"trismooth:displacement_0", self.read("once.ply"))
+        self.run_tool("smooth", "plate.off", "plain.ply", "--max-sweeps", "1")
+        outcome = self.run_tool("smooth", "once.ply", "twice.ply")
         self.assertIn("trismooth:shape_before", outcome.err)
-        self.assert_annotated(self.mesh("c.vtk"), {"shape", "shape_before"}, {"fixed", "displacement"})
+        self.run_tool("smooth", "plain.ply", "plain_twice.ply")
+        self.assertEqual(self.read("twice.ply"), self.read("plain_twice.ply"))
+        self.run_tool("smooth", "once.ply", "renewed.ply", "--annotate")
+        self.run_tool("smooth", "twice.ply", "unmoved.ply")
+        self.assertEqual(self.mesh("renewed.ply").points, self.mesh("twice.ply").points)
+        self.assertEqual(self.read("renewed.ply").count(b"trismooth:shape_before"), 1)
 
     def test_what_is_infinite_is_as_verdict_has_it_and_every_reader_reads_it(self):
         self.write("flat.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n2 0 0\n2 2 0\n0 2 0\n3 0 1 2\n3 0 1 4\n3 1 3 4\n3 1 2 3\n")

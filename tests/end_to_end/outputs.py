@@ -260,8 +260,8 @@ class StandardStreams(OutputsTest):
                 with self.subTest(arguments):
                     outcome = self.end(self.start(*arguments, stdout=full))
                     self.assert_told(outcome, "standard output", "No space left on device")
-                    if arguments[0] == "smooth":
-                        self.assert_whole()
+                    self.assertFalse(os.path.exists(self.path("out.vtu")))
+                    self.assert_no_temporary_files()
             outcome = self.end(self.start("smooth", "plate.vtu", "out.vtu", "--quiet", stdout=full))
             self.assertEqual((outcome.code, outcome.err), (DONE, ""))
             self.assert_whole()
@@ -288,8 +288,13 @@ class StandardStreams(OutputsTest):
                     lost = 1 in closed and "--verbose" in arguments
                     self.assertEqual(done.returncode, NOT_WRITTEN if lost else DONE, done)
                     if lost and 2 not in closed:
-                        self.assertRegex(done.stderr, "trismooth: error: standard output: .*Bad file descriptor\n$")
-                    self.assert_whole()
+                        self.assertRegex(done.stderr, "trismooth: error: standard output: .*Bad file descriptor; so "
+                                                      "out.vtu is not written either\n$")
+                    if lost:
+                        self.assertFalse(os.path.exists(self.path("out.vtu")))
+                        self.assert_no_temporary_files()
+                    else:
+                        self.assert_whole()
 
     def test_an_error_is_told_by_the_exit_code_where_messages_cannot_be(self):
         for stream in ("2>&-", "2>/dev/full"):

@@ -9,6 +9,9 @@ import ranks_tool
 import tool
 
 
+NOT_WRITTEN = 4
+
+
 class PieceFiles(ranks_tool.RanksTest):
     def setUp(self):
         super().setUp()
@@ -43,6 +46,45 @@ class PieceFiles(ranks_tool.RanksTest):
         self.assertEqual(self.read("big.pvtu"), summary)
         for i in range(4):
             self.assertEqual(self.read(f"big_{i}.vtu"), self.read(f"out_{i}.vtu"))
+
+    def test_pieces_stay_where_a_report_or_standard_output_cannot_be_written(self):
+        self.write("whole.off", "precious")
+        self.write("report.html", "precious")
+        before = {name: self.read(name) for name in os.listdir(self.folder)}
+        for output, more in (("big.pvtu", []), ("new.pvtu", []), ("whole.off", ["--single"])):
+            for ranks in (1, 3):
+                with self.subTest(output, ranks=ranks):
+                    os.symlink("/dev/full", self.path("full.json"))
+                    outcome = self.run_over(ranks, "smooth", "big.pvtu", output, *more, "--report", "report.html",
+                                            "--report", "full.json", expect=NOT_WRITTEN)
+                    self.assertIn(f"so {output} is not written either", outcome.err)
+                    os.remove(self.path("full.json"))
+                    self.assertEqual({name: self.read(name) for name in os.listdir(self.folder)}, before)
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([tool.program, "smooth", "big.pvtu", "big.pvtu"], cwd=self.folder, stdout=full,
+                                  stderr=subprocess.PIPE, check=False, timeout=60)
+        self.assertEqual(done.returncode, NOT_WRITTEN, done.stderr)
+        self.assertEqual({name: self.read(name) for name in os.listdir(self.folder)}, before)
+
+    def test_annotations_of_an_earlier_run_are_left_out_of_all_pieces(self):
+        self.mesh.cell_arrays["trismooth:shape"] = [0.5] * len(self.mesh.cells)
+        self.mesh.point_arrays["trismooth:fixed"] = [1.0] * len(self.mesh.points)
+        parts = pieces.cut(self.mesh, pieces.stripes(self.mesh, 4), 4)
+        pieces.write_pieces(self.path("old.pvtu"), parts)
+        # Some programs list the arrays of pieces.
+        listed = (b'    <PCellData>\n      <PDataArray type="Float64" Name="load"/>\n'
+                  b'      <PDataArray type="Float64" Name="trismooth:shape"/>\n    </PCellData>\n')
+        self.write("old.pvtu", self.read("old.pvtu").replace(b"    <PPoints>", listed + b"    <PPoints>"))
+        for ranks in (1, 3):
+            self.run_over(ranks, "smooth", "big.pvtu", "plain.pvtu", "--quiet")
+            outcome = self.run_over(ranks, "smooth", "old.pvtu", "out.pvtu")
+            self.assertIn("are left out: trismooth:shape, trismooth:fixed", outcome.err)
+            self.assertEqual(self.read("out.pvtu"), self.read("old.pvtu").replace(b"old_", b"out_").replace(
+                b'      <PDataArray type="Float64" Name="trismooth:shape"/>\n', b""))
+            for i in range(4):
+                self.assertEqual(self.read(f"out_{i}.vtu"), self.read(f"plain_{i}.vtu"))
+            self.run_over(ranks, "smooth", "old.pvtu", "one.vtu", "--single")
+            self.assertNotIn(b"trismooth:", self.read("one.vtu"))
 
     def test_folders(self):
         os.mkdir(self.path("parts"))
