@@ -114,7 +114,7 @@ std::vector<std::string> lost_material_names(const CellGroups& groups) {
     if (!group.name.empty() && (found == written.end() || found->second != group.name)) {
       lost.append(lost.empty() ? "" : ", ").append(group.name);
     }
-    if (group.name.empty() && found != written.end()) {
+    if (group.dimension == 1 && group.name.empty() && found != written.end()) {
       named.append(named.empty() ? "" : ", ").append(std::to_string(group.number) + " (" + found->second + ")");
     }
   }

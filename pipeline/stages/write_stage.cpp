@@ -78,6 +78,9 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
   if (!annotates && !dropped.empty()) {
     run.note(note_of_dropped_annotations(dropped));
   }
+  if (!dropped.empty() && target == FileFormat::ply && run.document.format == target) {
+    run.note("the PLY file is made anew without its old annotations: binary, and without comments");
+  }
   return write_mesh_aside(path, run.document, annotates ? annotations_of(run) : AddedArrays{},
                           FileOptions{run.options.smoothing.threads, run.options.format});
 }

@@ -150,6 +150,7 @@ class Annotations(tool.ToolTest):
         self.run_tool("smooth", "plate.off", "plain.ply", "--max-sweeps", "1")
         outcome = self.run_tool("smooth", "once.ply", "twice.ply")
         self.assertIn("trismooth:shape_before", outcome.err)
+        self.assertIn("the PLY file is made anew without its old annotations", outcome.err)
         self.run_tool("smooth", "plain.ply", "plain_twice.ply")
         self.assertEqual(self.read("twice.ply"), self.read("plain_twice.ply"))
         self.run_tool("smooth", "once.ply", "renewed.ply", "--annotate")

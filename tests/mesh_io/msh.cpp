@@ -16,6 +16,7 @@
 #include "support/accepted_msh_files.h"
 #include "support/memory_file.h"
 #include "support/readings.h"
+#include "support/text_format.h"
 
 using trismooth::DataArray;
 using trismooth::MeshDocument;
@@ -364,8 +365,14 @@ TEST_CASE("names of groups with quotation marks are changed, stay apart from eac
   CHECK(msh_codec.what_is_lost(document) ==
         std::vector<std::string>{"MSH holds names without quotation marks: changed are 'a\"b' (as a_b_1), 'a?b' (as "
                                  "a_b_2)"});
-  document.cell_sets = {{"plain", {3}}};
+  document.cell_sets = {{"plain", {0, 1, 2, 3}}};
   CHECK(msh_codec.what_is_lost(document).empty());
+  document.cell_sets = {{"plain", {3}}};
+  CHECK(msh_codec.what_is_lost(document) ==
+        std::vector<std::string>{"MSH drops what is in no physical group where any is, once Gmsh saves it again: "
+                                 "surfaces without a group are written in a further one, 2"});
+  const MeshDocument all_in_groups = read_msh_text(written_as_msh(document));
+  CHECK(values_of<std::int32_t>(all_in_groups.cell_arrays, "gmsh:physical") == std::vector<std::int32_t>{2, 2, 2, 1});
 }
 
 TEST_CASE("tags of any kind are found, and those given twice") {

@@ -274,7 +274,7 @@ TEST_CASE("coordinates of two types: vertices that stay keep their digits, the o
   }
 }
 
-TEST_CASE("annotations become properties of a PLY that is made; one that was read takes none, and a note says so") {
+TEST_CASE("annotations become properties of a PLY that is made, or that has some; else one that was read takes none") {
   const ScratchFolder folder;
   PipelineOptions options;
   options.annotate = true;
@@ -296,6 +296,17 @@ TEST_CASE("annotations become properties of a PLY that is made; one that was rea
 
   options.input = *options.output;
   options.output = folder / "again.ply";
+  CHECK(about_annotate(trismooth::run_pipeline(options)) == 0);
+  const trismooth::MeshDocument renewed = trismooth::read_mesh(*options.output);
+  CHECK(renewed.cell_arrays.size() == annotated.cell_arrays.size());
+  CHECK(renewed.point_arrays.size() == annotated.point_arrays.size());
+
+  options.annotate = false;
+  options.output = folder / "plain.ply";
+  trismooth::run_pipeline(options);
+  options.annotate = true;
+  options.input = *options.output;
+  options.output = folder / "plain_again.ply";
   const PipelineResult again = trismooth::run_pipeline(options);
   REQUIRE(about_annotate(again) == 1);
   const auto note = std::ranges::find_if(again.notes, [](const auto& n) { return n.starts_with("--annotate"); });
