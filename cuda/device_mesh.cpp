@@ -108,8 +108,8 @@ class Plan::Implementation {
     const bool is_tangled = options_.untangles() && smoother_->is_tangled(stored, extent_.frame());
     const bool slides_alone = slidable().any() && !smoother_->has_free_vertices();
     const bool goes_to_host = is_tangled || slides_alone;
-    SmoothingResult result = goes_to_host ? smooth_on_host(stored, storage)
-                                          : smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
+    SmoothingResult result =
+        goes_to_host ? smooth_on_host(stored, storage) : smooth_here(stored, storage, fixed_quotient);
     if (goes_to_host && !is_tangled) {
       result.backend_note = "all vertices are held to lines, on which the CPU moves them";
     }
@@ -122,6 +122,14 @@ class Plan::Implementation {
     result.layers = layers_;
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
+    return result;
+  }
+
+  SmoothingResult smooth_here(Point2<double>* stored, Storage storage, double fixed_quotient) {
+    SmoothingResult result = smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
+    const InvalidCounts invalid = topology_.invalid_triangles(stored, extent_.frame());
+    result.inverted = invalid.inverted;
+    result.degenerate = invalid.degenerate;
     return result;
   }
 

@@ -8,6 +8,7 @@
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth::cuda {
@@ -31,17 +32,20 @@ HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const 
       slidable_(std::move(slidable)) {}
 
 SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame) {
+  Workers workers(options_.threads);
   if (smoother_ == nullptr) {
     const LocalPoints local = entered(frame, points);
-    Workers workers(options_.threads);
     Constraints constraints;
     constraints.fixed = fixed_;
     MeshRings mesh = find_mesh_rings(local.points, triangles_, constraints, workers);
     mesh.fixed = fixed_;  // with the reasons
     mesh.slidable = slidable_;
+    reversed_ = mesh.reversed;
     smoother_ = cpu_backend().prepare(mesh, triangles_, local.points, options_);
   }
   SmoothingResult result = smoother_->smooth(points, storage, frame);
+  count_invalid(
+      triangles_, reversed_, [&](std::int32_t v) { return frame.enter(points[v]); }, workers, result);
   result.backend_note = "the mesh has inverted triangles, which the CPU untangles";
   return result;
 }

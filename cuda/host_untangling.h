@@ -24,7 +24,7 @@ class HostUntangling {
   HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options,
                  Slidable slidable = {});
 
-  /// As PreparedSmoother::smooth(). The first points orient the mesh.
+  /// As PreparedSmoother::smooth(), with what is invalid counted. The first points orient the mesh.
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame);
 
   /// What is to be told of a mesh that was not tangled, with its points as a device has left them. `reversed`: as
@@ -38,6 +38,7 @@ class HostUntangling {
   SmoothingOptions options_;
   Slidable slidable_;
   std::unique_ptr<PreparedSmoother> smoother_;
+  std::vector<std::uint8_t> reversed_;  ///< as MeshRings::reversed, of the mesh that it has
 };
 
 }  // namespace trismooth::cuda

@@ -15,6 +15,7 @@
 #include "trismooth/mpi/shared_result.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -255,7 +256,7 @@ SmoothingOptions OverlapSmoother::used_options() {
 SmoothingResult OverlapSmoother::smoothed(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame) {
   SmoothingResult result;
   try {
-    result = is_gathered_ ? smoothed_here(mine, stored, frame) : smoother_->smooth(mine, stored, frame);
+    result = is_gathered_ ? smoothed_here(mine, stored, frame) : smoothed_in_pieces(mine, stored, frame);
     result.reverted_vertices = communicator_->sum(result.reverted_vertices);
   } catch (const PartsError&) {
     // All ranks are here.
@@ -276,12 +277,30 @@ SmoothingResult OverlapSmoother::smoothed(std::span<Point2<double>> mine, Storag
   return result;
 }
 
+SmoothingResult OverlapSmoother::smoothed_in_pieces(std::span<Point2<double>> mine, Storage stored,
+                                                    const LocalFrame& frame) {
+  SmoothingResult result = smoother_->smooth(mine, stored, frame);
+  ghosts_->update(mine);
+  count_invalid(
+      overlap_.triangles, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); },
+      [&](std::size_t t) {
+        const auto& [a, b, c] = overlap_.triangles[t];
+        return overlap_.is_own(std::min({a, b, c}));
+      },
+      *workers_, result);
+  result.inverted = communicator_->sum(result.inverted);
+  result.degenerate = communicator_->sum(result.degenerate);
+  return result;
+}
+
 SmoothingResult OverlapSmoother::smoothed_here(std::span<Point2<double>> mine, Storage stored,
                                                const LocalFrame& frame) {
   SmoothingResult result;
   communicator_->on_all([&] {
     if (communicator_->rank() == 0) {
       result = smoother_->smooth(mine, stored, frame);
+      count_invalid(
+          overlap_.triangles, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); }, *workers_, result);
     }
   });
   share_result(result, *communicator_);

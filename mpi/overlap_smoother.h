@@ -67,6 +67,7 @@ class OverlapSmoother {
   /// The caller's options for the rank's own numbers; an exception of a progress callback stops all ranks.
   SmoothingOptions used_options();
   SmoothingResult smoothed(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
+  SmoothingResult smoothed_in_pieces(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
   /// By rank 0, which has all.
   SmoothingResult smoothed_here(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
   /// The same where that was not known before.

@@ -13,6 +13,8 @@ struct Figures {
   std::int64_t moved_vertices;
   std::int64_t guard_rounds;
   std::int64_t free_vertices;
+  std::int64_t inverted;
+  std::int64_t degenerate;
   std::int32_t colours;
   StopReason stop_reason;
   bool has_untangling;
@@ -32,6 +34,8 @@ Figures figures_of(const SmoothingResult& result) {
           result.moved_vertices,
           result.guard_rounds,
           result.free_vertices,
+          result.inverted,
+          result.degenerate,
           result.colours,
           result.stop_reason,
           result.untangling.has_value(),
@@ -50,6 +54,8 @@ void take(const Figures& figures, SmoothingResult& result) {
   result.moved_vertices = figures.moved_vertices;
   result.guard_rounds = figures.guard_rounds;
   result.free_vertices = figures.free_vertices;
+  result.inverted = figures.inverted;
+  result.degenerate = figures.degenerate;
   result.colours = figures.colours;
   result.stop_reason = figures.stop_reason;
   if (figures.has_untangling) {

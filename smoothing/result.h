@@ -105,11 +105,16 @@ struct LayersResult {
 struct SmoothingResult {
   std::int64_t sweeps = 0;  ///< the last one, in which nothing moved, included
   StopReason stop_reason = StopReason::fixed_point;
-  std::int64_t vertex_updates = 0;             ///< evaluations over all sweeps
-  std::int64_t moved_vertices = 0;             ///< vertices whose stored coordinates differ from the input's
-  std::int64_t reverted_vertices = 0;          ///< vertices that the guard took back
-  std::int64_t guard_rounds = 0;               ///< rounds of the guard that took vertices back
-  std::int64_t free_vertices = 0;              ///< vertices that nothing holds fixed, nor to a line
+  std::int64_t vertex_updates = 0;     ///< evaluations over all sweeps
+  std::int64_t moved_vertices = 0;     ///< vertices whose stored coordinates differ from the input's
+  std::int64_t reverted_vertices = 0;  ///< vertices that the guard took back
+  std::int64_t guard_rounds = 0;       ///< rounds of the guard that took vertices back
+  std::int64_t free_vertices = 0;      ///< vertices that nothing holds fixed, nor to a line
+  /// Triangles that are inverted in the result, and those without area: of all, with a free vertex or not, each as its
+  /// component is oriented; of six nodes the corners. With the guard none that was valid is among them; where nothing
+  /// is untangled (`untangling` is empty) those of the input nearly all are.
+  std::int64_t inverted = 0;
+  std::int64_t degenerate = 0;
   std::int32_t colours = 0;                    ///< of Form B; 0 for Form A
   std::vector<SweepRecord> history;            ///< one record a sweep
   std::vector<RevertedVertex> reverted;        ///< ascending by vertex

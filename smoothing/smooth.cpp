@@ -15,6 +15,7 @@
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/layers/layers.h"
 #include "trismooth/smoothing/rings/mesh_connectivity.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
@@ -134,6 +135,8 @@ class SmoothingPlan::Implementation {
     }
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
     result.layers = mesh_.layers;
+    count_invalid(
+        triangles_, mesh_.reversed, [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
     return result;
   }
 

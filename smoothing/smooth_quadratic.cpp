@@ -14,6 +14,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/guard_turned.h"
 #include "trismooth/smoothing/guard/guarded_elements.h"
+#include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/middle_nodes.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
@@ -177,6 +178,9 @@ void guard_quadratics(FollowedMesh& mesh, const QuadraticLists& lists, const Con
     result.untangling->inverted_after =
         count_inverted(lists.corners, found.fixed, [&now](std::int32_t t) { return now->quotient_now(t); });
   }
+  count_invalid(
+      lists.corners, found.reversed, [&](std::int32_t v) { return before.frame.enter(mesh.now()[v]); }, workers,
+      result);
 }
 
 }  // namespace

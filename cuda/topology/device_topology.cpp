@@ -100,4 +100,8 @@ double DeviceTopology::smallest_fixed_quotient(const Point2<double>* local_point
                                        fixed_.data());
 }
 
+InvalidCounts DeviceTopology::invalid_triangles(const Point2<double>* stored, const LocalFrame* frame) const {
+  return cuda::invalid_triangles(*context_, triangles_, stored, frame, orientation_.reversed.data());
+}
+
 }  // namespace trismooth::cuda

@@ -14,6 +14,7 @@
 #include "trismooth/cuda/topology/orientation.h"
 #include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/topology/triangle_list.h"
+#include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/slidable.h"
@@ -49,6 +50,10 @@ class DeviceTopology {
 
   /// trismooth::FixedTriangles::smallest_quotient() in the orientation found last.
   double smallest_fixed_quotient(const Point2<double>* local_points) const;
+
+  /// What is inverted or has no area of the points as they are stored, in the orientation found last. `frame`: on the
+  /// device. Waits.
+  InvalidCounts invalid_triangles(const Point2<double>* stored, const LocalFrame* frame) const;
 
   std::int32_t vertex_count() const { return corners_.view().vertex_count; }
   /// One byte a vertex: why it is fixed, bits of namespace hold; 0 is free.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/topology/triangle_list.h"
@@ -11,5 +12,16 @@ namespace trismooth::cuda {
 /// trismooth::FixedTriangles::smallest_quotient(). Waits for the device.
 double smallest_fixed_quotient(Context& context, const TriangleList& triangles, const Point2<double>* points,
                                const std::uint8_t* reversed, const std::uint8_t* fixed);
+
+/// The triangles that are inverted, and those without area.
+struct InvalidCounts {
+  std::int64_t inverted = 0;
+  std::int64_t degenerate = 0;
+};
+
+/// Those of the mesh with its points as they are stored. `frame`: the local frame, on the device; `reversed`: one byte
+/// a triangle. Waits for the device.
+InvalidCounts invalid_triangles(Context& context, const TriangleList& triangles, const Point2<double>* stored,
+                                const LocalFrame* frame, const std::uint8_t* reversed);
 
 }  // namespace trismooth::cuda

@@ -11,6 +11,7 @@
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/smoothing/backend_choice.h"
+#include "trismooth/smoothing/invalid_triangles.h"
 
 namespace trismooth {
 
@@ -98,6 +99,9 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
       smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, Storage::float64, options);
   result.layers = found.layers;
   result.backend_note = joined_notes(found.note, result.backend_note);
+  count_invalid(
+      triangles, found.reversed, [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); }, workers,
+      result);
   for (std::size_t v = 0; v < placed.points.size(); ++v) {
     mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
   }

@@ -460,6 +460,8 @@ class PieceRun {
     const BulkVector<Point2<double>> local = entered(frame, points).points;
     release(points);
     result_.after = quality_at(local, frame);
+    result_.smoothing->inverted = result_.after->inverted;
+    result_.smoothing->degenerate = result_.after->degenerate;
     result_.regions_after = quality_->regions(local);
     result_.size_change = quality_->size_change(local_, frame_, local, frame, workers_.count());
   }

@@ -55,6 +55,8 @@ void check_before(RunState& run) {
 
 void check_after(RunState& run) {
   run.result.after = quality_of(run);
+  run.result.smoothing->inverted = run.result.after->inverted;
+  run.result.smoothing->degenerate = run.result.after->degenerate;
   run.result.regions_after = quality_of_regions(run);
   run.result.quadratic_after = quality_of_quadratics(run);
 }

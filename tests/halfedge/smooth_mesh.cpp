@@ -237,9 +237,16 @@ TEST_CASE("a tangled halfedge mesh is untangled, tilted or not, and turned over 
     }
   }
   SmoothingOptions options;
+  options.max_sweeps = 1;
+  TriangleMesh as_it_is = mesh;
+  const SmoothingResult unmended = trismooth::smooth(as_it_is, options);
+  CHECK(unmended.inverted + unmended.degenerate > 0);
+  options = {};
   options.untangle = trismooth::Untangle::on;
   const SmoothingResult result = trismooth::smooth(mesh, options);
   REQUIRE(result.untangling);
+  CHECK(result.inverted == 0);
+  CHECK(result.degenerate == 0);
   CHECK(result.untangling->inverted_before > 0);
   CHECK(result.untangling->inverted_after == 0);
   CHECK(result.untangling->turned_components == (is_mirrored ? 1 : 0));

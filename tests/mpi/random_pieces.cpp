@@ -40,6 +40,8 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
       differ("reason", to_string(found.stop_reason), to_string(expected.stop_reason)) +
       (found.backend == "cpu" ? differ("updates", found.vertex_updates, expected.vertex_updates) : std::string()) +
       differ("moved", found.moved_vertices, expected.moved_vertices) +
+      differ("inverted in the result", found.inverted, expected.inverted) +
+      differ("without area", found.degenerate, expected.degenerate) +
       differ("reverted", found.reverted_vertices, expected.reverted_vertices) +
       differ("rounds", found.guard_rounds, expected.guard_rounds) +
       differ("free", found.free_vertices, expected.free_vertices) + differ("colours", found.colours, expected.colours) +
