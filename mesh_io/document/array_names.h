@@ -4,13 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/base/plain_name.h"
 #include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {
-
-/// Names as they are compared where programs write one in several ways: letters in lower case and digits, nothing else.
-/// "Material_ID", "material id" and "MaterialId" are "materialid". Other alphabets' letters stay as they are.
-std::string plain_name(std::string_view name);
 
 /// The names in their order, separated by ", "; "none" where there are no arrays.
 std::string array_names(std::span<const DataArray> arrays);

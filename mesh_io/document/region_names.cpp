@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/base/plain_name.h"
 
 namespace trismooth {
 
@@ -127,6 +127,10 @@ constexpr std::array bookkeeping_parts = std::to_array<std::string_view>(
 /// ... and those that are one of these.
 constexpr std::array bookkeeping_names = std::to_array<std::string_view>({"pid", "owner", "thread", "threadid"});
 
+/// scikit-fem: an array for each named subdomain, and one for each named boundary. The name follows.
+constexpr std::string_view skfem_subdomain = "skfem:s:";
+constexpr std::string_view skfem_boundary = "skfem:b:";
+
 bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -145,7 +149,11 @@ bool is_made_of_words(std::string_view name) {
 
 bool is_region_name(std::string_view name) {
   const std::string plain = plain_name(name);
-  return contains(whole_names, plain) || is_made_of_words(plain);
+  return contains(whole_names, plain) || is_made_of_words(plain) || name.starts_with(skfem_subdomain);
+}
+
+bool is_side_name(std::string_view name) {
+  return name.starts_with(skfem_boundary);
 }
 
 bool is_bookkeeping_name(std::string_view name) {

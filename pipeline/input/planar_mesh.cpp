@@ -9,6 +9,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/pipeline/input/named_sides.h"
 
 namespace trismooth {
 
@@ -112,6 +113,18 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
   mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating_triangles, first_repeating);
 }
 
+/// Named boundaries hold their vertices as line cells do.
+void hold_named_sides(const MeshDocument& document, PlanarMesh& mesh) {
+  const NamedSides sides = find_named_sides(document, mesh);
+  for (const std::int32_t v : sides.lines) {
+    mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+  }
+  if (sides.count() > 0) {
+    mesh.notes.push_back("named boundaries on sides of triangles (" + sides.names + "; " +
+                         counted(sides.count(), "side") + "): their vertices are held, or slide along them with --slide");
+  }
+}
+
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
                     const std::filesystem::path& path, Workers& workers) {
   if (!fit.is_planar()) {
@@ -134,6 +147,7 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
   sort_cells(document, mesh, workers);
+  hold_named_sides(document, mesh);
   require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path);
   if (mesh.triangles.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
@@ -189,6 +203,7 @@ PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::pa
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
   sort_cells(document, mesh, workers);
+  hold_named_sides(document, mesh);
   mesh.notes.clear();
   lay_into_plane(mesh, {}, document, path, workers);
   return mesh;

@@ -41,7 +41,8 @@ struct PlanarMesh {
   std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
   std::vector<MiddleNode> middles;            ///< the middles that follow their sides: see settle_middles()
   std::vector<std::int32_t> merged;           ///< per vertex the one it goes with: see merge_corners(); or empty
-  std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it
+  std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it, or the
+                                              ///< side of a triangle that is a named boundary (named_sides.h)
   std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;               ///< cells that are not triangles
   std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
@@ -71,7 +72,8 @@ Storage storage_of(const MeshDocument& document);
 
 /// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
 /// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says. A triangle that
-/// repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says so. Throws ReadError
+/// repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says so. Sides that are named
+/// boundaries (named_sides.h) hold their vertices as line cells do. Throws ReadError
 /// naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in
 /// it (near the largest double), or the document holds cells but no triangle. A document without any cell is fine:
 /// nothing to smooth. Complexity: linear.

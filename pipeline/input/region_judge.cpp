@@ -1,8 +1,7 @@
 #include "trismooth/pipeline/input/region_judge.h"
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <cmath>
 
 #include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/document/region_names.h"
@@ -31,61 +30,88 @@ std::optional<double> edges_above(double most, const TriangleValues& values) {
   return fraction > most ? std::optional(fraction) : std::nullopt;
 }
 
-std::optional<RegionReason> judge_known(const TriangleValues& values, std::vector<std::string>& notes) {
-  const std::optional<double> edges = edges_above(most_edges_of_known_names, values);
-  if (!edges) {
-    return RegionReason::known_name;
-  }
-  notes.push_back(fmt::format(
-      "the cell array '{0}' changes across {1:.0f} % of the edges between triangles: it is not taken for regions, "
-      "what is between its values may move; --region-array {2} holds it",
-      values.name, 100 * *edges, shell_word(values.name)));
-  return std::nullopt;
+/// "40 %"
+std::string in_hundred(double fraction) {
+  return std::to_string(std::llround(100 * fraction)) + " %";
 }
 
-std::optional<RegionReason> judge_unknown(const TriangleValues& values, std::vector<std::string>& notes) {
-  const std::string& name = values.name;
-  const auto left_out = [&](const std::string& why) {
-    notes.push_back(
-        fmt::format("the cell array '{0}' ({1} values) is not taken for regions, {2}: what is between its values may "
-                    "move; --region-array {3} holds it",
-                    name, values.count(), why, shell_word(name)));
-  };
-  if (const std::optional<double> edges = edges_above(most_edges_of_others, values)) {
-    if (*edges <= most_edges_of_known_names && !is_bookkeeping_name(name)) {
-      left_out(fmt::format("it changes across {:.0f} % of the edges between triangles", 100 * *edges));
+class Judge {
+ public:
+  Judge(const TriangleValues& values, std::vector<std::string>& notes, const RegionWords& words)
+      : values_(values), notes_(notes), words_(words) {}
+
+  std::optional<RegionReason> known() {
+    const std::optional<double> edges = edges_above(most_edges_of_known_names, values_);
+    if (!edges) {
+      return RegionReason::known_name;
     }
-  } else if (is_bookkeeping_name(name)) {
-    left_out("by its name it is for another purpose");
-  } else if (!values.are_whole()) {
-    left_out("it does not hold whole numbers");
-  } else if (!is_few(values.count(), values.triangles)) {
-    left_out("its values are many for so few triangles");
-  } else {
-    notes.push_back(
-        fmt::format("the cell array '{0}' ({1} values) looks like regions: the {2} vertices between them are held. If "
-                    "that is right, --region-array {3} says so; if not, --region-array none frees them",
-                    name, values.count(), values.vertices_between(), shell_word(name)));
-    return RegionReason::looks_like_regions;
+    notes_.push_back("the cell array '" + values_.name + "' changes across " + in_hundred(*edges) +
+                     " of the edges between triangles: it is not taken for regions, what is between its values may "
+                     "move; " +
+                     words_.takes(values_.name) + " holds it");
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+  std::optional<RegionReason> unknown() {
+    const std::string& name = values_.name;
+    if (const std::optional<double> edges = edges_above(most_edges_of_others, values_)) {
+      if (*edges <= most_edges_of_known_names && !is_bookkeeping_name(name)) {
+        leave_out("it changes across " + in_hundred(*edges) + " of the edges between triangles");
+      }
+    } else if (is_bookkeeping_name(name)) {
+      leave_out("by its name it is for another purpose");
+    } else if (!values_.are_whole()) {
+      leave_out("it does not hold whole numbers");
+    } else if (!is_few(values_.count(), values_.triangles)) {
+      leave_out("its values are many for so few triangles");
+    } else {
+      notes_.push_back(array_with_count() + " looks like regions: the " + std::to_string(values_.vertices_between()) +
+                       " vertices between them are held. If that is right, " + words_.takes(name) +
+                       " says so; if not, " + words_.none + " frees them");
+      return RegionReason::looks_like_regions;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::string array_with_count() const {
+    return "the cell array '" + values_.name + "' (" + std::to_string(values_.count()) + " values)";
+  }
+
+  void leave_out(const std::string& why) {
+    notes_.push_back(array_with_count() + " is not taken for regions, " + why +
+                     ": what is between its values may move; " + words_.takes(values_.name) + " holds it");
+  }
+
+  const TriangleValues& values_;
+  std::vector<std::string>& notes_;
+  const RegionWords& words_;
+};
 
 }  // namespace
 
-std::optional<RegionReason> judge_regions(const TriangleValues& values, std::vector<std::string>& notes) {
+RegionWords program_words() {
+  return {[](const std::string& array) { return "--region-array " + shell_word(array); }, "--region-array none"};
+}
+
+std::optional<RegionReason> judge_regions(const TriangleValues& values, std::vector<std::string>& notes,
+                                          const RegionWords& words) {
+  if (is_side_name(values.name)) {
+    return std::nullopt;
+  }
   const bool known = is_region_name(values.name);
   if (values.components != 1) {
     if (known) {
-      notes.push_back(fmt::format("the cell array '{}' has {} components: it is not taken for regions", values.name,
-                                  values.components));
+      notes.push_back("the cell array '" + values.name + "' has " + std::to_string(values.components) +
+                      " components: it is not taken for regions");
     }
     return std::nullopt;
   }
   if (!values.differ()) {
     return std::nullopt;
   }
-  return known ? judge_known(values, notes) : judge_unknown(values, notes);
+  Judge judge(values, notes, words);
+  return known ? judge.known() : judge.unknown();
 }
 
 bool is_constant_region(const TriangleValues& values) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/pipeline/input/named_sides.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
@@ -36,10 +37,9 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
                             std::span<const RegionArray> regions) {
   SlideLines found;
   const CellList& cells = document.cells;
-  found.in_other_cell = mesh.in_other_cell;
+  found.in_other_cell.assign(mesh.in_other_cell.size(), 0);
   if (mesh.other_cells > 0) {
     // (What the mesh keeps as it is: all cells but its triangles.)
-    std::ranges::fill(found.in_other_cell, 0);
     std::vector<std::int32_t> line_cells;
     auto triangle = mesh.cells.begin();
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -77,6 +77,12 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
         found.tags.push_back(tags.of_item[i]);
       }
     }
+  }
+  const NamedSides sides = find_named_sides(document, mesh);
+  const auto line_tags = found.tags.empty() ? 0 : *std::ranges::max_element(found.tags) + 1;
+  found.lines.insert(found.lines.end(), sides.lines.begin(), sides.lines.end());
+  for (const std::int32_t tag : sides.tags) {
+    found.tags.push_back(line_tags + tag);
   }
   for (const auto& [first, second] : document.periodic_pairs) {
     found.links.insert(found.links.end(), {first, second});

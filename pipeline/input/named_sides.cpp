@@ -1,0 +1,81 @@
+#include "trismooth/pipeline/input/named_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "trismooth/mesh_io/document/region_names.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The corners of the sides of bits 1, 2 and 4.
+constexpr std::array<std::pair<std::size_t, std::size_t>, 3> ends_of_bits{{{0, 1}, {1, 2}, {0, 2}}};
+constexpr double values_with_bits = 1U << ends_of_bits.size();
+
+/// A side, and the array that marks it.
+struct Mark {
+  std::int32_t low;
+  std::int32_t high;
+  std::int32_t array;
+  auto operator<=>(const Mark&) const = default;
+};
+
+/// The bits of a value; none where it is no number of bits.
+unsigned bits_of(double value) {
+  const bool has_bits = value > 0 && value < values_with_bits && value == static_cast<unsigned>(value);
+  return has_bits ? static_cast<unsigned>(value) : 0;
+}
+
+void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& document, const PlanarMesh& mesh,
+               std::vector<Mark>& marks) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto cell = static_cast<std::size_t>(mesh.cells[t]);
+    if (document.cells.types[cell] == cell_type::triangle_strip) {
+      continue;
+    }
+    const unsigned bits = bits_of(array.value(cell));
+    for (std::size_t bit = 0; bit < ends_of_bits.size(); ++bit) {
+      if ((bits >> bit & 1U) != 0) {
+        const auto [low, high] =
+            std::minmax(mesh.triangles[t][ends_of_bits[bit].first], mesh.triangles[t][ends_of_bits[bit].second]);
+        marks.push_back({low, high, number});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+NamedSides find_named_sides(const MeshDocument& document, const PlanarMesh& mesh) {
+  NamedSides sides;
+  std::vector<Mark> marks;
+  std::int32_t number = 0;
+  for (const DataArray& array : document.cell_arrays) {
+    if (array.components == 1 && is_side_name(array.name)) {
+      const std::size_t before = marks.size();
+      add_marks(array, number++, document, mesh, marks);
+      if (marks.size() > before) {
+        sides.names.append(sides.names.empty() ? "'" : ", '").append(array.name).append("'");
+      }
+    }
+  }
+  std::ranges::sort(marks);
+  marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+  std::map<std::vector<std::int32_t>, std::int32_t> tags;  // of sides by the arrays that mark them
+  for (std::size_t begin = 0, end = 0; begin < marks.size(); begin = end) {
+    std::vector<std::int32_t> arrays;
+    for (; end < marks.size() && marks[end].low == marks[begin].low && marks[end].high == marks[begin].high; ++end) {
+      arrays.push_back(marks[end].array);
+    }
+    sides.lines.insert(sides.lines.end(), {marks[begin].low, marks[begin].high});
+    sides.tags.push_back(tags.try_emplace(std::move(arrays), static_cast<std::int32_t>(tags.size())).first->second);
+  }
+  return sides;
+}
+
+}  // namespace trismooth
