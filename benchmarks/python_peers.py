@@ -37,10 +37,10 @@ ROOT = Path(__file__).resolve().parent.parent
 # The peers: points (N, 2) and triangles (M, 3), counter-clockwise, in; points out, or points and triangles.
 
 
-def trismooth_default(points, triangles, regions=None):
+def trismooth_mean_ratio(points, triangles, regions=None):
     import trismooth
 
-    return trismooth.smooth(points, triangles, regions=regions).points
+    return trismooth.smooth(points, triangles, regions=regions, method="mean-ratio").points
 
 
 def trismooth_smart(points, triangles, regions=None):
@@ -52,7 +52,7 @@ def trismooth_smart(points, triangles, regions=None):
 def trismooth_one_thread(points, triangles, regions=None):
     import trismooth
 
-    return trismooth.smooth(points, triangles, regions=regions, threads=1).points
+    return trismooth.smooth(points, triangles, regions=regions, method="mean-ratio", threads=1).points
 
 
 def pyvista_smooth_defaults(points, triangles, regions=None):
@@ -349,7 +349,7 @@ def peers_of(optimesh_python: Optional[str]) -> list[Peer]:
             result.append(Peer(f"optimesh `{method}`", "optimesh", function, None, largest=200_000))
     result += [
         Peer('trismooth `method="smart"`', "trismooth", trismooth_smart, own, (), trismooth_smart),
-        Peer("trismooth, defaults", "trismooth", trismooth_default, own, (), trismooth_default),
+        Peer('trismooth, `method="mean-ratio"`', "trismooth", trismooth_mean_ratio, own, (), trismooth_mean_ratio),
         Peer("trismooth, one thread", "trismooth", trismooth_one_thread, own, smallest=12_001),
     ]
     return [peer for peer in result if is_there(peer, optimesh_python)]

@@ -85,7 +85,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> None:
         gmsh.option.setNumber("General.Terminal", 0)
         make_model()
         make_mesh(options.size)
-        result = trismooth.gmsh.smooth()
+        result = trismooth.gmsh.smooth(method="mean-ratio")
         regions = surface_of_triangles()
         # The model has the new mesh now: gmsh.write("bracket.msh") would write it.
     finally:

@@ -107,7 +107,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> None:
     options = parser.parse_args(arguments)
 
     start, triangles, on_ellipse = make_mesh(options.spacing)
-    plan = trismooth.Plan(triangles, len(start))
+    plan = trismooth.Plan(triangles, len(start), method="mean-ratio")
     print(f"{len(start)} vertices, {len(triangles)} triangles, {options.steps} steps")
     weight = weight_of(start)
     meshes = {LEFT: start.copy(), ALONG: start.copy(), SMOOTHED: start.copy()}

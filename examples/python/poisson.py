@@ -142,7 +142,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> None:
     options = parser.parse_args(arguments)
 
     mesh = random_mesh(options.parts)
-    result = trismooth.smooth(mesh)
+    result = trismooth.smooth(mesh, method="mean-ratio")
     print(f"{mesh.nvertices} vertices, {mesh.nelements} triangles")
     outcomes = [solve("before", mesh, result.before["shape"]), solve("after", result.mesh, result.after["shape"])]
     print_table(outcomes)

@@ -171,6 +171,8 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("reverted_vertices", &reverted_of)
       .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
       .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
+      .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())
+      .def_prop_ro("degenerate", of_smoothing<&SmoothingResult::degenerate>())
       .def_prop_ro("colours", of_smoothing<&SmoothingResult::colours>())
       .def_prop_ro("history", of_smoothing<&SmoothingResult::history>())
       .def_prop_ro("untangling", &untangling_of)

@@ -119,8 +119,13 @@ def edges(run: np.ndarray) -> np.ndarray:
     return np.column_stack([run[:-1], run[1:]])
 
 
+def smooth(*mesh: object, **options: object) -> trismooth.Result:
+    """By the method that moves all that is free to move, where no other is named."""
+    return trismooth.smooth(*mesh, **{"method": "mean-ratio", **options})
+
+
 def smooth_in_place(mesh: object, **options: object) -> trismooth.Result:
-    return trismooth.smooth(mesh, inplace=True, **options)
+    return smooth(mesh, inplace=True, **options)
 
 
 def rows(array: np.ndarray) -> list[bytes]:

@@ -18,7 +18,7 @@ FLAGS = ("slide_coincident",)  # without a value on the command line
 def arguments_of(options):
     """The options on the program's command line."""
     arguments = []
-    for name, value in {"method": "mean-ratio", **options}.items():
+    for name, value in options.items():
         if name in NOT_OF_THE_PROGRAM:
             continue
         if name in FLAGS:

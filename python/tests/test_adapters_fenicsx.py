@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import trismooth
-from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian
+from adapter_meshes import grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth
 
 G = grid()
 
@@ -34,7 +33,7 @@ def tags_of(dim: int, indices: np.ndarray, values: np.ndarray) -> Any:
 
 def moved_by(mesh: Mesh, **options: Any) -> np.ndarray:
     before = mesh.geometry.x.copy()
-    trismooth.smooth(mesh, **options)
+    smooth(mesh, **options)
     return ~same_bits(before, mesh.geometry.x)
 
 
@@ -43,7 +42,7 @@ def moved_by(mesh: Mesh, **options: Any) -> np.ndarray:
 def test_in_place(precision: type, several: bool) -> None:
     mesh = Mesh(G.points.astype(precision), G.triangles, several=several)
     x = mesh.geometry.x
-    result = trismooth.smooth(mesh)
+    result = smooth(mesh)
     assert result.mesh is mesh
     assert mesh.geometry.x is x
     assert np.array_equal(~same_bits(x[:, :2], G.points.astype(precision)), ~G.is_boundary)
@@ -53,8 +52,8 @@ def test_in_place(precision: type, several: bool) -> None:
 
 def test_vertices_slide() -> None:
     mesh = Mesh(G.points, G.triangles)
-    result = trismooth.smooth(mesh, slide="straight", regions=G.regions)
-    expected = trismooth.smooth(G.points, G.triangles, slide="straight", regions=G.regions)
+    result = smooth(mesh, slide="straight", regions=G.regions)
+    expected = smooth(G.points, G.triangles, slide="straight", regions=G.regions)
     assert np.array_equal(mesh.geometry.x[:, :2], expected.points)
     assert result.sliding.slid > 0
 
@@ -99,17 +98,17 @@ def test_faults_name_the_argument() -> None:
     mesh = Mesh(G.points, G.triangles)
     before = mesh.geometry.x.copy()
     with pytest.raises(ValueError, match="^inplace: "):
-        trismooth.smooth(mesh, inplace=False)
+        smooth(mesh, inplace=False)
     with pytest.raises(TypeError, match="^regions: a dolfinx mesh has no array 'u'"):
-        trismooth.smooth(mesh, regions="u")
+        smooth(mesh, regions="u")
     with pytest.raises(ValueError, match="^regions: the tags are of entities of dimension 1"):
-        trismooth.smooth(mesh, regions=tags_of(1, np.arange(3), np.arange(3)))
+        smooth(mesh, regions=tags_of(1, np.arange(3), np.arange(3)))
     with pytest.raises(TypeError, match="^fixed: a dolfinx mesh has no array 'u'"):
-        trismooth.smooth(mesh, fixed="u")
+        smooth(mesh, fixed="u")
     assert np.array_equal(mesh.geometry.x, before)
     with pytest.raises(TypeError, match="^points: nodes of cells of shape"):
-        trismooth.smooth(Mesh(G.points, np.zeros((5, 4))))
+        smooth(Mesh(G.points, np.zeros((5, 4))))
     with pytest.raises(TypeError, match="^points: its cells have dimension 1"):
-        trismooth.smooth(Mesh(G.points, G.triangles, dim=1))
+        smooth(Mesh(G.points, G.triangles, dim=1))
     with pytest.raises(ValueError, match="^points: it is distributed over 4 processes"):
-        trismooth.smooth(Mesh(G.points, G.triangles, size=4))
+        smooth(Mesh(G.points, G.triangles, size=4))

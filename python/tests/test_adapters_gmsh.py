@@ -41,7 +41,7 @@ def coordinates() -> dict[int, bytes]:
 
 def moved_by(**options: Any) -> set[int]:
     before = coordinates()
-    trismooth.gmsh.smooth(**options)
+    trismooth.gmsh.smooth(**{"method": "mean-ratio", **options})
     after = coordinates()
     assert after.keys() == before.keys()
     return {tag for tag in before if before[tag] != after[tag]}
@@ -249,7 +249,7 @@ def test_nodes_of_curves_slide_where_that_is_wanted() -> None:
     (between,) = (tag for _, tag in gmsh.model.getEntities(1) if len(gmsh.model.getAdjacencies(1, tag)[0]) == 2)
     spread(between)
     before = coordinates()
-    result = trismooth.gmsh.smooth(slide="straight")
+    result = trismooth.gmsh.smooth(slide="straight", method="mean-ratio")
     moved = {node for node, bits in coordinates().items() if bits != before[node]}
     assert moved & nodes_on(1, between) and not moved & nodes_on(0)
     assert np.array_equal(on_line(nodes_on(1, between), 0), np.full(len(nodes_on(1, between)), 1.0))
@@ -272,7 +272,7 @@ def test_nodes_of_embedded_curves_and_circles_slide() -> None:
     spread(1)
     assert not moved_by(slide="straight") & nodes_on(1)
     before = coordinates()
-    result = trismooth.gmsh.smooth(slide="curves", deviation=0.05)
+    result = trismooth.gmsh.smooth(slide="curves", deviation=0.05, method="mean-ratio")
     assert 0 < result.sliding.relative_deviation <= 0.05
     assert not {node for node, bits in coordinates().items() if bits != before[node]} & nodes_on(0)
     tags, places, parameters = gmsh.model.mesh.getNodes(1, 1, returnParametricCoord=True)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from adapter_meshes import edges, grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth_in_place
+from adapter_meshes import edges, grid, quadratic_grid, same_bits, shapes, smallest_jacobian, smooth, smooth_in_place
 from trismooth import adapters
 
 pv = pytest.importorskip("pyvista")
@@ -49,7 +49,7 @@ def moved(before: Any, after: Any) -> np.ndarray:
 def test_copy_is_smoothed_and_the_mesh_is_not(make: Any) -> None:
     mesh = make()
     points = np.array(mesh.points)
-    result = trismooth.smooth(mesh)
+    result = smooth(mesh)
     assert type(result.mesh) is type(mesh)
     assert np.array_equal(mesh.points, points)
     has_moved = moved(mesh, result.mesh)
@@ -64,7 +64,7 @@ def test_data_and_type_of_points_are_kept() -> None:
     mesh.points = mesh.points.astype(np.float32)
     mesh.cell_data["p"] = np.arange(mesh.n_cells)
     mesh.set_active_scalars("p")
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert new.points.dtype == np.float32
     assert np.array_equal(new["T"], mesh["T"])
     assert np.array_equal(new["p"], mesh["p"])
@@ -75,7 +75,7 @@ def test_data_and_type_of_points_are_kept() -> None:
 
 def test_in_place() -> None:
     mesh = poly_data()
-    expected = trismooth.smooth(mesh).mesh.points
+    expected = smooth(mesh).mesh.points
     view, time = mesh.points, mesh.GetMTime()
     result = smooth_in_place(mesh)
     assert result.mesh is mesh
@@ -87,7 +87,7 @@ def test_in_place() -> None:
 def test_height_stays() -> None:
     mesh = poly_data()
     mesh.points[:, 2] = 0.7
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert np.all(new.points[:, 2] == mesh.points[0, 2])
 
 
@@ -96,22 +96,23 @@ def test_height_stays() -> None:
 def test_regions_by_their_name(make: Any, labels: np.ndarray) -> None:
     mesh = make()
     mesh.cell_data["Material"] = labels
-    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)
+    has_moved = moved(mesh, smooth(mesh).mesh)
     assert not has_moved[G.is_interface].any()
     assert has_moved[G.is_inside].all()
-    assert moved(mesh, trismooth.smooth(mesh, regions=False).mesh)[~G.is_boundary].all()
+    assert moved(mesh, smooth(mesh, regions=False).mesh)[~G.is_boundary].all()
 
 
 def test_regions_chosen() -> None:
     mesh = poly_data()
-    mesh.cell_data["u"] = G.regions
-    mesh.cell_data["v"] = (G.row[TRIANGLES].min(axis=1) < 5).astype(int)
-    assert moved(mesh, trismooth.smooth(mesh).mesh)[~G.is_boundary].all()
-    by_u = moved(mesh, trismooth.smooth(mesh, regions="u").mesh)
+    mesh.cell_data["u"] = G.regions / 2
+    mesh.cell_data["v"] = (G.row[TRIANGLES].min(axis=1) < 5) / 2
+    with pytest.warns(trismooth.MeshWarning):
+        assert moved(mesh, smooth(mesh).mesh)[~G.is_boundary].all()
+    by_u = moved(mesh, smooth(mesh, regions="u").mesh)
     assert np.array_equal(by_u, G.is_inside)
-    by_both = moved(mesh, trismooth.smooth(mesh, regions=["u", "v"]).mesh)
+    by_both = moved(mesh, smooth(mesh, regions=["u", "v"]).mesh)
     assert np.array_equal(by_both, G.is_inside & (G.row != 5))
-    by_labels = moved(mesh, trismooth.smooth(mesh, regions=G.regions).mesh)
+    by_labels = moved(mesh, smooth(mesh, regions=G.regions).mesh)
     assert np.array_equal(by_labels, by_u)
 
 
@@ -123,11 +124,11 @@ def test_fixed() -> None:
     mesh.point_data["other"] = fixed[::-1].copy()
     expected = ~G.is_boundary
     expected[LONE] = False
-    assert np.array_equal(moved(mesh, trismooth.smooth(mesh).mesh), expected)
-    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=False).mesh), ~G.is_boundary)
-    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed="other").mesh), expected[::-1])
-    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=[LONE]).mesh), expected)
-    assert np.array_equal(moved(mesh, trismooth.smooth(mesh, fixed=fixed > 0).mesh), expected)
+    assert np.array_equal(moved(mesh, smooth(mesh).mesh), expected)
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed=False).mesh), ~G.is_boundary)
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed="other").mesh), expected[::-1])
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed=[LONE]).mesh), expected)
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed=fixed > 0).mesh), expected)
 
 
 @pytest.mark.parametrize("first", [True, False])
@@ -138,12 +139,12 @@ def test_cells_that_are_not_triangles_of_grids(first: bool) -> None:
     mesh.cell_data["material"] = labels
     expected = G.is_inside
     expected[[*LINE, *QUAD, LONE]] = False
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert np.array_equal(moved(mesh, new), expected)
     assert np.array_equal(new.cells, mesh.cells)
     assert np.array_equal(new.celltypes, mesh.celltypes)
     for chosen in (labels, G.regions):
-        assert np.array_equal(moved(mesh, trismooth.smooth(mesh, regions=chosen).mesh), expected)
+        assert np.array_equal(moved(mesh, smooth(mesh, regions=chosen).mesh), expected)
 
 
 def test_cells_that_are_not_triangles_of_poly_data() -> None:
@@ -153,7 +154,7 @@ def test_cells_that_are_not_triangles_of_poly_data() -> None:
     mesh.cell_data["material"] = np.concatenate([[7, 8, 9], G.regions])
     expected = G.is_inside
     expected[[*LINE, *QUAD, LONE]] = False
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert np.array_equal(moved(mesh, new), expected)
     assert np.array_equal(new.faces, mesh.faces)
     assert np.array_equal(new.lines, mesh.lines)
@@ -185,8 +186,8 @@ def line_data(mesh: Any, *values: int) -> np.ndarray:
 def test_line_cells_are_lines_where_vertices_slide(kind: Any, first: bool) -> None:
     mesh = with_lines(kind, first)
     arrays = {"lines": edges(G.middle_column), "other_cells": [COLUMN[7]], "slide": "straight"}
-    expected = trismooth.smooth(np.array(mesh.points), TRIANGLES, **arrays)
-    result = trismooth.smooth(mesh, slide="straight")
+    expected = smooth(np.array(mesh.points), TRIANGLES, **arrays)
+    result = smooth(mesh, slide="straight")
     assert np.array_equal(result.mesh.points, expected.points)
     has_moved = moved(mesh, result.mesh)[COLUMN]
     assert has_moved[[1, 2, 3, 8, 9]].sum() > 2 and not has_moved[[0, 7, 10]].any()
@@ -195,15 +196,15 @@ def test_line_cells_are_lines_where_vertices_slide(kind: Any, first: bool) -> No
     for name, options in (("material", {}), ("u", {"regions": "u"})):
         tagged = with_lines(kind, first)
         tagged.cell_data[name] = line_data(tagged, 4, 5, 5)
-        apart = trismooth.smooth(tagged, slide="straight", **options)
+        apart = smooth(tagged, slide="straight", **options)
         assert apart.sliding.vertices == result.sliding.vertices - 1
         assert not moved(tagged, apart.mesh)[COLUMN[8]]
         assert np.array_equal(apart.mesh.cell_data[name], tagged.cell_data[name])
     # Where nothing slides they hold their vertices.
-    assert not moved(mesh, trismooth.smooth(mesh).mesh)[COLUMN].any()
+    assert not moved(mesh, smooth(mesh).mesh)[COLUMN].any()
     del arrays["lines"]
-    without = trismooth.smooth(np.array(mesh.points), TRIANGLES, **arrays)
-    assert np.array_equal(trismooth.smooth(mesh, slide="straight", lines=False).mesh.points, without.points)
+    without = smooth(np.array(mesh.points), TRIANGLES, **arrays)
+    assert np.array_equal(smooth(mesh, slide="straight", lines=False).mesh.points, without.points)
     assert (without.points != expected.points).any()
 
 
@@ -229,7 +230,7 @@ def test_strips() -> None:
         # VTK's own filter has the same triangles, with corners in the same direction.
         turned = [np.roll(t, -int(np.argmin(t))).tolist() for t in found.triangles]
         assert sorted(turned) == sorted(np.roll(t, -int(np.argmin(t))).tolist() for t in triangulated)
-        assert np.array_equal(moved(strip_mesh, trismooth.smooth(strip_mesh).mesh), G.is_inside)
+        assert np.array_equal(moved(strip_mesh, smooth(strip_mesh).mesh), G.is_inside)
 
 
 def test_quadratic_triangles() -> None:
@@ -239,7 +240,7 @@ def test_quadratic_triangles() -> None:
     points = np.column_stack([q.points, np.zeros(len(q.points))])
     mesh = pv.UnstructuredGrid(cells, np.full(len(q.triangles), pv.CellType.QUADRATIC_TRIANGLE), points)
     mesh.cell_data["material"] = q.grid.regions
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert np.array_equal(moved(mesh, new)[:count], q.grid.is_inside)
     middles = new.points[count:]
     assert same_bits(middles, points[count:])[q.is_boundary_side].all()
@@ -256,7 +257,7 @@ def test_triangles_of_both_kinds() -> None:
     kinds = [22 if cell[0] == 6 else 5 for cell in cells]
     points = np.column_stack([q.points, np.zeros(len(q.points))])
     mesh = pv.UnstructuredGrid(np.concatenate(cells), np.array(kinds, dtype=np.uint8), points)
-    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)[: len(q.grid.points)]
+    has_moved = moved(mesh, smooth(mesh).mesh)[: len(q.grid.points)]
     assert np.array_equal(has_moved, q.grid.is_inside & (q.grid.column < 5))
 
 
@@ -274,42 +275,42 @@ def test_plain_vtk(make: Any, inplace: bool) -> None:
     mesh = make()
     mesh.cell_data["material"] = G.regions
     plain = plain_vtk(mesh)
-    result = smooth_in_place(plain) if inplace else trismooth.smooth(plain)
+    result = smooth_in_place(plain) if inplace else smooth(plain)
     assert result.mesh.GetClassName() == plain.GetClassName()
     assert (result.mesh is plain) is inplace
-    assert np.array_equal(pv.wrap(result.mesh).points, trismooth.smooth(mesh).mesh.points)
+    assert np.array_equal(pv.wrap(result.mesh).points, smooth(mesh).mesh.points)
 
 
 @pytest.mark.parametrize("make", [pv.ImageData, pv.Sphere().cast_to_pointset, pv.MultiBlock])
 def test_other_types_are_refused(make: Any) -> None:
     mesh = pv.ImageData(dimensions=(3, 3, 1)) if make is pv.ImageData else make()
     with pytest.raises((TypeError, ValueError), match="^points: "):
-        trismooth.smooth(mesh)
+        smooth(mesh)
 
 
 def test_faults_name_the_argument() -> None:
     mesh = poly_data()
     mesh.cell_data["flux"] = np.zeros((mesh.n_cells, 2))
     with pytest.raises(ValueError, match="^regions: the mesh has no cell array 'u'; it has: 'flux'"):
-        trismooth.smooth(mesh, regions="u")
+        smooth(mesh, regions="u")
     with pytest.raises(ValueError, match="^regions: the cell array 'flux' has"):
-        trismooth.smooth(mesh, regions="flux")
+        smooth(mesh, regions="flux")
     with pytest.raises(ValueError, match=r"^regions: the labels have shape \(3,\); expected 200"):
-        trismooth.smooth(mesh, regions=[1, 2, 3])
+        smooth(mesh, regions=[1, 2, 3])
     with pytest.raises(ValueError, match="^fixed: the mesh has no point array 'u'; it has: 'T'"):
-        trismooth.smooth(mesh, fixed="u")
+        smooth(mesh, fixed="u")
     with pytest.raises(ValueError, match="^fixed: "):
-        trismooth.smooth(mesh, fixed=[mesh.n_points])
+        smooth(mesh, fixed=[mesh.n_points])
     with pytest.raises(ValueError, match="^points: it has no triangles"):
-        trismooth.smooth(pv.PolyData(G.points3))
+        smooth(pv.PolyData(G.points3))
     with pytest.raises(ValueError, match="^points: it has no cells"):
-        trismooth.smooth(pv.PolyData())
+        smooth(pv.PolyData())
 
 
 def test_vectors_are_no_regions() -> None:
     mesh = poly_data()
     mesh.cell_data["material"] = np.zeros((mesh.n_cells, 3))
-    assert moved(mesh, trismooth.smooth(mesh).mesh)[~G.is_boundary].all()
+    assert moved(mesh, smooth(mesh).mesh)[~G.is_boundary].all()
 
 
 needs_accessors = pytest.mark.skipif(not hasattr(pv, "register_dataset_accessor"), reason="PyVista has no accessors")
@@ -320,7 +321,7 @@ needs_accessors = pytest.mark.skipif(not hasattr(pv, "register_dataset_accessor"
 def test_accessor(make: Any) -> None:
     assert adapters.find(make()).register_accessor()
     mesh = make()
-    assert np.array_equal(mesh.trismooth.smooth().mesh.points, trismooth.smooth(mesh).mesh.points)
+    assert np.array_equal(mesh.trismooth.smooth().mesh.points, smooth(mesh, method="smart").mesh.points)
     assert type(mesh.trismooth.quality()) is type(trismooth.quality(mesh))
     assert not hasattr(pv.ImageData(), "trismooth")
     pickle.loads(pickle.dumps(mesh.trismooth.smooth().mesh))
@@ -357,7 +358,7 @@ def test_entry_point_brings_the_accessor(tmp_path: Path, imports: str) -> None:
 def test_as_many_are_held_as_the_program_says(name: str, held: int) -> None:
     # The numbers are what `trismooth smooth` prints: interfaces of one, lines before the triangles of the other.
     mesh = pv.read(DATA / name)
-    has_moved = moved(mesh, trismooth.smooth(mesh).mesh)
+    has_moved = moved(mesh, smooth(mesh).mesh)
     assert (~has_moved).sum() == held
 
 
@@ -366,7 +367,7 @@ def test_points_of_integers_become_floats():
     faces = np.array([[3, 0, 1, 4], [3, 1, 2, 4], [3, 2, 3, 4], [3, 3, 0, 4]]).ravel()
     for inplace in (False, True):
         mesh = pv.PolyData(points, faces, force_float=False)
-        result = trismooth.smooth(mesh, inplace=inplace)
+        result = smooth(mesh, inplace=inplace)
         np.testing.assert_array_equal(np.asarray(result.mesh.points), result.points)
         assert result.mesh.points.dtype.kind == "f" and (result.input_points is None) == inplace
 
@@ -374,7 +375,7 @@ def test_points_of_integers_become_floats():
 def test_other_cells_of_the_user_are_checked_beside_those_of_the_mesh():
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.9, 0.8, 0]])
     mesh = pv.PolyData(points, faces=[3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 3, 4, 3, 3, 0, 4], lines=[2, 0, 1])
-    assert trismooth.smooth(mesh, other_cells=[4]).moved == 0
+    assert smooth(mesh, other_cells=[4]).moved == 0
     for wrong, error in (([-1], ValueError), ([10**6], ValueError), ([1.5], TypeError)):
         with pytest.raises(error, match="^other_cells: "):
-            trismooth.smooth(mesh, other_cells=wrong)
+            smooth(mesh, other_cells=wrong)

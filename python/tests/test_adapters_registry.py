@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
-import re
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from trismooth import adapters
 from trismooth.adapters import flat
-from trismooth.adapters.region_names import is_region_name
+from trismooth._core import is_region_name
 
 PACKAGES = {"pyvista", "vtk", "vtkmodules", "meshio", "gmsh", "skfem", "dolfinx", "firedrake", "matplotlib"}
 
@@ -85,23 +83,6 @@ def test_names_of_other_arrays(name: str) -> None:
     assert not is_region_name(name)
 
 
-def test_names_are_those_of_the_program() -> None:
-    source = Path(__file__).parents[2] / "mesh_io" / "document" / "region_names.cpp"
-    if not source.exists():
-        pytest.skip("the sources of the program are not here")
-    text = source.read_text()
-    arrays = {
-        array: re.findall(r'"([^"]*)"', values)
-        for array, values in re.findall(r"constexpr std::array (\w+) =\s*std::to_array[^{]*\{(.*?)\}\);", text, re.S)
-    }
-    names = set(arrays["whole_names"])
-    names |= {b + w + e for w in arrays["words"] for b in arrays["beginnings"] for e in arrays["endings"]}
-    assert len(names) > 1000
-    assert [name for name in names if not is_region_name(name)] == []
-    others = {w + w for w in arrays["words"]} | set(arrays["endings"]) | set(arrays["bookkeeping_parts"])
-    assert [name for name in others - names if is_region_name(name)] == []
-
-
 def test_labels_are_combined() -> None:
     random = np.random.default_rng(1)
     first, second = random.integers(-3, 3, 200), random.choice(["steel", "air", "Kupfer"], 200)
@@ -144,10 +125,3 @@ def test_vertex_masks() -> None:
 def test_faults_of_vertex_masks(value: object, error: type[Exception], text: str) -> None:
     with pytest.raises(error, match=f"^fixed: .*{text}"):
         flat.vertex_mask(value, 4)
-
-
-def test_array_that_numbers_triangles_is_no_region() -> None:
-    arrays = {"tag": np.arange(40), "u": np.arange(40), "mat": np.arange(40) % 3, "region": np.arange(40) // 2}
-    with pytest.warns(UserWarning, match="'tag' has 40 values for 40 triangles"):
-        found = flat.region_arrays(arrays, arrays.get)
-    assert [id(array) for array in found] == [id(arrays["mat"]), id(arrays["region"])]

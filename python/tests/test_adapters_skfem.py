@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import trismooth
-from adapter_meshes import edges, grid, same_bits, shapes, smooth_in_place
+from adapter_meshes import edges, grid, same_bits, shapes, smooth, smooth_in_place
 
 skfem = pytest.importorskip("skfem")
 
@@ -42,7 +41,7 @@ def corners_moved(before: Any, after: Any) -> np.ndarray:
 
 def test_copy_is_smoothed_and_the_mesh_is_not() -> None:
     mesh = mesh1()
-    result = trismooth.smooth(mesh)
+    result = smooth(mesh)
     assert type(result.mesh) is skfem.MeshTri1
     assert np.array_equal(mesh.p, G.points.T)
     assert np.array_equal(result.mesh.t, mesh.t)
@@ -60,17 +59,17 @@ def test_triangles_in_either_direction() -> None:
     # scikit-fem sorts the corners, so triangles of renumbered vertices turn either way.
     mesh = skfem.MeshTri1(G.points[order].T.copy(), place[G.triangles].T.copy())
     assert (mesh.orientation() < 0).any() and (mesh.orientation() > 0).any()
-    result = trismooth.smooth(mesh)
+    result = smooth(mesh)
     assert np.array_equal(result.mesh.orientation(), mesh.orientation())
     assert result.before.inverted == 0
     # As if all of them were listed counter-clockwise.
-    expected = trismooth.smooth(G.points[order], place[G.triangles]).points
+    expected = smooth(G.points[order], place[G.triangles]).points
     assert np.allclose(result.mesh.p.T, expected, rtol=0, atol=1e-12)
 
 
 def test_subdomains_and_boundaries_are_kept() -> None:
     mesh = mesh1().with_subdomains({"left": left}).with_boundaries({"wall": lambda x: x[1] == 0})
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert np.array_equal(new.subdomains["left"], mesh.subdomains["left"])
     assert np.array_equal(new.boundaries["wall"], mesh.boundaries["wall"])
     assert abs(new.restrict("left").p[0].max() - 0.5) < 1e-14
@@ -87,11 +86,11 @@ def test_subdomains_are_regions(make: Any) -> None:
         in_both[np.unique(mesh.t[:, group])] += 1
     expected = G.is_inside & (in_both < 2)
     assert 0 < expected.sum() < G.is_inside.sum()
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh).mesh), expected)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, regions="left").mesh), G.is_inside)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, regions=["left", "low"]).mesh), expected)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, regions=False).mesh), ~G.is_boundary)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, regions=low).mesh), ~G.is_boundary & (in_both < 2))
+    assert np.array_equal(corners_moved(mesh, smooth(mesh).mesh), expected)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, regions="left").mesh), G.is_inside)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, regions=["left", "low"]).mesh), expected)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, regions=False).mesh), ~G.is_boundary)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, regions=low).mesh), ~G.is_boundary & (in_both < 2))
 
 
 @pytest.mark.parametrize("make", [mesh1, mesh2])
@@ -103,12 +102,12 @@ def test_boundaries_inside_are_held(make: Any) -> None:
     ends = np.unique(mesh.facets[:, facets[2:5]])
     expected = ~G.is_boundary
     expected[ends] = False
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh).mesh), expected)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed="crack").mesh), expected)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed="outside").mesh), ~G.is_boundary)
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed=False).mesh), ~G.is_boundary)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh).mesh), expected)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, fixed="crack").mesh), expected)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, fixed="outside").mesh), ~G.is_boundary)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, fixed=False).mesh), ~G.is_boundary)
     expected[G.vertex(2, 8)] = False
-    assert np.array_equal(corners_moved(mesh, trismooth.smooth(mesh, fixed=[G.vertex(2, 8)]).mesh), expected)
+    assert np.array_equal(corners_moved(mesh, smooth(mesh, fixed=[G.vertex(2, 8)]).mesh), expected)
 
 
 def test_boundaries_are_lines_where_vertices_slide() -> None:
@@ -117,34 +116,34 @@ def test_boundaries_are_lines_where_vertices_slide() -> None:
     facets = facets[np.argsort(mesh.p[1, mesh.facets[:, facets]].mean(axis=0))]
     column = G.middle_column
     whole = mesh.with_boundaries({"line": facets, "outside": mesh.boundary_facets()})
-    result = trismooth.smooth(whole, slide="straight")
-    expected = trismooth.smooth(G.points, G.triangles, lines=edges(column), slide="straight")
+    result = smooth(whole, slide="straight")
+    expected = smooth(G.points, G.triangles, lines=edges(column), slide="straight")
     assert np.array_equal(result.mesh.p.T, expected.points)
     assert moved(mesh, result.mesh)[column[1:-1]].any()
     parts = mesh.with_boundaries({"low": facets[:4], "high": facets[3:]})  # with a facet in both
-    has_moved = moved(mesh, trismooth.smooth(parts, slide="straight").mesh)[column]
+    has_moved = moved(mesh, smooth(parts, slide="straight").mesh)[column]
     assert not has_moved[[0, 3, 4, 10]].any() and has_moved.any()
-    has_moved = moved(mesh, trismooth.smooth(parts, slide="straight", fixed="low").mesh)[column]
+    has_moved = moved(mesh, smooth(parts, slide="straight", fixed="low").mesh)[column]
     assert not has_moved[:5].any() and has_moved[5:].any()
-    fixed = trismooth.smooth(parts, slide="straight", fixed=[column[7]])
+    fixed = smooth(parts, slide="straight", fixed=[column[7]])
     assert not moved(mesh, fixed.mesh)[column[7]]
-    none = trismooth.smooth(parts, slide="straight", fixed=False)
-    assert np.array_equal(none.mesh.p.T, trismooth.smooth(G.points, G.triangles, slide="straight").points)
+    none = smooth(parts, slide="straight", fixed=False)
+    assert np.array_equal(none.mesh.p.T, smooth(G.points, G.triangles, slide="straight").points)
     with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
-        trismooth.smooth(mesh2(), slide="straight")
+        smooth(mesh2(), slide="straight")
 
 
 def test_oriented_interface() -> None:
     mesh = mesh1().with_subdomains({"left": left})
     mesh = mesh.with_boundaries({"interface": mesh.facets_around("left")})
-    new = trismooth.smooth(mesh, regions=False).mesh
+    new = smooth(mesh, regions=False).mesh
     assert np.array_equal(moved(mesh, new), G.is_inside)
     assert np.array_equal(new.boundaries["interface"].ori, mesh.boundaries["interface"].ori)
 
 
 def test_quadratic_triangles() -> None:
     mesh = mesh2()
-    new = trismooth.smooth(mesh).mesh
+    new = smooth(mesh).mesh
     assert type(new) is skfem.MeshTri2
     assert np.array_equal(corners_moved(mesh, new), ~G.is_boundary)
     boundary = mesh.boundary_facets()
@@ -163,7 +162,7 @@ def test_quadratic_triangles() -> None:
 @pytest.mark.parametrize("make", [mesh1, mesh2])
 def test_in_place(make: Any) -> None:
     mesh = make().with_subdomains({"left": left})
-    expected = trismooth.smooth(mesh).mesh
+    expected = smooth(mesh).mesh
     twin = mesh.with_boundaries({})
     before = twin.p.copy()
     mesh.mapping()
@@ -186,14 +185,14 @@ def test_finder_follows_in_place() -> None:
 def test_faults_name_the_argument() -> None:
     mesh = mesh1().with_subdomains({"left": left})
     with pytest.raises(ValueError, match="^regions: the mesh has no subdomain 'u'; it has: 'left'"):
-        trismooth.smooth(mesh, regions="u")
+        smooth(mesh, regions="u")
     with pytest.raises(ValueError, match="^regions: the labels have shape"):
-        trismooth.smooth(mesh, regions=[1, 2])
+        smooth(mesh, regions=[1, 2])
     with pytest.raises(ValueError, match="^fixed: the mesh has no boundary 'u'; it has: none"):
-        trismooth.smooth(mesh, fixed="u")
+        smooth(mesh, fixed="u")
     with pytest.raises(ValueError, match="^fixed: the mask has shape"):
-        trismooth.smooth(mesh, fixed=[True])
+        smooth(mesh, fixed=[True])
     with pytest.raises(TypeError, match="^points: a MeshQuad1 is no MeshTri1 or MeshTri2"):
-        trismooth.smooth(skfem.MeshQuad1())
+        smooth(skfem.MeshQuad1())
     with pytest.raises(TypeError, match="^points: the triangles of a MeshTri1DG share no vertices"):
-        trismooth.smooth(skfem.MeshTri1DG.from_mesh(mesh1()))
+        smooth(skfem.MeshTri1DG.from_mesh(mesh1()))

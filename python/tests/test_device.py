@@ -224,7 +224,7 @@ def test_bad_input_names_the_argument_and_leaves_the_arrays(writable):
         (lambda: trismooth.smooth(p, t, regions=put(triangles[:5, 0])), ValueError, "regions"),
         (lambda: trismooth.smooth(p, t, fixed=[3]), ValueError, "fixed"),
         (lambda: trismooth.smooth(p, t, fixed=put(np.array([3, 999]))), ValueError, "fixed"),
-        (lambda: trismooth.smooth(p, t, size=put(-points[:, 0])), ValueError, "size"),
+        (lambda: trismooth.smooth(p, t, size=put(-points[:, 0]), method="mean-ratio"), ValueError, "size"),
         (lambda: trismooth.smooth(p, t, out=points.copy()), ValueError, "out"),
         (lambda: trismooth.smooth(p, t, out=put(points[:5])), ValueError, "out"),
         (lambda: trismooth.smooth(p, t, out=put(points.astype(np.float32))), TypeError, "out"),

@@ -33,6 +33,7 @@ def test_a_plan_has_vertices_slide():
     middle = np.flatnonzero(points[:, 0] == 0)
     on_left, on_right = middle, middle + 20
     held = {
+        "method": "mean-ratio",
         "slide": "curves",
         "deviation": 0.1,
         "corner_angle": 60,
@@ -51,7 +52,7 @@ def test_a_plan_has_vertices_slide():
 def test_the_callers_arrays_may_go_and_change():
     points, triangles = grid(20, 15)
     lines, links = np.array([[0, 22], [22, 44]]), np.array([[21, 41], [42, 62]])
-    given = {"slide": "straight", "lines": lines, "line_tags": np.array([1, 2]), "links": links}
+    given = {"method": "mean-ratio", "slide": "straight", "lines": lines, "line_tags": np.array([1, 2]), "links": links}
     expected = trismooth.smooth(points, triangles, size=1 + points[:, 0], **given).points
     mine, size = triangles.copy(), 1 + points[:, 0]
     plan = trismooth.Plan(mine, len(points), size=size, **given)

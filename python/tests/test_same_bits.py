@@ -113,12 +113,12 @@ def test_regions_fixed_vertices_and_sizes_give_the_bits_of_the_program(tangled_f
     lines += [f"POINT_DATA {len(points)}", "SCALARS h double 1", "LOOKUP_TABLE default", *map(repr, sizes.tolist())]
     vtk.write_text("\n".join(lines) + "\n")
     (tmp_path / "ids.txt").write_text("\n".join(map(str, ids)))
-    result = trismooth.smooth(points, triangles, regions=np.array(["iron", "air"])[regions], fixed=ids, size=sizes)
-    more = ["--fixed-ids", str(tmp_path / "ids.txt"), "--size-array", "h"]
+    result = trismooth.smooth(points, triangles, regions=np.array(["iron", "air"])[regions], fixed=ids, size=sizes, method="mean-ratio")
+    more = ["--fixed-ids", str(tmp_path / "ids.txt"), "--size-array", "h", "--method", "mean-ratio"]
     assert hash_of(result.points) == program_hash(vtk, {}, tmp_path, *more)
     read = trismooth.read(vtk)
-    assert read.smooth(fixed=ids, size="h").report["coordinates_hash"] == hash_of(result.points)
+    assert read.smooth(fixed=ids, size="h", method="mean-ratio").report["coordinates_hash"] == hash_of(result.points)
     mask = np.zeros(len(points), bool)
     mask[ids] = True
-    again = trismooth.smooth(points, triangles, regions=regions + 7, fixed=mask, size=8 * sizes)
+    again = trismooth.smooth(points, triangles, regions=regions + 7, fixed=mask, size=8 * sizes, method="mean-ratio")
     np.testing.assert_array_equal(again.points, result.points)

@@ -114,13 +114,14 @@ def test_a_line_ends_where_its_tag_changes():
     column = np.flatnonzero(x == 6)
     lines = np.column_stack([column[:-1], column[1:]])
     tags = np.array(["below"] * 4 + ["above"] * 5)
-    together = trismooth.smooth(points, triangles, lines=lines, slide="straight")
-    result = trismooth.smooth(points, triangles, lines=lines, line_tags=tags, slide="straight")
+    given = {"lines": lines, "slide": "straight", "method": "mean-ratio"}
+    together = trismooth.smooth(points, triangles, **given)
+    result = trismooth.smooth(points, triangles, line_tags=tags, **given)
     assert (together.points[column[4]] != points[column[4]]).any()
     np.testing.assert_array_equal(result.points[column[4]], points[column[4]])
     assert result.sliding.lines == together.sliding.lines + 1
     assert result.sliding.vertices == together.sliding.vertices - 1
-    again = trismooth.smooth(points, triangles, lines=lines, line_tags=(tags == "below").astype(int) * 70 - 3, slide="straight")
+    again = trismooth.smooth(points, triangles, line_tags=(tags == "below").astype(int) * 70 - 3, **given)
     np.testing.assert_array_equal(again.points, result.points)
 
 

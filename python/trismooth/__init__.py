@@ -18,6 +18,7 @@ from ._core import Cancelled, DeviceError, MeshError, MetricSummary, QualityRepo
 from ._core import SweepRecord, WorstElement, WriteError
 from ._core import __version__ as __version__
 from ._mesh import Mesh, read
+from ._notes import MeshWarning
 from ._plan import Plan
 from ._quality import METRICS, Quality, quality
 from ._result import NotComputed, Result
@@ -30,6 +31,7 @@ __all__ = [
     "DeviceError",
     "Mesh",
     "MeshError",
+    "MeshWarning",
     "MetricSummary",
     "NotComputed",
     "Plan",

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _arrays, _core
 from ._core import QualityReport
+from ._notes import warn_of
 from ._result import Result
 from ._smooth import Progress
 from ._support import NO_FILES
@@ -28,17 +29,18 @@ class FileResult(Result):
     report : dict
         The program's JSON report: the input, what holds vertices, regions, options, sizes, fields, ...
     notes, warnings, losses : list of str
-        What one should know, one sentence each. Losses are of point arrays that could not follow the mesh.
+        What one should know, one sentence each, in the words of the program. Losses are of point arrays that could not
+        follow the mesh.
     """
 
-    __slots__ = ("report", "notes", "warnings", "losses")
+    __slots__ = ("report", "warnings", "losses")
 
     def __init__(self, outcome: Any, mesh: Mesh) -> None:
         linear = mesh.triangles
         super().__init__(outcome.outcome, mesh.points, linear if len(linear) > 0 else mesh.quadratic_triangles)
         self.mesh = mesh
         self.report: Dict[str, Any] = json.loads(outcome.json)
-        self.notes: List[str] = outcome.notes
+        self.notes = outcome.notes
         self.warnings: List[str] = outcome.warnings
         self.losses: List[str] = outcome.losses
 
@@ -125,14 +127,12 @@ class Mesh:
         project: Optional[str] = None,
         geographic: bool = False,
         slide: str = "off",
-        method: str = "mean-ratio",
+        method: str = "smart",
         backend: str = "auto",
         progress: Optional[Progress] = None,
         **options: Any,
     ) -> FileResult:
         """Smooths the mesh in place, as ``trismooth smooth`` does with the same options.
-
-        The program's default method is "smart"; that of Python is "mean-ratio".
 
         Parameters
         ----------
@@ -164,6 +164,12 @@ class Mesh:
         -------
         FileResult
 
+        Warns
+        -----
+        MeshWarning
+            Of all that the result's notes, warnings and losses say: option ``--region-array`` of the program is
+            ``regions`` here, ``--fixed-set`` is ``fixed_sets``, and so on.
+
         Raises
         ------
         ReadError
@@ -184,7 +190,9 @@ class Mesh:
             "project": project,
             "geographic": geographic,
         }
-        return FileResult(self._mesh.smooth(options, held, progress), self)
+        result = FileResult(self._mesh.smooth(options, held, progress), self)
+        warn_of([*result.notes, *result.warnings, *result.losses])
+        return result
 
     def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""

@@ -27,8 +27,8 @@ def _adapter_of(mesh: Any) -> Any:
 def smooth_mesh(
     mesh: Any, given: Constraints, out: Any, quality: Optional[bool], progress: Any, options: Dict[str, Any]
 ) -> Result:
-    """smooth() of a mesh: the result has the smoothed one as ``mesh``."""
-    from ._smooth import smooth
+    """smoothed() of a mesh: the result has the smoothed one as ``mesh``."""
+    from ._smooth import smoothed
 
     if out is not None:
         raise TypeError("out: is for arrays; a mesh is changed itself with inplace=True")
@@ -39,14 +39,16 @@ def smooth_mesh(
     if not inplace and not adapter.SUPPORTS_COPY:
         raise ValueError("inplace: meshes of this type can be smoothed in place only")
     flat = adapter.flatten(mesh, regions=given.regions, fixed=given.fixed, lines=slides(options["slide"]))
-    result = smooth(
+    result = smoothed(
         flat.points,
         flat.triangles,
-        **_constraints_of(flat, given)._asdict(),
-        quality=_arrays.wants_quality(quality, True),
-        progress=progress,
-        **options,
+        _constraints_of(flat, given),
+        None,
+        _arrays.wants_quality(quality, True),
+        progress,
+        options,
     )
+    result.notes = [*flat.notes, *result.notes]
     if inplace:
         result.input_points = None
     result.mesh = adapter.with_points(mesh, flat, result.points, inplace=inplace)
@@ -54,7 +56,7 @@ def smooth_mesh(
 
 
 def _constraints_of(flat: FlatMesh, given: Constraints) -> Constraints:
-    """The arrays for smooth(): of the mesh and of the user."""
+    """The arrays for smoothed(): of the mesh and of the user."""
     lines, line_tags, links = given.lines, given.line_tags, given.links
     if lines is None:
         if line_tags is not None:

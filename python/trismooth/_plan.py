@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any, Dict, Optional
 
 from . import _arrays, _core
 from ._constraints import Constraints
+from ._notes import options_without_effect, warn_of
 from ._result import Result
 from ._smooth import Progress
 
@@ -32,7 +33,7 @@ class Plan:
 
     Examples
     --------
-    >>> plan = trismooth.Plan(triangles, len(points), method="smart")
+    >>> plan = trismooth.Plan(triangles, len(points), method="mean-ratio")
     >>> for time in times:
     ...     move_boundary(points, time)
     ...     plan.smooth(points, out=points)
@@ -51,7 +52,7 @@ class Plan:
         lines: Any = None,
         line_tags: Any = None,
         links: Any = None,
-        method: str = "mean-ratio",
+        method: str = "smart",
         backend: str = "auto",
         **options: Any,
     ) -> None:
@@ -59,19 +60,23 @@ class Plan:
         options["backend"] = backend
         options["slide"] = slide
         constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
+        self._notes = options_without_effect(options, size)
         self._triangles = triangles
         self._on_device = _arrays.device_of(triangles) is not None
         if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
             raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
+        self._plan: Any = self._on_device_or_host(n_points, constraints, options)
+        warn_of(self._notes)
+
+    def _on_device_or_host(self, n_points: int, constraints: Constraints, options: Dict[str, Any]) -> Any:
         if self._on_device:
             from . import _device
 
-            self._plan: Any = _device.DevicePlan(triangles, n_points, constraints, options)
-            return
+            return _device.DevicePlan(self._triangles, n_points, constraints, options)
         if "stream" in options:
             raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
-        self._plan = _core.HostPlan(
-            _arrays.on_host(triangles, "triangles"),
+        return _core.HostPlan(
+            _arrays.on_host(self._triangles, "triangles"),
             n_points,
             constraints.on_host(),
             options,
@@ -106,13 +111,24 @@ class Plan:
         Returns
         -------
         Result
+
+        Warns
+        -----
+        MeshWarning
+            Where triangles of the result are inverted or degenerate, as those of the points were that went in.
         """
+        result = self._smoothed(points, out, _arrays.wants_quality(quality, False), progress)
+        warn_of(result.notes)
+        result.notes += self._notes
+        return result
+
+    def _smoothed(self, points: Any, out: Any, quality: bool, progress: Optional[Progress]) -> Result:
         if self._on_device:
-            result: Result = self._plan.smooth(points, out, _arrays.wants_quality(quality, False), progress)
+            result: Result = self._plan.smooth(points, out, quality, progress)
             return result
         numbers = _arrays.on_host(points, "points", float)
         output = _arrays.Output(points, numbers, out)
-        outcome = self._plan.smooth(numbers, output.numbers, _arrays.wants_quality(quality, False), progress)
+        outcome = self._plan.smooth(numbers, output.numbers, quality, progress)
         return Result(outcome, output.delivered(), self._triangles, output.input_points())
 
     def __repr__(self) -> str:

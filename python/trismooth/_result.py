@@ -15,6 +15,19 @@ class NotComputed(AttributeError):
     """A quality that was not asked for: pass ``quality=True``."""
 
 
+def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
+    """What to say of triangles that are not valid in the result: a sentence, or none."""
+    kinds = ((outcome.inverted, "inverted triangle{}"), (outcome.degenerate, "triangle{} without area"))
+    found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
+    if not found:
+        return []
+    if outcome.untangling is None:
+        why = "nothing untangled the mesh; untangle=True does"
+    else:
+        why = "the untangling could not mend more; what is held altogether nothing can"
+    return [f"the result has {' and '.join(found)}: {why}"]
+
+
 def free_moved(result: Result) -> int:
     """How many of the free vertices moved: those that slid are none of them."""
     return result.moved - (0 if result.sliding is None else result.sliding.slid)
@@ -61,9 +74,11 @@ class Result:
         The points that went in; None where they were smoothed in place.
     mesh : object or None
         Of a mesh of another package: the smoothed mesh.
+    notes : list of str
+        What one should know, one sentence each: what was held by a guess, left out or not mended. They were warnings.
     """
 
-    __slots__ = ("points", "triangles", "input_points", "mesh", "_outcome")
+    __slots__ = ("points", "triangles", "input_points", "mesh", "notes", "_outcome")
 
     def __init__(self, outcome: _core.Outcome, points: Any, triangles: Any, input_points: Any = None) -> None:
         self.points = points
@@ -71,6 +86,7 @@ class Result:
         self.input_points = input_points
         self.mesh: Any = None
         self._outcome = outcome
+        self.notes: List[str] = invalid_triangles_note(outcome)
 
     def _quality(self, report: Optional[QualityReport]) -> QualityReport:
         if report is None:
@@ -135,6 +151,17 @@ class Result:
     def free_vertices(self) -> int:
         """How many vertices nothing held, neither in their place nor to a line."""
         return self._outcome.free_vertices
+
+    @property
+    def inverted(self) -> int:
+        """How many triangles are inverted in the result: those against the majority of their component. Of all, with a
+        free vertex or not; counted always."""
+        return self._outcome.inverted
+
+    @property
+    def degenerate(self) -> int:
+        """How many triangles have no area in the result."""
+        return self._outcome.degenerate
 
     @property
     def colours(self) -> int:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional
 
 from . import _arrays, _core
 from ._constraints import Constraints
 from ._core import SweepRecord
+from ._notes import options_without_effect, warn_of
 from ._result import Result
 
 Progress = Callable[[SweepRecord], Any]
@@ -24,7 +25,7 @@ def smooth(
     lines: Any = None,
     line_tags: Any = None,
     links: Any = None,
-    method: str = "mean-ratio",
+    method: str = "smart",
     backend: str = "auto",
     out: Any = None,
     quality: Optional[bool] = None,
@@ -50,7 +51,9 @@ def smooth(
         Vertex numbers from 0, in either direction. Six are a quadratic triangle: the corners, then the middles of the
         sides 01, 12 and 20, which follow the ends of their sides.
     regions : array of M labels, optional
-        Vertices between triangles of different labels are held. Labels of any type, texts as well.
+        Vertices between triangles of different labels are held. Labels of any type, texts as well. Of a mesh: the names
+        of arrays or sets, or False for none; else its sets and those arrays that the program takes for regions, by
+        their names or because they look like it.
     fixed : array of N bools, or of vertex numbers, optional
         Vertices to hold.
     other_cells : array of N bools, or of vertex numbers, optional
@@ -68,9 +71,9 @@ def smooth(
         A line ends where the label changes. Labels of any type, texts as well.
     links : array of integers, shape (L, 2), optional
         Pairs of vertices that slide as one, as those of two sides that are periodic.
-    method : {"mean-ratio", "smart", "laplacian", "weighted"}
-        How vertices are moved. "mean-ratio" gives the best elements and untangles inverted ones first; "smart" is the
-        Smart Laplacian of the paper.
+    method : {"smart", "mean-ratio", "laplacian", "weighted"}
+        How vertices are moved. "smart" is the Smart Laplacian of the paper; "mean-ratio" gives the best elements and
+        untangles inverted ones first.
     backend : {"auto", "cpu", "cuda"}
         Who makes the sweeps. "auto": a GPU for large meshes, where the build and the machine have one.
     out : array, optional
@@ -99,6 +102,11 @@ def smooth(
     Result
         With ``points``, ``before``, ``after``, ``moved``, ``sliding``, ``sweeps`` and more.
 
+    Warns
+    -----
+    MeshWarning
+        Of what was held by a guess, left out or not mended: the sentences of ``Result.notes``.
+
     Raises
     ------
     TypeError, ValueError
@@ -113,13 +121,29 @@ def smooth(
     >>> import numpy as np, trismooth
     >>> points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.9, 0.8]])
     >>> triangles = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
-    >>> trismooth.smooth(points, triangles, method="smart").points[4]
+    >>> trismooth.smooth(points, triangles).points[4]
     array([0.5, 0.5])
     """
     options["method"] = method
     options["backend"] = backend
     options["slide"] = slide
     constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
+    result = smoothed(points, triangles, constraints, out, quality, progress, options)
+    result.notes += options_without_effect(options, size)
+    warn_of(result.notes)
+    return result
+
+
+def smoothed(
+    points: Any,
+    triangles: Any,
+    constraints: Constraints,
+    out: Any,
+    quality: Optional[bool],
+    progress: Optional[Progress],
+    options: Dict[str, Any],
+) -> Result:
+    """smooth() without warnings."""
     if triangles is None:
         from . import _meshes
 

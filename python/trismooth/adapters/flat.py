@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, Optional
 
 import numpy as np
 
-from .region_names import is_region_name
-
-# An array of so many labels or fewer may give regions in a mesh of any size.
-_ALWAYS_FEW_LABELS = 10
+from .. import _core
 
 
 @dataclass
@@ -37,6 +33,8 @@ class FlatMesh:
         A number for each of them: lines that the mesh tells apart differ.
     links : ndarray of int, shape (L, 2), optional
         Likewise: pairs of vertices that are periodic.
+    notes : list of str
+        What the user should know of how the mesh was taken, one sentence each.
     """
 
     points: np.ndarray
@@ -47,6 +45,7 @@ class FlatMesh:
     lines: Optional[np.ndarray] = None
     line_tags: Optional[np.ndarray] = None
     links: Optional[np.ndarray] = None
+    notes: list[str] = field(default_factory=list)
 
 
 def float_points(points: Any) -> np.ndarray:
@@ -197,12 +196,17 @@ def labels_of_sets(sets: Iterable[np.ndarray], count: int) -> np.ndarray:
     return labels
 
 
-def region_arrays(names: Iterable[str], values: Callable[[str], Optional[np.ndarray]]) -> list[np.ndarray]:
-    """Return the arrays that give regions by their names.
+def region_arrays(
+    names: Iterable[str],
+    values: Callable[[str], Optional[np.ndarray]],
+    triangles: np.ndarray,
+    vertex_count: int,
+    notes: list[str],
+) -> list[np.ndarray]:
+    """Return the arrays that give regions, as the program judges them.
 
-    An array counts if its name is one under which programs write regions (``material``, ``gmsh:physical``,
-    ``SubdomainID``, ...) and it has one value a cell. Where more than half of the triangles have labels of their own,
-    the array rather numbers the triangles: it is passed over, with a warning.
+    An array of one value a cell counts by its name (``material``, ``gmsh:physical``, ``SubdomainID``, ...), or where it
+    looks like regions: few whole numbers or texts that change across few edges. See ``pipeline/input/regions.h``.
 
     Parameters
     ----------
@@ -211,23 +215,73 @@ def region_arrays(names: Iterable[str], values: Callable[[str], Optional[np.ndar
     values : callable
         Returns the values of the triangles in the array of a name, of shape (M,) or (M, components); None if these are
         neither numbers nor texts.
+    triangles : ndarray of int, shape (M, 3) or (M, 6)
+    vertex_count : int
+    notes : list of str
+        Gets what the user should know: what is held by a guess, and what is not.
     """
-    arrays = ((name, values(name)) for name in names if is_region_name(name))
-    return [array for name, array in arrays if array is not None and _gives_regions(name, array)]
-
-
-def _gives_regions(name: str, values: np.ndarray) -> bool:
-    if values.ndim != 1:
-        return False
-    labels = int(number_labels(values).max(initial=-1)) + 1
-    if labels <= max(_ALWAYS_FEW_LABELS, len(values) // 2):
-        return True
-    warnings.warn(
-        f"the cell array '{name}' has {labels} values for {len(values)} triangles: it is not taken for regions; "
-        f"regions='{name}' does so, regions=False ends this warning",
-        stacklevel=2,
+    arrays = [(name, array) for name, array in ((name, values(name)) for name in names) if array is not None]
+    places, sentences = _core.judge_regions(
+        triangles, vertex_count, [(name, *_judged(array)) for name, array in arrays]
     )
-    return False
+    notes += sentences
+    return [arrays[place][1] for place in places]
+
+
+def _judged(values: np.ndarray) -> tuple[int, Optional[np.ndarray], bool]:
+    """Return what the judge asks of an array: its components, a number for each value, whether all are whole."""
+    if values.ndim != 1:
+        return int(np.prod(values.shape[1:])), None, False
+    is_whole = not np.issubdtype(values.dtype, np.floating) or bool(
+        (np.isfinite(values) & (values == np.floor(values))).all()
+    )
+    return 1, number_labels(values), is_whole
+
+
+def side_names(names: Iterable[str]) -> list[str]:
+    """Return the names of those cell arrays that mark named boundaries by sides, as scikit-fem writes them."""
+    return [name for name in names if _core.is_side_name(name)]
+
+
+def marked_sides(arrays: Sequence[np.ndarray], triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the sides that arrays of named boundaries mark, and a number for each: sides of other boundaries differ.
+
+    Parameters
+    ----------
+    arrays : sequence of ndarray, shape (M,)
+        Bits 1, 2 and 4 of a value are the sides 01, 12 and 02 of the triangle.
+    triangles : ndarray of int, shape (M, 3) or (M, 6)
+
+    Returns
+    -------
+    ndarray of int64, shape (K, 2), and ndarray of int64, shape (K,)
+    """
+    sides, of_array = [np.empty((0, 2), dtype=np.int64)], [np.empty(0, dtype=np.int64)]
+    for number, array in enumerate(arrays):
+        bits = array.astype(np.int64)
+        for bit, ends in enumerate(((0, 1), (1, 2), (0, 2))):
+            sides.append(np.sort(triangles[(bits >> bit) & 1 == 1][:, ends], axis=1))
+            of_array.append(np.full(len(sides[-1]), number))
+    unique, numbers = np.unique(np.concatenate(sides), axis=0, return_inverse=True)
+    # NumPy 2.0.0 gives the numbers another shape.
+    numbers, owners = numbers.reshape(-1), np.concatenate(of_array)
+    members = (np.unique(numbers[owners == number]) for number in range(len(arrays)))
+    return unique, labels_of_sets(members, len(unique))
+
+
+def with_sides(
+    lines: np.ndarray, line_tags: Optional[np.ndarray], sides: np.ndarray, side_tags: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return lines and sides of named boundaries as lines to slide on, with tags that tell them apart.
+
+    Parameters
+    ----------
+    lines, sides : ndarray of int, shapes (K, 2) and (L, 2)
+    line_tags, side_tags : ndarray of int, shapes (K,) and (L,)
+        From 0; None: all lines are alike.
+    """
+    tags = np.zeros(len(lines), dtype=np.int64) if line_tags is None else line_tags
+    return np.concatenate([lines, sides]), np.concatenate([tags, side_tags + tags.max(initial=-1) + 1])
 
 
 def tags_of_lines(
@@ -253,7 +307,7 @@ def tags_of_lines(
     found = []
     for name in names:
         array = values(name)
-        if array is not None and array.ndim == 1 and (is_region_name(name) or name in chosen or _groups(array)):
+        if array is not None and array.ndim == 1 and (_core.is_region_name(name) or name in chosen or _groups(array)):
             found.append(array)
     return combine_labels(found)
 

@@ -14,14 +14,17 @@ from .flat import (
     combine_labels,
     float_points,
     labels_of_sets,
+    marked_sides,
     no_such_name,
     one_value_each,
     point_array_mask,
     region_arrays,
+    side_names,
     tags_of_lines,
     triangle_width,
     vertex_mask,
     vertices_of,
+    with_sides,
 )
 
 SUPPORTS_COPY = True
@@ -37,11 +40,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     ----------
     mesh : meshio.Mesh
         Blocks ``triangle`` and ``triangle6`` are smoothed. All other cells hold their vertices, lines and vertex cells,
-        too.
+        too. Sides of triangles that cell data of scikit-fem mark (``skfem:b:wall``) are taken for lines.
     regions : None, False, str, list of str or array_like
-        None: the cell data whose names say that they give regions (``gmsh:physical``, ``medit:ref``, ...) and all cell
-        sets. A name or names: of cell data or cell sets. An array: a label for each triangle, or for each cell of all
-        blocks in their order.
+        None: the cell data that give regions by their names (``gmsh:physical``, ``medit:ref``, ...) or look like it,
+        as the program judges it, and all cell sets. A name or names: of cell data or cell sets. An array: a label for
+        each triangle, or for each cell of all blocks in their order.
     fixed : None, False, str, list of str or array_like
         None: the point data ``fixed``, if there are such; with ``lines`` points of Gmsh's geometry as well. A name or
         names: of point data, where vertices are held whose value is not zero, or of point sets. An array: a mask, or
@@ -78,23 +81,37 @@ class _Flattener:
         count = len(mesh.points)
         of_lines = [b for b, block in enumerate(mesh.cells) if lines and block.type == "line"]
         others = (block for b, block in enumerate(mesh.cells) if not self._is_chosen[b] and b not in of_lines)
+        of_others = [nodes for block in others for nodes in _nodes_of(block.data)]
+        blocks = self._blocks()
+        triangles = np.concatenate([mesh.cells[b].data for b in blocks])
+        sides, side_tags = marked_sides([self._values(name, blocks) for name in side_names(mesh.cell_data)], triangles)
+        all_lines, line_tags = None, None
+        if lines:
+            all_lines, line_tags = with_sides(
+                np.concatenate([np.empty((0, 2), dtype=np.int64), *(mesh.cells[b].data for b in of_lines)]),
+                self._line_tags(of_lines, regions) if of_lines else None,
+                sides,
+                side_tags,
+            )
+        notes: list[str] = []
         return FlatMesh(
             float_points(mesh.points),
-            np.concatenate([mesh.cells[b].data for b in self._blocks()]),
+            triangles,
             regions=choose_regions(
                 regions,
-                default=self._default_regions,
+                default=lambda: self._default_regions(triangles, notes),
                 named=self._named_regions,
                 cell_of_triangle=np.concatenate(
-                    [np.arange(self._first_cell[b], self._first_cell[b + 1]) for b in self._blocks()]
+                    [np.arange(self._first_cell[b], self._first_cell[b + 1]) for b in blocks]
                 ),
                 cell_count=int(self._first_cell[-1]),
             ),
             fixed=choose_fixed(fixed, count, default=lambda: self._default_fixed(lines), named=self._named_fixed),
-            other_cells=vertices_of((nodes for block in others for nodes in _nodes_of(block.data)), count),
-            lines=np.concatenate([mesh.cells[b].data for b in of_lines]) if of_lines else None,
-            line_tags=self._line_tags(of_lines, regions) if of_lines else None,
+            other_cells=vertices_of(of_others if lines else [*of_others, sides], count),
+            lines=all_lines,
+            line_tags=line_tags,
             links=self._links() if lines else None,
+            notes=notes,
         )
 
     def _line_tags(self, blocks: list[int], regions: Any) -> Optional[np.ndarray]:
@@ -140,9 +157,11 @@ class _Flattener:
     def _set_names(self) -> list[str]:
         return [name for name in self._mesh.cell_sets if name not in _NOT_CELL_SETS]
 
-    def _default_regions(self) -> list[np.ndarray]:
+    def _default_regions(self, triangles: np.ndarray, notes: list[str]) -> list[np.ndarray]:
         blocks = self._blocks()
-        arrays = region_arrays(self._mesh.cell_data, lambda name: self._values(name, blocks))
+        arrays = region_arrays(
+            self._mesh.cell_data, lambda name: self._values(name, blocks), triangles, len(self._mesh.points), notes
+        )
         sets = self._set_names()
         if sets:
             arrays.append(labels_of_sets((self._members(name, blocks) for name in sets), self._cell_count(blocks)))

@@ -20,13 +20,16 @@ from .flat import (
     choose_fixed,
     choose_regions,
     float_points,
+    marked_sides,
     no_such_name,
     one_value_each,
     point_array_mask,
     region_arrays,
+    side_names,
     tags_of_lines,
     triangle_width,
     vertices_of,
+    with_sides,
 )
 
 SUPPORTS_COPY = True
@@ -44,10 +47,10 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     ----------
     mesh : pyvista.PolyData, pyvista.UnstructuredGrid, vtkPolyData or vtkUnstructuredGrid
         Triangles, triangle strips and quadratic triangles are smoothed. All other cells hold their vertices, lines and
-        vertex cells, too.
+        vertex cells, too. Sides of triangles that cell arrays of scikit-fem mark (``skfem:b:wall``) are taken for lines.
     regions : None, False, str, list of str or array_like
-        None: the cell arrays whose names say that they give regions (``material``, ``region_id``, ...). A name or
-        names: of cell arrays. An array: a label for each triangle or for each cell.
+        None: the cell arrays that give regions by their names (``material``, ``region_id``, ...) or look like it, as
+        the program judges it. A name or names: of cell arrays. An array: a label for each triangle or for each cell.
     fixed : None, False, str, list of str or array_like
         None: the point array ``fixed``, if there is one. A name or names: of point arrays; vertices are held where they
         are not zero. An array: a mask, or vertex numbers.
@@ -60,12 +63,14 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     points = float_points(_to_numpy(mesh.GetPoints().GetData()))
     cell_data, point_data = mesh.GetCellData(), mesh.GetPointData()
 
-    def default_regions() -> list[np.ndarray]:
-        def of_triangles(name: str) -> Optional[np.ndarray]:
-            values = _values(cell_data, name)
-            return None if values is None else values[cells.of_triangle]
+    notes: list[str] = []
 
-        return region_arrays(_names(cell_data), of_triangles)
+    def of_triangles(name: str) -> Optional[np.ndarray]:
+        values = _values(cell_data, name)
+        return None if values is None else values[cells.of_triangle]
+
+    def default_regions() -> list[np.ndarray]:
+        return region_arrays(_names(cell_data), of_triangles, cells.triangles, count, notes)
 
     def of_lines(name: str) -> Optional[np.ndarray]:
         values = _values(cell_data, name)
@@ -78,6 +83,10 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     def named_fixed(name: str) -> np.ndarray:
         return point_array_mask(_values_of_name(point_data, name, "fixed", "point array"))
 
+    marks = [values for values in map(of_triangles, side_names(_names(cell_data))) if values is not None]
+    sides, side_tags = marked_sides(marks, cells.triangles)
+    tags = tags_of_lines(_names(cell_data), regions, of_lines) if len(cells.lines) > 0 else None
+    all_lines, line_tags = with_sides(cells.lines, tags, sides, side_tags) if lines else (cells.lines, tags)
     return FlatMesh(
         points,
         cells.triangles,
@@ -94,9 +103,10 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
             default=lambda: named_fixed("fixed") if "fixed" in _names(point_data) else None,
             named=named_fixed,
         ),
-        other_cells=vertices_of(cells.other_nodes, count),
-        lines=cells.lines,
-        line_tags=tags_of_lines(_names(cell_data), regions, of_lines) if len(cells.lines) > 0 else None,
+        other_cells=vertices_of(cells.other_nodes if lines else [*cells.other_nodes, sides], count),
+        lines=all_lines,
+        line_tags=line_tags,
+        notes=notes,
     )
 
 
