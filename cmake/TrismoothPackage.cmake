@@ -145,12 +145,12 @@ if(TRISMOOTH_TESTS)
       -D "FOLDER=${PROJECT_BINARY_DIR}/tests/install/portable"
       -P "${PROJECT_SOURCE_DIR}/tests/install/portable_package.cmake")
   # Installing writes a list of files into the build folder: one at a time.
-  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install)
+  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install LABELS packaging)
   set(test "install: the Debian package has the program and depends on what runs it")
   find_package(Python3 COMPONENTS Interpreter REQUIRED)
   add_test(NAME "${test}"
            COMMAND Python3::Interpreter -B "${PROJECT_SOURCE_DIR}/tests/install/debian_package.py" "${CMAKE_CPACK_COMMAND}"
                    "${PROJECT_BINARY_DIR}/CPackConfig.cmake" "${PROJECT_BINARY_DIR}/tests/install/debian"
                    "${PROJECT_SOURCE_DIR}/examples/data/plate.off")
-  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install SKIP_RETURN_CODE 77)
+  set_tests_properties("${test}" PROPERTIES TIMEOUT 300 RESOURCE_LOCK install SKIP_RETURN_CODE 77 LABELS packaging)
 endif()

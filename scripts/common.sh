@@ -65,6 +65,47 @@ build_target() {
   (cd "$project" && cmake --build --preset release --target "$1")
 }
 
+# start_of_changes [REF [ELSE]]: the commit from which changes count: REF, or where the branch left origin's. On origin's
+# own branch, or without origin: ELSE, or the commit before the last one.
+start_of_changes() {
+  local base
+  base=$(git -C "$project" merge-base HEAD origin/HEAD 2>/dev/null || true)
+  if [[ -n ${1:-} ]]; then
+    base=$1
+  elif [[ -z $base || $base == "$(git -C "$project" rev-parse HEAD)" ]]; then
+    base=${2:-HEAD~1}
+  fi
+  echo "$base"
+}
+
+# The public headers, as CMake has them, by their paths below trismooth/.
+public_headers() {
+  find "$project" -name CMakeLists.txt -not -path "$project/build*" -exec cat {} + | tr '\n' ' ' |
+    grep --only-matching 'trismooth_public_headers([^)]*)' | grep --only-matching '[a-z0-9_/]*\.h\b'
+}
+
+# change_of_packaging: the first file that has changed and that packages, installed copies and projects with trismooth as
+# a part depend on. Nothing where there is none. Where no branch says what belongs to the change, it is the work of eight
+# hours; where git does not know, anything may have changed.
+change_of_packaging() {
+  local eight_hours older changed
+  eight_hours=$(($(git -C "$project" show --no-patch --format=%ct HEAD 2>/dev/null || echo 0) - 8 * 3600))
+  older=$(git -C "$project" rev-list --max-count=1 "--before=$eight_hours" HEAD 2>/dev/null || true)
+  if ! changed=$(cd "$project" && git diff --name-only "$(start_of_changes "" "${older:-unknown}")" -- 2>/dev/null &&
+    git ls-files --others --exclude-standard); then
+    echo "git does not say what has changed"
+    return
+  fi
+  grep --extended-regexp --max-count=1 \
+    '^(\.ci|cmake|python|scripts|tests/install)/|(^|/)CMakeLists\.txt$|^(CMakePresets\.json|pyproject\.toml)$' <<<"$changed" ||
+    grep --fixed-strings --line-regexp --max-count=1 --file=<(public_headers) <<<"$changed" || true
+}
+
+# What is said where tests of packaging do not run.
+# shellcheck disable=SC2034 # used by the scripts that source this file
+packaging_left_out="nothing that packages depend on has changed (cmake/, python/, scripts/, a CMakeLists.txt, a public \
+header); TRISMOOTH_THOROUGH=1 has them run"
+
 # Tests write thousands of small files, and the program waits for the disk with each. Where memory has a gigabyte to
 # spare, their temporary folder is there until the script ends.
 keep_temporary_files_in_memory() {

@@ -3,7 +3,8 @@
 #
 #   scripts/docs.sh      into build/docs/html; fails for what Doxygen warns of
 set -euo pipefail
-project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/install-deps.sh" --docs
 cd "$project"
@@ -11,9 +12,8 @@ output=build/docs
 include=$output/include/trismooth
 rm -rf "$output"
 mkdir -p "$include"
-# The public headers, as CMake has them. Doxygen would take instances of templates for functions of their own.
-find . -name CMakeLists.txt -not -path './build*' -exec cat {} + | tr '\n' ' ' |
-  grep --only-matching 'trismooth_public_headers([^)]*)' | grep --only-matching '[a-z0-9_/]*\.h\b' |
+# Doxygen would take instances of templates for functions of their own.
+public_headers |
   while read -r header; do
     mkdir -p "$(dirname "$include/$header")"
     case $header in

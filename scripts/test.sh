@@ -5,7 +5,8 @@
 #   scripts/test.sh -R never_worse
 #
 # Tests that need a GPU are built where there is one. Random tests take a part of their meshes, and tests that break the
-# program off at many moments take a part of these; TRISMOOTH_THOROUGH=1 has them take all.
+# program off at many moments take a part of these; TRISMOOTH_THOROUGH=1 has them take all. Where nothing has changed that
+# packages depend on, their tests are left out, unless TRISMOOTH_THOROUGH=1 or an argument asks for them.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -26,5 +27,12 @@ if [[ -z ${TRISMOOTH_THOROUGH:-} ]]; then
   # Per cent of the random meshes.
   export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-30}
 fi
-ctest --test-dir "$build" --output-on-failure -j2 "$@"
+left_out=()
+if (($# == 0)) && [[ -z ${TRISMOOTH_THOROUGH:-} && -z $(change_of_packaging) ]]; then
+  left_out=(--label-exclude '^packaging$')
+fi
+ctest --test-dir "$build" --output-on-failure -j2 "${left_out[@]}" "$@"
+if ((${#left_out[@]} > 0)); then
+  echo "Skipped: the tests of packages and of what is installed: $packaging_left_out."
+fi
 echo "Set-up took $configured s, the build $((built - configured)) s, the tests $((SECONDS - built)) s."

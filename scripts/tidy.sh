@@ -12,18 +12,6 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 version=23.1.4
 
-# start_of_changes [REF]: the commit from which --changed counts.
-start_of_changes() {
-  local base
-  base=$(git merge-base HEAD origin/HEAD 2>/dev/null || true)
-  if [[ -n ${1:-} ]]; then
-    base=$1
-  elif [[ -z $base || $base == "$(git rev-parse HEAD)" ]]; then
-    base=HEAD~1
-  fi
-  echo "$base"
-}
-
 files=()
 if [[ ${1:-} == --changed ]]; then
   cd "$project"
