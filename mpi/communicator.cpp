@@ -1,13 +1,18 @@
 #include "trismooth/mpi/communicator.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
+#include "trismooth/base/out_of_memory.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth::mpi {
@@ -33,9 +38,11 @@ void join_sums(void* in, void* inout, int* count, MPI_Datatype* /*type*/) {
   }
 }
 
-/// An error on its way to other ranks: of the kind of this number, or of none of them.
+/// An error on its way to other ranks: of the kind of this number, the next one where none of them includes it.
 struct Failure {
-  std::size_t kind = 0;
+  static constexpr int of_memory = -1;  ///< a kind that needs no message: there may be no memory for one
+
+  int kind = 0;
   std::string message;
 };
 
@@ -43,19 +50,20 @@ Failure failure_of(const std::exception_ptr& error, std::span<const ErrorKind> k
   try {
     std::rethrow_exception(error);
   } catch (const std::exception& e) {
+    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) {
+      return {Failure::of_memory, {}};
+    }
     const auto kind = std::ranges::find_if(kinds, [&](const ErrorKind& known) { return known.includes(e); });
-    const bool is_known = kind != kinds.end();
-    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&e) != nullptr;
-    return {static_cast<std::size_t>(kind - kinds.begin()),
-            is_known ? kind->message_of(e) : (is_memory ? "out of memory" : e.what())};
+    return {static_cast<int>(kind - kinds.begin()), kind != kinds.end() ? kind->message_of(e) : e.what()};
   } catch (...) {
-    return {kinds.size(), "an exception that is no std::exception"};
+    return {static_cast<int>(kinds.size()), "an exception that is no std::exception"};
   }
 }
 
 std::exception_ptr error_of(const Failure& failure, std::span<const ErrorKind> kinds) {
-  return failure.kind < kinds.size() ? kinds[failure.kind].made_of(failure.message)
-                                     : std::make_exception_ptr(std::runtime_error(failure.message));
+  return failure.kind < static_cast<int>(kinds.size())
+             ? kinds[static_cast<std::size_t>(failure.kind)].made_of(failure.message)
+             : std::make_exception_ptr(std::runtime_error(failure.message));
 }
 
 int narrow(std::int64_t count) {
@@ -67,7 +75,25 @@ int narrow(std::int64_t count) {
 
 }  // namespace
 
-Communicator::Communicator(MPI_Comm caller) {
+int say_failure(int rank) {
+  try {
+    const Failure failure = failure_of(std::current_exception(), {});
+    std::cerr << "trismooth: rank " << rank << ": "
+              << (failure.kind == Failure::of_memory ? "out of memory" : failure.message.c_str()) << std::endl;
+  } catch (...) {
+    std::fputs("trismooth: a rank has failed, and has no memory left to say why\n", stderr);
+  }
+  return EXIT_FAILURE;
+}
+
+void end_all(MPI_Comm communicator, int exit_code) {
+  // A launcher that is told to end all may forget what it has not passed on yet.
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  MPI_Abort(communicator, exit_code);
+  std::terminate();
+}
+
+Communicator::Communicator(MPI_Comm caller, LastWords last_words) : last_words_(last_words) {
   int is_initialised = 0;
   int is_finalised = 0;
   MPI_Initialized(&is_initialised);
@@ -141,11 +167,13 @@ void Communicator::on_all(const std::function<void()>& work, const ErrorKinds& e
       failure.message = "rank " + std::to_string(rank_) + ": " + failure.message;
     }
   }
-  int kind = static_cast<int>(failure.kind);
-  check(MPI_Bcast(&kind, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
+  check(MPI_Bcast(&failure.kind, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
+  if (failure.kind == Failure::of_memory) {
+    throw KnownToAll(size_ > 1 ? std::make_exception_ptr(OutOfMemory(failed))
+                               : std::make_exception_ptr(std::bad_alloc()));
+  }
   int length = static_cast<int>(failure.message.size());
   check(MPI_Bcast(&length, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
-  failure.kind = static_cast<std::size_t>(kind);
   failure.message.resize(static_cast<std::size_t>(length));
   check(MPI_Bcast(failure.message.data(), length, MPI_CHAR, failed, communicator_), "MPI_Bcast");
   throw KnownToAll(error_of(failure, errors.kinds));
@@ -179,12 +207,6 @@ void Communicator::exchange(std::span<const Buffer> sends, std::span<const Buffe
   }
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
   MPI_Type_free(&item);
-}
-
-void Communicator::abandon(const char* message) const {
-  std::cerr << "trismooth: rank " << rank_ << ": " << message << '\n' << std::flush;
-  MPI_Abort(communicator_, 1);
-  std::terminate();
 }
 
 }  // namespace trismooth::mpi

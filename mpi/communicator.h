@@ -20,19 +20,31 @@ namespace trismooth::mpi {
 template <class V>
 using ByRank = std::vector<std::vector<V>>;
 
-/// An error that all ranks know of. Any other that leaves a collective function would leave the others waiting.
+/// An error that all ranks throw at the same place. Communicator::on_all() makes one of what happens on one rank; who
+/// makes one by hand does so on all of them, from what all have. Any other that leaves a collective function would
+/// leave the others waiting: see Communicator::together().
 struct KnownToAll : std::exception {
   explicit KnownToAll(std::exception_ptr known) : error(std::move(known)) {}
 
   std::exception_ptr error;
 };
 
+/// What a rank does before it ends all of them, having failed alone: says what has happened, the exception that is
+/// being handled. Returns the exit code of the job. Throws nothing.
+using LastWords = int (*)(int rank);
+
+/// Says it on standard error: "trismooth: rank 3: out of memory". Returns 1.
+int say_failure(int rank);
+
+/// Ends all ranks, as MPI_Abort(), once a launcher has had the time to pass on what has been said.
+[[noreturn]] void end_all(MPI_Comm communicator, int exit_code);
+
 /// The ranks that work together, on a communicator of their own: a copy of the caller's, whose messages nobody else
 /// receives. All functions but rank() and size() are collective.
 class Communicator {
  public:
   /// Throws std::logic_error where MPI has not been initialised, or is finished.
-  explicit Communicator(MPI_Comm caller);
+  explicit Communicator(MPI_Comm caller, LastWords last_words = &say_failure);
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
   ~Communicator();
@@ -52,7 +64,7 @@ class Communicator {
   std::int64_t sum_before(std::int64_t own) const;
 
   /// Calls `work` on every rank, which is to do nothing collective. If it throws anywhere, this throws KnownToAll
-  /// everywhere: the error of the lowest of these ranks, as `errors` say.
+  /// everywhere: the error of the lowest of these ranks, as `errors` say; std::bad_alloc as OutOfMemory.
   void on_all(const std::function<void()>& work, const ErrorKinds& errors = library_errors()) const;
 
   /// How much comes from every rank, where `counts` go to each.
@@ -100,16 +112,20 @@ class Communicator {
     }
   }
 
-  /// Calls a collective function, and throws what it throws as KnownToAll. Anything else cannot be told to the others
-  /// any more, and ends them all, with a message, by MPI_Abort().
+  /// Calls a collective function, and throws what it throws as KnownToAll. Anything else, memory that is used up above
+  /// all, has happened on this rank, at whatever place: the others wait for it at another one, and cannot be told any
+  /// more. It ends them all, with the last words, by MPI_Abort(); where there are no others it is thrown.
   template <class Function>
   auto together(const Function& function) const {
     try {
       return function();
     } catch (const KnownToAll& known) {
       std::rethrow_exception(known.error);
-    } catch (const std::exception& e) {
-      abandon(e.what());
+    } catch (...) {
+      if (size_ == 1) {
+        throw;
+      }
+      end_all(communicator_, last_words_(rank_));
     }
   }
 
@@ -120,9 +136,9 @@ class Communicator {
     int rank;
   };
 
-  [[noreturn]] void abandon(const char* message) const;
   void exchange(std::span<const Buffer> sends, std::span<const Buffer> receives, std::size_t item_size) const;
 
+  LastWords last_words_;
   MPI_Comm communicator_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;

@@ -1,6 +1,7 @@
 #include "trismooth/mpi/plan.h"
 
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -16,9 +17,24 @@ class Plan::Implementation {
   std::unique_ptr<OverlapSmoother> smoother;
 };
 
+namespace {
+
+/// The others wait for this rank to join them.
+std::shared_ptr<const Communicator> joined(MPI_Comm caller) {
+  try {
+    return std::make_shared<const Communicator>(caller);
+  } catch (const std::bad_alloc&) {
+    int rank = 0;
+    MPI_Comm_rank(caller, &rank);
+    end_all(caller, say_failure(rank));
+  }
+}
+
+}  // namespace
+
 Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
            const SmoothingOptions& options, Gather gather) {
-  const auto ranks = std::make_shared<const Communicator>(communicator);
+  const std::shared_ptr<const Communicator> ranks = joined(communicator);
   implementation_ = ranks->together([&] {
     return std::make_unique<Implementation>(
         make_overlap_smoother(ranks, mesh, constraints, options, gather, OverlapSmoother::Owners::ranks));

@@ -114,9 +114,7 @@ void reserve_memory_for_the_end() {
   });
 }
 
-}  // namespace
-
-int run_command_line(int argc, const char* const* argv, const CommandEnvironment& given) {
+int run_words(int argc, const char* const* argv, const CommandEnvironment& given) {
   PrintableStream out(given.out);
   PrintableStream err(given.err);
   const CommandEnvironment environment{out,        err, given.terminal,   given.run,
@@ -139,7 +137,19 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
   return static_cast<int>(code);
 }
 
-int run_command_line(int argc, const char* const* argv) {
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv, const CommandEnvironment& given) {
+  try {
+    return run_words(argc, argv, given);
+  } catch (...) {
+    return static_cast<int>(report_failure(given.err));
+  }
+}
+
+namespace {
+
+int run_process(int argc, const char* const* argv) {
   reserve_memory_for_the_end();
   silence_libraries();
   reserve_standard_streams();
@@ -161,11 +171,21 @@ int run_command_line(int argc, const char* const* argv) {
   environment.run = [&job](const PipelineOptions& options) { return job->run(options); };
   environment.over_ranks = job->shares_work();
   environment.follows = follows;
-  const int code = job->agreed(run_command_line(argc, argv, environment));
+  const int code = job->agreed(run_command_line(argc, argv, environment), unread);
   // Of ranks that end with an error, a launcher tells the others to end, which are about to.
   ignore_interrupts();
   job.reset();
   return code;
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  try {
+    return run_process(argc, argv);
+  } catch (...) {
+    return static_cast<int>(report_failure(std::cerr));
+  }
 }
 
 }  // namespace trismooth

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/base/out_of_memory.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/pipeline.h"
@@ -11,32 +12,33 @@
 
 namespace trismooth {
 
-ExitCode report_failure(std::ostream& err) {
+ExitCode report_failure(std::ostream& err, const std::string& whose) {
+  const auto print = [&](const std::string& message) { print_error(err, whose + message); };
   try {
     throw;
   } catch (const std::invalid_argument& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::wrong_usage;
   } catch (const Cancelled& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::cancelled;
   } catch (const ReadError& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::bad_input;
   } catch (const MeshError& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::bad_input;
   } catch (const WriteError& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::not_written;
   } catch (const DeviceError& error) {
-    print_error(err, error.what());
+    print(error.what());
     return ExitCode::device_error;
-  } catch (const std::bad_alloc&) {
-    print_error(err, "not enough memory; use a machine with more, or a smaller mesh");
+  } catch (const std::bad_alloc& error) {
+    print(whose_memory(error) + "not enough memory; use a machine with more, or a smaller mesh");
     return ExitCode::bad_input;
   } catch (const std::exception& error) {
-    print_error(err, std::string("unexpected failure: ") + error.what());
+    print(std::string("unexpected failure: ") + error.what());
     return ExitCode::bad_input;
   }
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/out_of_memory.h"
 #include "trismooth/base/worker_threads.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
@@ -237,10 +238,11 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, RunOutp
     return environment.run(options);
   } catch (const MeshError& error) {
     throw ReadError(shown_input(options.input), error.what());
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc& error) {
     throw ReadError(
         shown_input(options.input),
-        "not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a smaller mesh");
+        whose_memory(error) +
+            "not enough memory for this mesh; use a machine with more, fewer threads (--threads 1), or a smaller mesh");
   }
 }
 

@@ -4,8 +4,10 @@
 #ifdef TRISMOOTH_HAS_MPI
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <span>
 
 #include <mpi.h>
@@ -13,7 +15,10 @@
 #include <malloc.h>
 #endif
 
+#include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/parallel_file.h"
+#include "trismooth/pipeline/cli/exit_code.h"
+#include "trismooth/pipeline/cli/failure.h"
 #include "trismooth/pipeline/ranks/metis_parts.h"
 #include "trismooth/pipeline/ranks/one_file_run.h"
 #include "trismooth/pipeline/ranks/piece_run.h"
@@ -66,16 +71,50 @@ void give_back_arrays() {
 #endif
 }
 
+/// Of one that has no memory to make a message with.
+int say_rank_failure_without_memory() {
+  std::fputs("trismooth: error: a rank has not enough memory\n", stderr);
+  return static_cast<int>(ExitCode::bad_input);
+}
+
+/// Of a rank that has failed where it cannot tell the others: what the program says of errors, and their exit code.
+int say_rank_failure(int rank) {
+  try {
+    std::ostringstream said;
+    const ExitCode code = report_failure(said, "rank " + std::to_string(rank) + ": ");
+    if (said) {  // else it has swallowed that it has no memory
+      std::cerr << said.view() << std::flush;
+      return static_cast<int>(code);
+    }
+  } catch (const std::exception&) {
+    // What it was about has been lost with the memory for the message.
+  }
+  return say_rank_failure_without_memory();
+}
+
 class MpiJob final : public RankJob {
  public:
   explicit MpiJob(bool has_pieces) : has_pieces_(has_pieces) {
     give_back_arrays();
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-    ranks_ = std::make_shared<const mpi::Communicator>(MPI_COMM_WORLD);
+    try {
+      // MPI begins without the memory that it needs to reach the others, and waits for them for ever.
+      constexpr std::size_t room_for_mpi = std::size_t{8} << 20;
+      require_host_memory(room_for_mpi);
+      ranks_ = std::make_shared<const mpi::Communicator>(MPI_COMM_WORLD, &say_rank_failure);
+    } catch (...) {
+      int rank = 0;
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+      mpi::end_all(MPI_COMM_WORLD, say_rank_failure(rank));
+    }
   }
 
   ~MpiJob() override {
+    if (std::uncaught_exceptions() > 0) {
+      // The others do not know of it: they would never finish.
+      mpi::end_all(MPI_COMM_WORLD, say_rank_failure_without_memory());
+    }
     ranks_.reset();
     MPI_Finalize();
   }
@@ -89,12 +128,7 @@ class MpiJob final : public RankJob {
       return {};
     }
     try {
-      const bool is_in_pieces =
-          names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output));
-      if (is_in_pieces) {
-        return run_pieces(options, ranks_);
-      }
-      return ranks_->size() > 1 ? run_file(options) : run_pipeline(options);
+      return ranks_->together([&] { return run_together(options); });
     } catch (const std::exception&) {
       if (rank() == 0) {
         throw;
@@ -103,28 +137,52 @@ class MpiJob final : public RankJob {
     }
   }
 
-  int agreed(int code) override {
+  int agreed(int code, const std::ostringstream& unread) override {
     if (!is_settled_ && starts(false)) {
       // Rank 0 has begun what this one cannot take part in.
-      MPI_Abort(MPI_COMM_WORLD, code);
+      if (unread.good() && !unread.view().empty()) {
+        std::cerr << unread.view() << std::flush;
+      } else {
+        say_rank_failure_without_memory();
+      }
+      mpi::end_all(MPI_COMM_WORLD, code);
     }
     MPI_Bcast(&code, 1, MPI_INT, 0, ranks_->handle());
     return code;
   }
 
  private:
+  /// Throws mpi::KnownToAll, or what has happened on this rank alone.
+  PipelineResult run_together(const PipelineOptions& options) {
+    if (names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output))) {
+      return run_pieces(options, ranks_);
+    }
+    return ranks_->size() > 1 ? run_file(options) : run_pipeline(options);
+  }
+
   /// Of one file, which no rank need have as a whole where it is only looked at.
   PipelineResult run_file(const PipelineOptions& options) {
     if (!options.written()) {
       try {
         return run_by_ranges(options, ranks_);
-      } catch (const Cancelled&) {
-        throw;
-      } catch (const std::exception&) {
+      } catch (const mpi::KnownToAll& known) {
         // It is a file for one rank, or wrong in a way that reading it as a whole tells.
+        if (is_cancelled(known.error)) {
+          throw;
+        }
       }
     }
     return run_one_file(options, ranks_);
+  }
+
+  static bool is_cancelled(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const Cancelled&) {
+      return true;
+    } catch (...) {
+      return false;
+    }
   }
 
   /// What rank 0 says of whether there is a run.

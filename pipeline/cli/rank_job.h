@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "trismooth/pipeline/partition.h"
@@ -23,12 +24,14 @@ class RankJob {
 
   /// run_pipeline() by all ranks, of a file or of a mesh in pieces. The other ranks call it as rank 0 does, which may
   /// think better of it: they return when it has called it, or agreed(). They get no result, and nothing is thrown
-  /// there.
+  /// there. An error of one rank alone that the others cannot be told of ends all of them, with its message and its
+  /// exit code.
   virtual PipelineResult run(const PipelineOptions& options) = 0;
 
   /// All ranks, when they have done their work: the exit code of rank 0. A launcher may tell ranks to end from now on,
-  /// as others have done.
-  virtual int agreed(int code) = 0;
+  /// as others have done. `unread`: what the rank has said to nobody; it is said, and all ranks end, where it has not
+  /// come to run() as rank 0 has.
+  virtual int agreed(int code, const std::ostringstream& unread) = 0;
 };
 
 /// Joins the MPI job that a launcher (mpirun, srun) has made this process a rank of. A process without a launcher is a

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -45,12 +44,11 @@ mpi::ErrorKind read_error_kind() {
   return kind;
 }
 
-/// That of an error without a message of its own.
-template <class Error>
-mpi::ErrorKind plain_kind() {
+/// It has no message of its own.
+mpi::ErrorKind cancelled_kind() {
   mpi::ErrorKind kind = mpi::error_kind<std::runtime_error>();
-  kind.includes = [](const std::exception& error) { return dynamic_cast<const Error*>(&error) != nullptr; };
-  kind.made_of = [](const std::string& /*message*/) { return std::make_exception_ptr(Error()); };
+  kind.includes = [](const std::exception& error) { return dynamic_cast<const Cancelled*>(&error) != nullptr; };
+  kind.made_of = [](const std::string& /*message*/) { return std::make_exception_ptr(Cancelled()); };
   return kind;
 }
 
@@ -62,8 +60,7 @@ void agree(const mpi::Communicator& ranks, const std::function<void()>& work) {
                                 mpi::error_kind<MeshError>(),
                                 mpi::error_kind<DeviceError>(),
                                 mpi::error_kind<std::invalid_argument>(),
-                                plain_kind<Cancelled>(),
-                                plain_kind<std::bad_alloc>()};
+                                cancelled_kind()};
   ranks.on_all(work, {kinds});
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -17,7 +16,6 @@
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/one_file_run.h"
 #include "trismooth/pipeline/ranks/rank_constraints.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
@@ -77,25 +75,15 @@ PipelineResult run_here(WholeMesh& whole, FileFormat piece_format, PipelineOptio
 
 }  // namespace
 
-PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks,
-                            Workers& workers) {
+PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
+                            const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers) {
+  const mpi::Communicator& ranks = *communicator;
   const bool is_of_pieces = names_parallel_file(options.input) || is_standard_stream(options.input);
   WholeMesh whole =
       is_of_pieces ? WholeMesh(files, ranks) : WholeMesh(files, FileOptions{workers.count(), options.format}, ranks);
   AddedArrays annotations;
-  PipelineResult result;
-  std::exception_ptr error;
-  try {
-    result = run_on_first(options, ranks, [&](const PipelineOptions& own) {
-      return run_here(whole, files.file.piece_format, own, annotations);
-    });
-  } catch (const std::exception&) {
-    error = std::current_exception();
-  }
-  agree(ranks, [&] {
-    if (error) {
-      std::rethrow_exception(error);
-    }
+  PipelineResult result = run_on_first(options, communicator, [&](const PipelineOptions& own) {
+    return run_here(whole, files.file.piece_format, own, annotations);
   });
   if (options.single || !options.written()) {
     return result;

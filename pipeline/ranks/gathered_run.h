@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/pipeline.h"
@@ -11,7 +13,7 @@ namespace trismooth {
 /// does all but the sweeps for all: coordinates and figures are those of the mesh as one file, whatever the options.
 /// The output is the pieces, or with PipelineOptions::single one file. Piece::ids are known. Collective: throws the
 /// same on all ranks. The result is rank 0's, that of other ranks is empty.
-PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks,
-                            Workers& workers);
+PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
+                            const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers);
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -12,7 +13,8 @@
 #include <mpi.h>
 
 #include "trismooth/base/hold.h"
-#include "trismooth/mpi/plan.h"
+#include "trismooth/mpi/overlap_smoother.h"
+#include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/vertex_owners.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
@@ -56,24 +58,29 @@ struct MeshOfFirst {
   std::span<const std::uint8_t> fixed;  ///< bits of namespace hold
 };
 
+/// Throws what all ranks throw. What happens on one alone ends them all: they are where they cannot be told.
 SmoothingResult smooth_over_ranks(const MeshOfFirst& mesh, std::span<Point2<double>> points, Storage storage,
                                   const SmoothingOptions& options, Partition partition,
-                                  const mpi::Communicator& ranks) {
-  std::vector<std::int64_t> ids(points.size());
-  std::iota(ids.begin(), ids.end(), std::int64_t{0});
-  std::vector<std::uint8_t> named(points.size(), 0);
-  std::vector<std::uint8_t> in_other_cell(points.size(), 0);
-  for (std::size_t v = 0; v < mesh.fixed.size(); ++v) {
-    // Why else they are held the plan finds itself; who says so does not matter.
-    named[v] = (mesh.fixed[v] & ~hold::isolated) != 0 ? 1 : 0;
-    in_other_cell[v] = mesh.fixed[v] & hold::other_cell;
-  }
-  const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.triangles, partition, ranks);
-  const mpi::LocalMesh local{mesh.triangles, ids, owners};
-  const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
-  SmoothingOptions without_layers = options;
-  without_layers.layers = Layers::smooth;  // they are held already
-  return mpi::Plan(ranks.handle(), local, constraints, without_layers).smooth(PointView(points), storage);
+                                  const std::shared_ptr<const mpi::Communicator>& ranks) {
+  return ranks->together([&] {
+    std::vector<std::int64_t> ids(points.size());
+    std::iota(ids.begin(), ids.end(), std::int64_t{0});
+    std::vector<std::uint8_t> named(points.size(), 0);
+    std::vector<std::uint8_t> in_other_cell(points.size(), 0);
+    for (std::size_t v = 0; v < mesh.fixed.size(); ++v) {
+      // Why else they are held the plan finds itself; who says so does not matter.
+      named[v] = (mesh.fixed[v] & ~hold::isolated) != 0 ? 1 : 0;
+      in_other_cell[v] = mesh.fixed[v] & hold::other_cell;
+    }
+    const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.triangles, partition, *ranks);
+    const mpi::LocalMesh local{mesh.triangles, ids, owners};
+    const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
+    SmoothingOptions without_layers = options;
+    without_layers.layers = Layers::smooth;  // they are held already
+    return mpi::make_overlap_smoother(ranks, local, constraints, without_layers, mpi::Gather::never,
+                                      mpi::OverlapSmoother::Owners::ranks)
+        ->smooth(PointView(points), storage);
+  });
 }
 
 /// Of rank 0: has the others take part.
@@ -81,17 +88,17 @@ class RankSmoother final : public PreparedSmoother {
  public:
   /// `options`: with the backend that makes the sweeps of a rank.
   RankSmoother(MeshRings mesh, std::span<const Triangle> triangles, SmoothingOptions options, Partition partition,
-               const mpi::Communicator& ranks)
+               std::shared_ptr<const mpi::Communicator> ranks)
       : fixed_(std::move(mesh.fixed)),
         triangles_(triangles.begin(), triangles.end()),
         options_(std::move(options)),
         partition_(partition),
-        ranks_(ranks) {}
+        ranks_(std::move(ranks)) {}
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& /*frame*/) override {
     RankCommand command{RankCommand::What::smooth, storage, options_.guard};
-    share_command(command, ranks_);
+    share_command(command, *ranks_);
     return smooth_over_ranks({triangles_, fixed_}, points, storage, options_, partition_, ranks_);
   }
 
@@ -102,7 +109,7 @@ class RankSmoother final : public PreparedSmoother {
   std::vector<Triangle> triangles_;
   SmoothingOptions options_;
   Partition partition_;
-  const mpi::Communicator& ranks_;
+  std::shared_ptr<const mpi::Communicator> ranks_;
 };
 
 bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
@@ -122,8 +129,8 @@ bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const s
 class RankBackend final : public Backend {
  public:
   /// `of_rank`: who makes the sweeps of a rank; null: its CPU.
-  RankBackend(const Backend* of_rank, Partition partition, const mpi::Communicator& ranks)
-      : of_rank_(of_rank), partition_(partition), ranks_(ranks) {}
+  RankBackend(const Backend* of_rank, Partition partition, std::shared_ptr<const mpi::Communicator> ranks)
+      : of_rank_(of_rank), partition_(partition), ranks_(std::move(ranks)) {}
 
   std::string name() const override { return (of_rank_ != nullptr ? *of_rank_ : cpu_backend()).name(); }
 
@@ -133,7 +140,7 @@ class RankBackend final : public Backend {
     const auto alone = [&](const std::string& why) {
       return std::make_unique<NotedSmoother>(
           cpu_backend().prepare(std::move(mesh), triangles, local, options),
-          why + " by one rank alone, not by the " + std::to_string(ranks_.size()) + " there are");
+          why + " by one rank alone, not by the " + std::to_string(ranks_->size()) + " there are");
     };
     if (mesh.slidable.is_wanted()) {
       return alone("vertices slide");
@@ -149,13 +156,14 @@ class RankBackend final : public Backend {
  private:
   const Backend* of_rank_;
   Partition partition_;
-  const mpi::Communicator& ranks_;
+  std::shared_ptr<const mpi::Communicator> ranks_;
 };
 
 /// The other ranks: take part as often as rank 0 asks them to.
-void follow(const SmoothingOptions& options, Partition partition, const mpi::Communicator& ranks) {
+void follow(const SmoothingOptions& options, Partition partition,
+            const std::shared_ptr<const mpi::Communicator>& ranks) {
   RankCommand command;
-  for (share_command(command, ranks); command.what == RankCommand::What::smooth; share_command(command, ranks)) {
+  for (share_command(command, *ranks); command.what == RankCommand::What::smooth; share_command(command, *ranks)) {
     SmoothingOptions own = options;
     own.guard = command.guard;
     own.progress = {};
@@ -185,25 +193,34 @@ class RanksRelease {
 
 }  // namespace
 
-PipelineResult run_on_first(const PipelineOptions& options, const mpi::Communicator& ranks,
+PipelineResult run_on_first(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks,
                             const std::function<PipelineResult(const PipelineOptions&)>& run) {
-  if (ranks.size() == 1) {
-    return run(options);
-  }
   const Partition partition = options.partition.value_or(Partition::bisect);
-  if (ranks.rank() > 0) {
+  PipelineResult result;
+  std::exception_ptr error;  // of rank 0, between the sweeps: the others listen then
+  if (ranks->rank() > 0) {
     follow(options.smoothing, partition, ranks);
-    return {};
+  } else {
+    const RanksRelease release(*ranks);
+    try {
+      const RankBackend backend(options.smoothing.backend, partition, ranks);
+      PipelineOptions own = options;
+      own.smoothing.backend = ranks->size() > 1 ? &backend : options.smoothing.backend;
+      result = run(own);
+    } catch (...) {
+      error = std::current_exception();
+    }
   }
-  const RanksRelease release(ranks);
-  const RankBackend backend(options.smoothing.backend, partition, ranks);
-  PipelineOptions own = options;
-  own.smoothing.backend = &backend;
-  return run(own);
+  agree(*ranks, [&] {
+    if (error) {
+      std::rethrow_exception(error);
+    }
+  });
+  return result;
 }
 
 PipelineResult run_one_file(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
-  return run_on_first(options, *ranks, &run_pipeline);
+  return run_on_first(options, ranks, &run_pipeline);
 }
 
 }  // namespace trismooth

@@ -144,7 +144,7 @@ class PieceRun {
     if (options_.beside.prepare) {
       own.beside.prepare = [&](const PipelineResult& result) { options_.beside.prepare(with_what_was_read(result)); };
     }
-    result_ = with_what_was_read(run_gathered(files_, own, *ranks_, workers_));
+    result_ = with_what_was_read(run_gathered(files_, own, ranks_, workers_));
   }
 
   /// Collective.
@@ -398,17 +398,7 @@ class PieceRun {
 
   void smooth() {
     points_ = points_of(files_, mesh_);
-    SmoothingResult smoothing = known_to_all([&] {
-      const Stopwatch watch;
-      SmoothingOptions options = mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
-      options.layers = Layers::smooth;  // they are held already
-      mpi::OverlapSmoother smoother(ranks_, topology_->lend_overlap(std::move(regions_.of_overlap), held_), options,
-                                    Sliding{}, mpi::Gather::never, mpi::OverlapSmoother::Owners::ranks);
-      result_.timings_ms.topology += watch.milliseconds();
-      SmoothingResult made = smoother.smooth(PointView(points_), mesh_.storage);
-      topology_->take_back(smoother.take_overlap());
-      return made;
-    });
+    SmoothingResult smoothing = smooth_points();
     agree(*ranks_, [&] {
       if (smoothing.stop_reason == StopReason::cancelled) {
         throw Cancelled();
@@ -424,6 +414,18 @@ class PieceRun {
     timings.transfer_out = smoothing.timings.transfer_out;
     timings.guard = smoothing.timings.commit;
     result_.smoothing = std::move(smoothing);
+  }
+
+  SmoothingResult smooth_points() {
+    const Stopwatch watch;
+    SmoothingOptions options = mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
+    options.layers = Layers::smooth;  // they are held already
+    mpi::OverlapSmoother smoother(ranks_, topology_->lend_overlap(std::move(regions_.of_overlap), held_), options,
+                                  Sliding{}, mpi::Gather::never, mpi::OverlapSmoother::Owners::ranks);
+    result_.timings_ms.topology += watch.milliseconds();
+    SmoothingResult made = smoother.smooth(PointView(points_), mesh_.storage);
+    topology_->take_back(smoother.take_overlap());
+    return made;
   }
 
   void hash(const SmoothingResult& smoothing) {
@@ -496,11 +498,11 @@ class PieceRun {
 }  // namespace
 
 PipelineResult run_pieces(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
-  return ranks->together([&] { return PieceRun(options, FileReading::any, ranks).run(); });
+  return PieceRun(options, FileReading::any, ranks).run();
 }
 
 PipelineResult run_by_ranges(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
-  return ranks->together([&] { return PieceRun(options, FileReading::by_ranges, ranks).run(); });
+  return PieceRun(options, FileReading::by_ranges, ranks).run();
 }
 
 }  // namespace trismooth

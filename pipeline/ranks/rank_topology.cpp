@@ -20,7 +20,7 @@ namespace {
 template <class Function>
 auto naming_file(const std::filesystem::path& path, const Function& function) {
   try {
-    return known_to_all(function);
+    return function();
   } catch (const mpi::KnownToAll& known) {
     try {
       std::rethrow_exception(known.error);
@@ -28,6 +28,8 @@ auto naming_file(const std::filesystem::path& path, const Function& function) {
       throw mpi::KnownToAll{std::make_exception_ptr(ReadError(path, error.what()))};
     } catch (const std::invalid_argument& error) {
       throw mpi::KnownToAll{std::make_exception_ptr(ReadError(path, error.what()))};
+    } catch (...) {
+      throw known;
     }
   }
 }

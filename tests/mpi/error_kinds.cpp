@@ -37,6 +37,8 @@ std::string heard(const Error& error, const ErrorKinds& kinds) {
       return std::string("length_error ") + e.what();
     } catch (const std::logic_error& e) {
       return std::string("logic_error ") + e.what();
+    } catch (const std::bad_alloc& e) {
+      return std::string("bad_alloc ") + e.what();
     } catch (const std::runtime_error& e) {
       return std::string("runtime_error ") + e.what();
     }
@@ -53,7 +55,7 @@ TEST_CASE("errors of one rank are thrown on all as the first kind that includes 
       {heard(std::length_error("long"), {kinds}), "length_error long"},
       {heard(std::invalid_argument("none"), {kinds}), "logic_error none"},
       {heard(std::runtime_error("gone"), {kinds, true}), "runtime_error " + last + "gone"},
-      {heard(std::bad_alloc(), {kinds, true}), "runtime_error " + last + "out of memory"},
+      {heard(std::bad_alloc(), {kinds}), "bad_alloc " + (last.empty() ? "std::bad_alloc" : last + "out of memory")},
       {heard(7, {kinds}), "runtime_error an exception that is no std::exception"},
   }};
   for (const auto& [found, expected] : said) {

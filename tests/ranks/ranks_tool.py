@@ -32,7 +32,12 @@ class RanksTest(tool.ToolTest):
 
     def run_over(self, ranks, *arguments, expect=0):
         """Runs the program on so many ranks; 0: without a launcher."""
-        command = [*(launcher + [str(ranks)] if ranks else []), tool.program, *map(str, arguments)]
+        outcome = self.run_job([*(launcher + [str(ranks)] if ranks else []), tool.program, *map(str, arguments)])
+        self.assertEqual(outcome.code, expect, f"{' '.join(map(str, arguments))}\n{outcome}")
+        return outcome
+
+    def run_job(self, command):
+        """Runs a job, which is to come to an end."""
         with subprocess.Popen(command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, start_new_session=True) as job:
             try:
@@ -41,9 +46,7 @@ class RanksTest(tool.ToolTest):
                 os.killpg(job.pid, signal.SIGKILL)
                 out, err = job.communicate()
                 self.fail(f"{' '.join(command)} hangs\n{err.decode(errors='replace')}")
-        outcome = tool.Outcome(job.returncode, out.decode(errors="replace"), err.decode(errors="replace"))
-        self.assertEqual(outcome.code, expect, f"{' '.join(command)}\n{outcome}")
-        return outcome
+        return tool.Outcome(job.returncode, out.decode(errors="replace"), err.decode(errors="replace"))
 
     def report_over(self, ranks, *arguments):
         self.run_over(ranks, *arguments, "--quiet", "--report", "report.json")
