@@ -110,29 +110,42 @@ std::uint64_t group_of(const MeshPart& part) {
   return static_cast<std::uint64_t>(sums.sums[0]);
 }
 
+/// What the first part invites the others with. NCCL listens for them from then on, with a socket and a thread that
+/// stay.
+struct Invitation {
+  nccl::UniqueId id{};
+  std::int64_t error = 0;  ///< of NCCL, which all throw
+};
+
 /// NCCL's communicator of these parts. It takes NCCL about a second to make one: it is kept for all plans, to the end
 /// of the process. Plans that are used in the same order on all parts, as they have to be, may share it.
 nccl::Communicator communicator_of(const nccl::Library& library, const MeshPart& part) {
   static std::mutex looking;
   static std::map<std::pair<std::uint64_t, int>, nccl::Communicator> made;  // by group and part
   const std::pair key(group_of(part), part.number);
-  nccl::UniqueId id{};
-  if (part.number == 0) {
-    library.check(library.get_unique_id(&id), "ncclGetUniqueId");
-  }
-  id = of_first_part(part, id);
   const auto known = [&]() -> nccl::Communicator {
     const std::lock_guard lock(looking);
     const auto place = made.find(key);
     return place == made.end() ? nullptr : place->second;
   };
   nccl::Communicator communicator = known();
-  if (communicator == nullptr) {
-    // It waits for the other parts, which may be threads of this process: they must not wait for a lock meanwhile.
-    library.check(library.comm_init_rank(&communicator, part.count, id, part.number), "ncclCommInitRank");
-    const std::lock_guard lock(looking);
-    made.emplace(key, communicator);
+  // Where it failed on some of them they all make another one.
+  PartSums lacking;
+  lacking.sums[0] = communicator == nullptr ? 1 : 0;
+  part.links->join(lacking);
+  if (lacking.sums[0] == 0) {
+    return communicator;
   }
+  Invitation invitation;
+  if (part.number == 0) {
+    invitation.error = library.get_unique_id(&invitation.id);
+  }
+  invitation = of_first_part(part, invitation);
+  library.check(static_cast<int>(invitation.error), "ncclGetUniqueId");
+  // It waits for the other parts, which may be threads of this process: they must not wait for a lock meanwhile.
+  library.check(library.comm_init_rank(&communicator, part.count, invitation.id, part.number), "ncclCommInitRank");
+  const std::lock_guard lock(looking);
+  made.insert_or_assign(key, communicator);
   return communicator;
 }
 
