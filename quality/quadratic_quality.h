@@ -19,9 +19,10 @@ struct QuadraticTriangle {
 /// How valid the quadratic triangles of a mesh are: see quadratic_triangle.h.
 struct QuadraticQuality {
   std::int64_t elements = 0;
-  std::int64_t invalid = 0;  ///< those of which it is not certain that they are valid
-  /// The smallest bound of J by that of the straight triangle; minus infinity where one has no area, infinity of none.
+  std::int64_t invalid = 0;  ///< those whose J is somewhere below 0, or whose corners enclose no area
+  /// The smallest J by that of the straight triangle; minus infinity where one has no area, infinity of none.
   double min_jacobian = 0;
+  std::int64_t undecided = 0;  ///< those whose smallest J is 0 to rounding: neither valid nor invalid
 };
 
 /// The nodes of a quadratic triangle, counter-clockwise in the orientation that `is_reversed` says of its triangle.

@@ -8,10 +8,10 @@
 namespace trismooth {
 
 /// Whether a triangle of six nodes, with curved sides, is valid: whether the determinant J of the Jacobian of its
-/// quadratic map from the straight triangle is positive everywhere. J is a polynomial of degree 2, and its smallest
-/// coefficient in the Bernstein basis is below all of its values; where that does not decide, the triangle is cut into
-/// four, whose coefficients are closer. After A. Johnen, J.-F. Remacle and C. Geuzaine, "Geometrical validity of
-/// curvilinear finite elements", Journal of Computational Physics 233 (2013), 359-372.
+/// quadratic map from the straight triangle is positive everywhere. J is a polynomial of degree 2, so its smallest
+/// value is known in closed form: it is at a corner, where J is stationary on a side, or where it is stationary inside.
+/// The coefficients are those in the Bernstein basis, after A. Johnen, J.-F. Remacle and C. Geuzaine, "Geometrical
+/// validity of curvilinear finite elements", Journal of Computational Physics 233 (2013), 359-372.
 ///
 /// These functions are the only definition of it. Coordinates are of the local frame.
 
@@ -22,16 +22,19 @@ using QuadraticNodes = std::array<Point2<double>, 6>;
 /// those that belong to the sides 01, 12 and 20.
 using BernsteinCoefficients = std::array<double, 6>;
 
-/// What is known of J, in units of the local frame.
+/// The smallest value of J, in units of the local frame.
 struct JacobianBound {
   double straight = 0;  ///< J of the straight triangle of the corners, twice its area
-  double lowest = 0;    ///< no value of J is smaller
-  double rounding = 0;  ///< how far rounding may have brought `lowest` off
+  double lowest = 0;    ///< the smallest value of J, but for rounding
+  double rounding = 0;  ///< how far rounding may have brought `lowest` off: some 2e-12 of width times height at most
 
-  /// J is positive everywhere, rounding allowed for. False also where nothing was decided, which is within a few per
-  /// cent of J = 0 in a small part of the triangle.
+  /// J is positive everywhere, rounding allowed for.
   constexpr TRISMOOTH_HOST_DEVICE bool is_valid() const { return lowest > rounding; }
-  /// The smallest J by that of the straight triangle: 1 where sides are straight and middles in the middle, 0 or less
+  /// J is somewhere below 0, rounding allowed for, or the straight triangle has no area. An element may be neither
+  /// valid nor this: where the smallest J is 0 to rounding, as at a crack's tip whose middles are at a quarter of their
+  /// sides.
+  constexpr TRISMOOTH_HOST_DEVICE bool is_invalid() const { return lowest < -rounding || straight == 0; }
+  /// The smallest J by that of the straight triangle: 1 where sides are straight and middles in the middle, below 0
   /// where the element is not valid. Minus infinity where the straight triangle has no area.
   constexpr TRISMOOTH_HOST_DEVICE double scaled() const {
     const double size = straight < 0 ? -straight : straight;
@@ -41,40 +44,48 @@ struct JacobianBound {
 
 namespace quadratic_details {
 
-constexpr TRISMOOTH_HOST_DEVICE double smallest_of(const BernsteinCoefficients& c) {
-  double smallest = c[0];
-  for (int i = 1; i < 6; ++i) {
-    smallest = c[i] < smallest ? c[i] : smallest;
+/// The smallest value between two corners, along a side that has these coefficients.
+constexpr TRISMOOTH_HOST_DEVICE double smallest_on_side(double first, double middle, double second) {
+  const double down_first = first - middle;
+  const double down_second = second - middle;
+  if (down_first > 0 && down_second > 0) {
+    return first - down_first * (down_first / (down_first + down_second));
   }
-  return smallest;
+  return first < second ? first : second;
 }
 
-/// No value of the polynomial is smaller. Cuts the triangle into four, and these again, `cuts` times at most, until it
-/// is known whether all values are above `enough`.
-constexpr TRISMOOTH_HOST_DEVICE double lower_bound(const BernsteinCoefficients& c, double enough, int cuts) {
-  const double smallest = smallest_of(c);
-  // At corners the coefficients are values.
-  const bool is_below = c[0] <= enough || c[1] <= enough || c[2] <= enough;
-  if (smallest > enough || is_below || cuts == 0) {
-    return smallest;
+/// The value where the polynomial has its minimum if that is inside the triangle, else infinity. From corner 0 the
+/// polynomial is c0 + 2 (g1 l1 + g2 l2) + h11 l1^2 + 2 h12 l1 l2 + h22 l2^2. Elimination begins at the larger of h11
+/// and h22, which leaves a small residual however flat the polynomial is in one direction; and what is returned is a
+/// value within the triangle, so it is never below the smallest one.
+constexpr TRISMOOTH_HOST_DEVICE double smallest_inside(const BernsteinCoefficients& c) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double h11 = (c[0] - c[3]) + (c[1] - c[3]);
+  const double h22 = (c[0] - c[5]) + (c[2] - c[5]);
+  const double h12 = (c[0] - c[3]) + (c[4] - c[5]);
+  const double g1 = c[3] - c[0];
+  const double g2 = c[5] - c[0];
+  const bool first_is_larger = h11 >= h22;
+  const double pivot = first_is_larger ? h11 : h22;
+  if (!(pivot > 0)) {
+    return none;
   }
-  const double middle01 = (c[0] + 2 * c[3] + c[1]) / 4;
-  const double middle12 = (c[1] + 2 * c[4] + c[2]) / 4;
-  const double middle20 = (c[2] + 2 * c[5] + c[0]) / 4;
-  const double side0 = (c[0] + c[3] + c[4] + c[5]) / 4;
-  const double side1 = (c[1] + c[3] + c[4] + c[5]) / 4;
-  const double side2 = (c[2] + c[3] + c[4] + c[5]) / 4;
-  const std::array<BernsteinCoefficients, 4> parts{
-      {{c[0], middle01, middle20, (c[0] + c[3]) / 2, side0, (c[0] + c[5]) / 2},
-       {c[1], middle12, middle01, (c[1] + c[4]) / 2, side1, (c[1] + c[3]) / 2},
-       {c[2], middle20, middle12, (c[2] + c[5]) / 2, side2, (c[2] + c[4]) / 2},
-       {middle01, middle12, middle20, side1, side2, side0}}};
-  double lowest = lower_bound(parts[0], enough, cuts - 1);
-  for (int part = 1; part < 4; ++part) {
-    const double bound = lower_bound(parts[part], enough, cuts - 1);
-    lowest = bound < lowest ? bound : lowest;
+  const double factor = h12 / pivot;
+  const double rest = (first_is_larger ? h22 : h11) - factor * h12;
+  if (!(rest > 0)) {
+    return none;
   }
-  return lowest;
+  const double g_pivot = first_is_larger ? g1 : g2;
+  const double g_other = first_is_larger ? g2 : g1;
+  const double other = (factor * g_pivot - g_other) / rest;
+  const double at_pivot = (-g_pivot - h12 * other) / pivot;
+  const double l1 = first_is_larger ? at_pivot : other;
+  const double l2 = first_is_larger ? other : at_pivot;
+  const double l0 = 1 - l1 - l2;
+  if (!(l0 > 0 && l1 > 0 && l2 > 0)) {
+    return none;
+  }
+  return l0 * (c[0] * l0 + 2 * c[3] * l1) + l1 * (c[1] * l1 + 2 * c[4] * l2) + l2 * (c[2] * l2 + 2 * c[5] * l0);
 }
 
 constexpr TRISMOOTH_HOST_DEVICE double larger(double a, double b) {
@@ -83,6 +94,18 @@ constexpr TRISMOOTH_HOST_DEVICE double larger(double a, double b) {
 }
 
 }  // namespace quadratic_details
+
+/// The smallest value of the polynomial on the closed triangle, but for rounding of some 32 times the largest
+/// coefficient. Constant time.
+constexpr TRISMOOTH_HOST_DEVICE double smallest_value(const BernsteinCoefficients& c) {
+  double smallest = quadratic_details::smallest_on_side(c[0], c[3], c[1]);
+  for (const double value :
+       {quadratic_details::smallest_on_side(c[1], c[4], c[2]), quadratic_details::smallest_on_side(c[2], c[5], c[0]),
+        quadratic_details::smallest_inside(c)}) {
+    smallest = value < smallest ? value : smallest;
+  }
+  return smallest;
+}
 
 /// The coefficients of J.
 constexpr TRISMOOTH_HOST_DEVICE BernsteinCoefficients jacobian_coefficients(const QuadraticNodes& nodes) {
@@ -107,12 +130,12 @@ constexpr TRISMOOTH_HOST_DEVICE BernsteinCoefficients jacobian_coefficients(cons
           2 * (cross(to1[2], to2[0]) + cross(to1[0], to2[2]))};
 }
 
-/// What is known of J of the element.
+/// The smallest J of the element. Constant time.
 constexpr TRISMOOTH_HOST_DEVICE JacobianBound jacobian_bound(const QuadraticNodes& nodes) {
-  constexpr int cuts = 2;
   // Differences of nodes are right to half a digit. Derivatives are sums of up to 6 times the largest of them, and a
-  // coefficient is 8 products of two of these: 8 * 6 * 6 * (rounding of some 10 operations) bounds it amply.
-  constexpr double operations = 4096;
+  // coefficient is 8 products of two of these, so it is below 8 * 6 * 6; that times the rounding of some 10 operations
+  // for itself and of some 32 for the smallest value bounds it amply.
+  constexpr double operations = 16384;
   double width = 0;
   double height = 0;
   for (int node = 1; node < 6; ++node) {
@@ -122,7 +145,7 @@ constexpr TRISMOOTH_HOST_DEVICE JacobianBound jacobian_bound(const QuadraticNode
   JacobianBound bound;
   bound.straight = cross(nodes[1] - nodes[0], nodes[2] - nodes[0]);
   bound.rounding = operations * (std::numeric_limits<double>::epsilon() / 2) * width * height;
-  bound.lowest = quadratic_details::lower_bound(jacobian_coefficients(nodes), bound.rounding, cuts);
+  bound.lowest = smallest_value(jacobian_coefficients(nodes));
   return bound;
 }
 

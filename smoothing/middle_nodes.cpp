@@ -1,6 +1,7 @@
 #include "trismooth/smoothing/middle_nodes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trismooth {
 
@@ -22,6 +23,42 @@ void for_each_quadratic_side(std::span<const Triangle> triangles, std::span<cons
 }
 
 }  // namespace
+
+double share_of_side(const std::array<double, 3>& first, const std::array<double, 3>& middle,
+                     const std::array<double, 3>& second) {
+  constexpr double nearest_to_end = 1.0 / 16;
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size = std::max({size, std::abs(first[axis]), std::abs(middle[axis]), std::abs(second[axis])});
+  }
+  if (size == 0) {
+    return 0.5;
+  }
+  // A power of two, so that the share is that of a mesh of any scale. Halves of it do not overflow.
+  const int scale = std::ilogb(size) + 1;
+  std::array<double, 3> side{};
+  std::array<double, 3> part{};
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from = std::scalbn(first[axis], -scale);
+    side[axis] = std::scalbn(second[axis], -scale) - from;
+    part[axis] = std::scalbn(middle[axis], -scale) - from;
+    longest = std::max(longest, std::abs(side[axis]));
+  }
+  if (longest == 0) {
+    return 0.5;
+  }
+  double along = 0;
+  double length = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double unit = side[axis] / longest;
+    along += unit * (part[axis] / longest);
+    length += unit * unit;
+  }
+  const double share = along / length;
+  // Not a number, or infinite, where the side is far shorter than its middle is away.
+  return std::isfinite(share) ? std::clamp(share, nearest_to_end, 1 - nearest_to_end) : 0.5;
+}
 
 std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
                                        std::span<const QuadraticTriangle> quadratics, std::vector<std::uint8_t>& named,

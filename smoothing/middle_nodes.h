@@ -11,24 +11,43 @@
 
 namespace trismooth {
 
-/// A node in the middle of a side of quadratic triangles: it moves by the mean of what the side's ends move.
+/// A node in the middle of a side of quadratic triangles: at the fraction s of the side from its first end to its
+/// second it moves by 1 - s times what the first end moves and s times what the second does.
 struct MiddleNode {
   std::int32_t vertex = 0;
   std::array<std::int32_t, 2> ends{};
+  double share = 0.5;  ///< s, in (0, 1): see share_of_side()
 };
 
-/// By how much a middle moves along an axis on which the ends of its side were and are there.
-constexpr double middle_move(double first_before, double first_now, double second_before, double second_now) {
-  return (first_now - first_before) / 2 + (second_now - second_before) / 2;
+/// The fraction of the side from its first end to its second at which its middle lies in the input: that of the nearest
+/// place on the straight line through the ends. A middle that lies beyond an end, or nearly at it, gets 1/16 or 15/16:
+/// it goes with that end, and the other has a say. 1/2 where the ends coincide. For straight sides the middle stays at
+/// this fraction of the side; curved ones keep how far the middle is off the line, and in which direction. Coordinates
+/// of any unit, x, y and z; no size of them overflows.
+double share_of_side(const std::array<double, 3>& first, const std::array<double, 3>& middle,
+                     const std::array<double, 3>& second);
+
+/// By how much a middle with that share moves along an axis on which the ends of its side were and are there.
+constexpr double middle_move(double share, double first_before, double first_now, double second_before,
+                             double second_now) {
+  return (1 - share) * (first_now - first_before) + share * (second_now - second_before);
 }
 
 /// The middles of quadratic triangles that follow their sides. Holds where that cannot be: a middle of two different
 /// sides, one that is a corner as well, of any other cell, or that `named` holds (a byte a vertex, or empty: none is)
 /// has to stay, and so have the ends of its sides: in `named`, where it is named, else in `in_other_cell` (a byte a
-/// vertex). That has all middles afterwards. Complexity: linear.
+/// vertex). That has all middles afterwards. Their shares are 1/2 until find_shares() finds them. Complexity: linear.
 std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
                                        std::span<const QuadraticTriangle> quadratics, std::vector<std::uint8_t>& named,
                                        std::vector<std::uint8_t>& in_other_cell);
+
+/// Gives the middles their shares. at(vertex): where it is in the input, as std::array<double, 3>. Complexity: linear.
+template <class At>
+void find_shares(std::span<MiddleNode> middles, const At& at) {
+  for (MiddleNode& middle : middles) {
+    middle.share = share_of_side(at(middle.ends[0]), at(middle.vertex), at(middle.ends[1]));
+  }
+}
 
 /// The middles that follow the sides which a vertex is an end of.
 class MiddlesOfEnds {

@@ -81,13 +81,14 @@ SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Smoothin
 /// corners 0, 1 and 2, then the middles of the sides 01, 12 and 20, as VTK (type 22), Gmsh (type 9), Abaqus (CPS6) and
 /// Nastran (CTRIA6) list them; listed in either direction. `points` has all nodes.
 ///
-/// Corners are smoothed as smooth() does it with the triangles of corners. A middle then moves by the mean of what the
-/// ends of its side move: straight sides stay straight, curved ones keep their bend, and a middle whose ends stay keeps
-/// its bits, as on a curved boundary. Where that cannot be the middle stays and the ends of its sides are held: a
-/// middle of two different sides, one that is a corner as well, one of constraints.other_cells, or one that the
-/// constraints name. With options.guard no element that was valid by jacobian_bound() is invalid afterwards
-/// (quadratic_triangle.h, after Johnen, Remacle and Geuzaine): the corners of one that would be go back, with the
-/// middles of their sides.
+/// Corners are smoothed as smooth() does it with the triangles of corners. A middle then follows the ends of its
+/// side: at the fraction s of it, which the input says, by (1 - s) times what one moves and s times what the other
+/// does. Straight sides stay straight, middles at a quarter stay at a quarter, curved sides keep their bend, and a
+/// middle whose ends stay keeps its bits, as on a curved boundary. Where that cannot be the middle stays and the ends
+/// of its sides are held: a middle of two different sides, one that is a corner as well, one of
+/// constraints.other_cells, or one that the constraints name. With options.guard every element that was valid by
+/// jacobian_bound() (quadratic_triangle.h), which finds its smallest Jacobian in closed form, is so afterwards: the
+/// corners of one that would be go back, with the middles of their sides.
 ///
 /// `constraints` are those of smooth(); `regions` has one number a triangle of six nodes. The result counts corners
 /// (moved_vertices) and says which went back; middles are in no count. Throws as SmoothingPlan does, the points are

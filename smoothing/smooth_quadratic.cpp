@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -102,7 +103,8 @@ class FollowedMesh {
         return points[static_cast<std::size_t>(i)].*axis;
       };
       const double from = before_[v].*axis;
-      const double to = from + middle_move(at(before_, first), at(now_, first), at(before_, second), at(now_, second));
+      const double to =
+          from + middle_move(middle.share, at(before_, first), at(now_, first), at(before_, second), at(now_, second));
       const double stored = rounded_to(storage_, to);
       // One that stays keeps its bits.
       return to == from || !std::isfinite(stored) ? from : stored;
@@ -198,13 +200,17 @@ SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::i
   std::vector<std::uint8_t> named = named_vertices(constraints, points.size());
   std::vector<std::uint8_t> in_other_cell(constraints.other_cells.begin(), constraints.other_cells.end());
   in_other_cell.resize(points.size(), 0);
-  const std::vector<MiddleNode> middles = settle_middles(lists.corners, lists.quadratics, named, in_other_cell);
+  std::vector<MiddleNode> middles = settle_middles(lists.corners, lists.quadratics, named, in_other_cell);
   Constraints settled;
   settled.fixed = named;
   settled.other_cells = in_other_cell;
   settled.regions = constraints.regions;
   settled.slide = constraints.slide;
   const std::vector<Point2<double>> before = points.read(workers);
+  find_shares(middles, [&before](std::int32_t vertex) {
+    const Point2<double> p = before[static_cast<std::size_t>(vertex)];
+    return std::array<double, 3>{p.x, p.y, 0};
+  });
   SmoothingResult result = smooth(points, lists.corners, settled, options);
   const Stopwatch watch;
   FollowedMesh mesh(before, points.read(workers), middles, points.storage());

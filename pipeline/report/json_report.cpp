@@ -201,6 +201,7 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   json["regions"] = std::move(regions);
   json["quadratic"] = quadratic ? Json{{"elements", quadratic->elements},
                                        {"invalid", quadratic->invalid},
+                                       {"undecided", quadratic->undecided},
                                        {"min_jacobian", number_json(quadratic->min_jacobian)}}
                                 : Json(nullptr);
   return json;

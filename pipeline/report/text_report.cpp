@@ -216,6 +216,14 @@ std::string quadratic_text(const PipelineResult& result) {
   if (result.quadratic_after) {
     text += fmt::format(" ({} before)", before.invalid);
   }
+  if (now.undecided > 0 || before.undecided > 0) {
+    text +=
+        fmt::format("; of {} the smallest Jacobian is 0 to rounding, as where middles are at a quarter of their sides",
+                    now.undecided);
+    if (result.quadratic_after) {
+      text += fmt::format(" ({} before)", before.undecided);
+    }
+  }
   text += fmt::format("; smallest Jacobian {:.3g} of that of straight sides", now.min_jacobian);
   if (result.quadratic_after) {
     text += fmt::format(" ({:.3g} before)", before.min_jacobian);

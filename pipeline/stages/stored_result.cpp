@@ -28,8 +28,9 @@ void follow_side(const MeshDocument& document, const MiddleNode& middle, std::sp
     const std::size_t first = 3 * static_cast<std::size_t>(middle.ends[0]) + axis;
     const std::size_t second = 3 * static_cast<std::size_t>(middle.ends[1]) + axis;
     const std::size_t i = 3 * static_cast<std::size_t>(middle.vertex) + axis;
-    points[i] = stored_coordinate(document, input[i],
-                                  input[i] + middle_move(input[first], points[first], input[second], points[second]));
+    points[i] = stored_coordinate(
+        document, input[i],
+        input[i] + middle_move(middle.share, input[first], points[first], input[second], points[second]));
   }
 }
 

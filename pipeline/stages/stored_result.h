@@ -18,8 +18,8 @@ double stored_coordinate(const MeshDocument& document, double before, double now
 bool is_stored_otherwise(const RunState& run);
 
 /// Brings points (x, y, z each) that were smoothed to what the file will hold. `input`: those that were read. Middles
-/// of sides get the mean of the moves of the side's ends, so that straight sides stay straight; all coordinates that
-/// are not those of the input are rounded to what the file holds.
+/// of sides follow the side's ends (see middle_nodes.h of smoothing), so that straight sides stay straight; all
+/// coordinates that are not those of the input are rounded to what the file holds.
 void fit_to_file(RunState& run, std::span<const double> input, std::span<double> points);
 
 /// Brings the document to what the file will hold of the result: see fit_to_file(). Then the never-worse guard runs its

@@ -234,7 +234,7 @@ void connect_mesh(RunState& run) {
   std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
-    settle_middles(mesh, fixed);
+    settle_middles(mesh, document.points, fixed);
   }
   if (!mesh.merged.empty()) {
     add_vertices(fixed, ids, document.point_count());

@@ -38,7 +38,7 @@ struct Settled {
 
 Settled settled(const MeshDocument& document, Bytes named = {}) {
   Settled result{planar_mesh(document, "mesh.vtu"), std::move(named)};
-  settle_middles(result.mesh, result.named);
+  settle_middles(result.mesh, document.points, result.named);
   return result;
 }
 
