@@ -1,5 +1,7 @@
 #include "trismooth/pipeline/input/planar_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -18,19 +20,67 @@ namespace {
 constexpr std::int64_t cell_grain = 8192;
 
 bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  return vertices.size() == 3 && (type == cell_type::triangle || type == cell_type::polygon);
+  return vertices.size() == 3 &&
+         (type == cell_type::triangle || type == cell_type::polygon || type == cell_type::lagrange_triangle);
 }
 
 bool is_quadratic(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  return vertices.size() == 6 && type == cell_type::quadratic_triangle;
+  return vertices.size() == 6 && (type == cell_type::quadratic_triangle || type == cell_type::lagrange_triangle);
+}
+
+bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  constexpr std::uint8_t biquadratic_triangle = 34;
+  return type == biquadratic_triangle || (type == cell_type::lagrange_triangle && vertices.size() > 6);
 }
 
 bool repeats_a_vertex(std::span<const std::int32_t> triangle) {
   return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
 }
 
+/// Of four corners: that which is the next one as well, where the other three differ.
+std::optional<std::size_t> repeated_corner(std::span<const std::int32_t> quad) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::array three{quad[(i + 1) % 4], quad[(i + 2) % 4], quad[(i + 3) % 4]};
+    if (quad[i] == three[0]) {
+      return repeats_a_vertex(three) ? std::nullopt : std::optional(i);
+    }
+  }
+  return std::nullopt;
+}
+
+/// The triangle of a quadrilateral of four or eight nodes that repeats a corner.
+std::optional<CellTriangle> triangle_of_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  const bool is_straight = vertices.size() == 4 && (type == cell_type::quad || type == cell_type::polygon);
+  if (!is_straight && !(vertices.size() == 8 && type == cell_type::quadratic_quad)) {
+    return std::nullopt;
+  }
+  const std::optional<std::size_t> repeated = repeated_corner(vertices);
+  if (!repeated) {
+    return std::nullopt;
+  }
+  // One of the two is left out, and with it the side between them, whose middle is there as well.
+  if (!is_straight && vertices[4 + *repeated] != vertices[*repeated]) {
+    return std::nullopt;
+  }
+  CellTriangle triangle{{}, std::nullopt, true};
+  std::array<std::int32_t, 3> middles{};
+  const std::size_t left_out = std::min<std::size_t>(*repeated + 1, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.corners[i] = vertices[i < left_out ? i : i + 1];
+    middles[i] = is_straight ? -1 : vertices[4 + (i < *repeated ? i : i + 1)];
+  }
+  if (!is_straight) {
+    triangle.middles = middles;
+  }
+  return triangle;
+}
+
+std::string counted(std::int64_t count, const std::string& one, const std::string& several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
 std::string counted(std::int64_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+  return counted(count, noun, noun + "s");
 }
 
 /// Adds the triangles of a strip; false where it has none.
@@ -72,6 +122,7 @@ bool take_triangles(const CellList& cells, PlanarMesh& mesh, Workers& workers) {
 
 void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers) {
   std::size_t first_repeating = 0;
+  std::int64_t quads = 0;
   mesh.in_other_cell.assign(document.point_count(), 0);
   mesh.in_cell.assign(document.point_count(), 0);
   const std::vector<std::int32_t>& connectivity = document.cells.connectivity;
@@ -90,20 +141,19 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
     if (document.cells.types[c] == cell_type::triangle_strip && add_strip(vertices, c, mesh)) {
       continue;
     }
-    const bool quadratic = is_quadratic(document.cells.types[c], vertices);
-    const bool triangular = quadratic || is_triangle(document.cells.types[c], vertices);
-    if (triangular && !repeats_a_vertex(vertices)) {
-      if (quadratic) {
-        mesh.quadratics.push_back(
-            {static_cast<std::int32_t>(mesh.triangles_of_cells.size()), {vertices[3], vertices[4], vertices[5]}});
+    if (const auto triangle = triangle_of_cell(document.cells.types[c], vertices)) {
+      if (triangle->middles) {
+        mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.triangles_of_cells.size()), *triangle->middles});
       }
-      mesh.triangles_of_cells.push_back({vertices[0], vertices[1], vertices[2]});
+      quads += triangle->is_quad ? 1 : 0;
+      mesh.triangles_of_cells.push_back(triangle->corners);
       mesh.cells.push_back(static_cast<std::int32_t>(c));
       continue;
     }
-    if (triangular && mesh.repeating_triangles++ == 0) {
+    if (is_flat_triangle(document.cells.types[c], vertices) && mesh.repeating_triangles++ == 0) {
       first_repeating = c;
     }
+    mesh.high_order_triangles += is_high_order(document.cells.types[c], vertices) ? 1 : 0;
     ++mesh.other_cells;
     for (const std::int32_t v : vertices) {
       mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
@@ -111,6 +161,17 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
   }
   mesh.triangles = mesh.triangles_of_cells;
   mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating_triangles, first_repeating);
+  if (quads > 0) {
+    mesh.notes.push_back(counted(quads, "quadrilateral") +
+                         (quads == 1 ? " repeats a corner: it is smoothed as the triangle that it is"
+                                     : " repeat a corner: they are smoothed as the triangles that they are"));
+  }
+  if (mesh.high_order_triangles > 0) {
+    mesh.notes.push_back(
+        counted(mesh.high_order_triangles, "of these cells is a triangle", "of these cells are triangles") +
+        " of seven, ten or more nodes (cubic triangles and the like), which are not smoothed: save the "
+        "mesh with elements of order 1 or 2");
+  }
 }
 
 /// Named boundaries hold their vertices as line cells do.
@@ -148,7 +209,8 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
   PlanarMesh mesh;
   sort_cells(document, mesh, workers);
   hold_named_sides(document, mesh);
-  require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path);
+  require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path,
+                    mesh.high_order_triangles);
   if (mesh.triangles.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
   }
@@ -157,18 +219,42 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
 
 }  // namespace
 
+std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  const bool quadratic = is_quadratic(type, vertices);
+  if (!quadratic && !is_triangle(type, vertices)) {
+    return triangle_of_quad(type, vertices);
+  }
+  if (repeats_a_vertex(vertices)) {
+    return std::nullopt;
+  }
+  CellTriangle triangle{{vertices[0], vertices[1], vertices[2]}, std::nullopt};
+  if (quadratic) {
+    triangle.middles = {vertices[3], vertices[4], vertices[5]};
+  }
+  return triangle;
+}
+
+bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  return (is_triangle(type, vertices) || is_quadratic(type, vertices)) && repeats_a_vertex(vertices);
+}
+
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices) {
   if (type == cell_type::triangle_strip) {
     std::int64_t count = 0;
     for_each_strip_triangle(vertices, [&count](const Triangle&) { ++count; });
     return count;
   }
-  return (is_triangle(type, vertices) || is_quadratic(type, vertices)) && !repeats_a_vertex(vertices) ? 1 : 0;
+  return triangle_of_cell(type, vertices) ? 1 : 0;
 }
 
-void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path) {
+void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path,
+                       std::int64_t high_order) {
   if (triangles == 0 && cells > 0) {
-    throw ReadError(path, "holds " + counted(cells, "cell") + " but no triangle; only triangle meshes can be smoothed");
+    throw ReadError(path, "holds " + counted(cells, "cell") + " but no triangle" +
+                              (high_order > 0 ? " of three or six nodes; " + counted(high_order, "has", "have") +
+                                                    " seven, ten or more (cubic triangles and the like), which are not "
+                                                    "smoothed: save the mesh with elements of order 1 or 2"
+                                              : "; only triangle meshes can be smoothed"));
   }
 }
 

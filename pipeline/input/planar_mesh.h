@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -46,6 +47,7 @@ struct PlanarMesh {
   std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;               ///< cells that are not triangles
   std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
+  std::int64_t high_order_triangles = 0;      ///< those of them that are triangles of seven nodes, of ten, or of more
   std::vector<std::string> notes;             ///< what the user should know, one sentence each
 
   /// Where a vertex lies in the plane, or on the map, that is stored there.
@@ -58,11 +60,28 @@ struct PlanarMesh {
   }
 };
 
+/// A cell as a triangle.
+struct CellTriangle {
+  Triangle corners;
+  std::optional<std::array<std::int32_t, 3>> middles;  ///< of the sides 01, 12 and 20, where it has such
+  bool is_quad = false;  ///< the cell is a quadrilateral that repeats a corner, as Ansys and Abaqus write triangles
+};
+
+/// The triangle that a cell is, corners in the cell's order, but for strips: triangles of three or six nodes, VTK's
+/// Lagrange triangles (type 69) of order 1 and 2 among them, polygons of three, and quadrilaterals of four or eight
+/// nodes of which two corners that follow each other are the same vertex, and no other ones. Constant time.
+std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices);
+
+/// Whether the cell would be a triangle, did it not repeat a corner, so that it has no area.
+bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices);
+
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 
-/// Throws ReadError naming `path` for a mesh of that many cells, of which none is a triangle.
-void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path);
+/// Throws ReadError naming `path` for a mesh of that many cells, of which none is a triangle that can be smoothed;
+/// `high_order` of them are triangles of more than six nodes.
+void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path,
+                       std::int64_t high_order = 0);
 
 /// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
 void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path);
@@ -71,12 +90,12 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
 Storage storage_of(const MeshDocument& document);
 
 /// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
-/// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says. A triangle that
-/// repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says so. Sides that are named
-/// boundaries (named_sides.h) hold their vertices as line cells do. Throws ReadError
-/// naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in
-/// it (near the largest double), or the document holds cells but no triangle. A document without any cell is fine:
-/// nothing to smooth. Complexity: linear.
+/// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says; see
+/// triangle_of_cell() for the others. A note says how many quadrilaterals are triangles, and names triangles of more
+/// nodes. A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says
+/// so. Sides that are named boundaries (named_sides.h) hold their vertices as line cells do. Throws ReadError naming `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no
+/// finite coordinates in it (near the largest double), or the document holds cells but no triangle. A document without
+/// any cell is fine: nothing to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// The same on the calling thread.

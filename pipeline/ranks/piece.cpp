@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "trismooth/base/cell_list.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
 
 namespace trismooth {
 
@@ -20,9 +21,8 @@ OwnCells count_own_cells(const Piece& piece) {
     }
     ++count.cells;
     if (has_triangles[c] == 0) {
-      const bool is_triangular = cells.types[c] == cell_type::triangle || cells.types[c] == cell_type::polygon;
       ++count.others;
-      if (is_triangular && cells[c].size() == 3 && count.repeating++ == 0) {
+      if (is_flat_triangle(cells.types[c], cells[c]) && count.repeating++ == 0) {
         count.first_repeating = static_cast<std::int64_t>(c);
       }
     }
