@@ -69,7 +69,8 @@ class AdcircReader {
         document_.points[3 * node] = next_site("x", 3 * node);
         document_.points[3 * node + 1] = next_site("y", 3 * node + 1);
         document_.points[3 * node + 2] = 0;
-        depths[node] = next_site("the depth", 3 * node + 2);
+        depths[node] = lines_.next_number_or_none("the depth");
+        sites_.offsets[3 * node + 2] = lines_.value_offset();
       }
     }
     ids_.emplace(ids);
@@ -92,24 +93,25 @@ class AdcircReader {
     if (node_count_ == 0) {
       return true;
     }
-    const auto end = plain_rows_.read(
-        scanner_.offset(), node_count_, node_numbers, [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-          bool plain = true;
-          for (std::size_t node = first; node < last && plain; ++node) {
-            std::array<double, 3> values{};
-            plain = numbers.next(ids[node]);
-            for (std::size_t i = 0; i < 3; ++i) {
-              plain = plain && !numbers.at_end_of_line() && numbers.next(values[i]) && std::isfinite(values[i]);
-              sites_.offsets[3 * node + i] = numbers.token_offset();
-            }
-            document_.points[3 * node] = values[0];
-            document_.points[3 * node + 1] = values[1];
-            document_.points[3 * node + 2] = 0;
-            depths[node] = values[2];
-            plain = plain && numbers.at_end_of_line();
-          }
-          return plain;
-        });
+    const auto end = plain_rows_.read(scanner_.offset(), node_count_, node_numbers,
+                                      [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+                                        bool plain = true;
+                                        for (std::size_t node = first; node < last && plain; ++node) {
+                                          std::array<double, 3> values{};
+                                          plain = numbers.next(ids[node]);
+                                          for (std::size_t i = 0; i < 3; ++i) {
+                                            plain = plain && !numbers.at_end_of_line() && numbers.next(values[i]) &&
+                                                    (std::isfinite(values[i]) || (i == 2 && std::isnan(values[i])));
+                                            sites_.offsets[3 * node + i] = numbers.token_offset();
+                                          }
+                                          document_.points[3 * node] = values[0];
+                                          document_.points[3 * node + 1] = values[1];
+                                          document_.points[3 * node + 2] = 0;
+                                          depths[node] = values[2];
+                                          plain = plain && numbers.at_end_of_line();
+                                        }
+                                        return plain;
+                                      });
     if (end) {
       scanner_.resume(end->last_number, end->offset);
     }

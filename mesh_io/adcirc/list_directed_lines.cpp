@@ -107,6 +107,15 @@ double ListDirectedLines::next_number(std::string_view what) {
   return *number;
 }
 
+double ListDirectedLines::next_number_or_none(std::string_view what) {
+  const std::string_view value = next_value(what);
+  const std::optional<double> number = parse_fortran_number<double>(value);
+  if (!number || std::isinf(*number)) {
+    fail("expected " + std::string(what) + " (a finite number or nan), got " + quoted(value));
+  }
+  return *number;
+}
+
 std::optional<std::int64_t> ListDirectedLines::next_integer_if_any() {
   std::size_t begin = 0;
   const std::string_view value = peek_value(begin);

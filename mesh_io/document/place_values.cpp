@@ -14,7 +14,7 @@ bool holds_place_values(const DataArray& array) {
     return false;
   }
   for (std::size_t row = 0; row < array.rows(); ++row) {
-    if (!std::isfinite(array.value(row))) {
+    if (std::isinf(array.value(row))) {
       return false;
     }
   }

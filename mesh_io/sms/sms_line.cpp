@@ -66,4 +66,13 @@ double SmsLine::next_number(std::string_view what) {
   return *number;
 }
 
+double SmsLine::next_number_or_none(std::string_view what) {
+  const std::string_view word = require_word(what);
+  const auto number = parse_fortran_number<double>(word);
+  if (!number || std::isinf(*number)) {
+    fail("expected " + std::string(what) + " (a finite number or nan), got " + quoted(word));
+  }
+  return *number;
+}
+
 }  // namespace trismooth

@@ -20,6 +20,8 @@ class SmsLine {
   /// The next word as a number; fails where there is none.
   std::int64_t next_integer(std::string_view what);
   double next_number(std::string_view what);
+  /// The same, or not-a-number, which stands for no value.
+  double next_number_or_none(std::string_view what);
 
   /// Whether the word that was read last stood in quotation marks.
   bool is_quoted() const { return is_quoted_; }

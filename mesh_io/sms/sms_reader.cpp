@@ -93,7 +93,7 @@ class SmsReader {
       sites_.offsets.push_back(line.word_offset());
     }
     document_.points.push_back(0);
-    elevations_.push_back(line.next_number("z"));
+    elevations_.push_back(line.next_number_or_none("z"));
     sites_.offsets.push_back(line.word_offset());
   }
 

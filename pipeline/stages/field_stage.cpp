@@ -96,7 +96,7 @@ void move_heights(RunState& run, std::span<const Triangle> triangles, std::span<
     heights[v] = document.points[3 * v + 2];
   }
   const DataArray read = make_data_array("z", 1, std::move(heights));
-  const DataArray now = interpolated(read, triangles, moved, places, run.workers);
+  const DataArray now = interpolated(read, triangles, moved, places, run.workers).array;
   for (const std::int32_t vertex : moved) {
     const auto v = static_cast<std::size_t>(vertex);
     if (now.value(v) != read.value(v)) {
@@ -148,8 +148,15 @@ void move_fields(RunState& run, const LocalPoints& input) {
   }
   for (const std::size_t array : run.fields) {
     DataArray& field = run.document.point_arrays[array];
-    field = interpolated(field, mesh.triangles(), moved, places, run.workers);
-    run.result.fields.push_back({field.name, found});
+    TransferredField transferred = interpolated(field, mesh.triangles(), moved, places, run.workers);
+    field = std::move(transferred.array);
+    run.result.fields.push_back({field.name, found - transferred.kept_vertices});
+    if (const std::int64_t kept = transferred.kept_vertices; kept > 0) {
+      run.note(fmt::format(
+          "{} that moved {} as read in '{}': at {} there is no value ({}), with which none is interpolated",
+          kept == 1 ? "1 vertex" : fmt::format("{} vertices", kept), kept == 1 ? "stays" : "stay", field.name,
+          kept == 1 ? "a corner of its place" : "corners of their places", transferred.missing));
+    }
   }
   run.result.timings_ms.fields += watch.milliseconds();
 }

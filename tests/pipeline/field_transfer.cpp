@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -56,7 +57,7 @@ TEST_CASE("each component is alone, others keep their bits, and float32 stays fl
   const std::vector<MeshPlace> places{{0, {0.5, 0.25, 0.25}}, {1, {0, 0, 1}}, {}};
   Workers workers(1);
   const DataArray wind = make_data_array("wind", 2, std::vector<float>{1, 10, 2, 20, 0.1F, 40, 8, 80});
-  const DataArray result = interpolated(wind, triangles, vertices, places, workers);
+  const DataArray result = interpolated(wind, triangles, vertices, places, workers).array;
   CHECK(result.name == "wind");
   CHECK(result.type == trismooth::ScalarType::float32);
   const auto values = result.as<float>();
@@ -66,3 +67,47 @@ TEST_CASE("each component is alone, others keep their bits, and float32 stays fl
 }
 
 }  // namespace field_transfer_test
+
+TEST_CASE("values that stand for none are never blended: a vertex beside one keeps its own") {
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}};
+  const std::vector<std::int32_t> vertices{0, 3};
+  const std::vector<MeshPlace> places{{0, {0.25, 0.5, 0.25}}, {1, {0.5, 0.25, 0.25}}};
+  trismooth::Workers workers(2);
+  for (const double none : {-99999.0, -9999.0, -999.0, 99999.0, 1e20, 1e30, -1e30, 9.969209968386869e36,
+                            std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                            static_cast<double>(std::numeric_limits<float>::max())}) {
+    CAPTURE(none);
+    // Vertex 0 has none and is of the first triangle alone.
+    const std::vector<double> read{none, 4, 8, 16};
+    const DataArray field = trismooth::make_data_array("depth", 1, std::vector<double>(read));
+    const auto result = interpolated(field, triangles, vertices, places, workers);
+    CHECK(result.kept_vertices == 1);
+    CHECK(result.array.value(3) == 8);
+    CHECK(std::memcmp(result.array.bytes.data(), field.bytes.data(), sizeof(double)) == 0);
+    CHECK_FALSE(result.missing.empty());
+    // In single precision too, where its type can hold it.
+    const DataArray single =
+        trismooth::make_data_array("depth", 1, std::vector<float>{static_cast<float>(none), 4, 8, 16});
+    CHECK(interpolated(single, triangles, vertices, places, workers).kept_vertices == 1);
+  }
+}
+
+TEST_CASE("numbers that only look like none are numbers: those that others stand beside") {
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const std::vector<std::int32_t> vertices{0};
+  const std::vector<MeshPlace> places{{0, {0.5, 0.5, 0}}};
+  trismooth::Workers workers(1);
+  struct Case {
+    std::vector<double> values;
+    double expected;
+  };
+  for (const Case& c :
+       {Case{{-9999, -9500, 0, -12000}, -9749.5}, Case{{999, 1, 5, 7}, 500}, Case{{-999, -950, 0, 3}, -974.5},
+        Case{{-9999, -9999, -9999, -9999}, -9999}, Case{{1e30, 2e30, 5e30, 1.05e30}, 1.5e30}}) {
+    CAPTURE(c.values);
+    const DataArray field = trismooth::make_data_array("field", 1, std::vector<double>(c.values));
+    const auto result = interpolated(field, triangles, vertices, places, workers);
+    CHECK(result.kept_vertices == 0);
+    CHECK(result.array.value(0) == c.expected);
+  }
+}
