@@ -225,7 +225,8 @@ class CudaBackend final : public Backend {
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
     require_device();
-    return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution), options.layers);
+    return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution),
+                                options.used_layers());
   }
 
   std::unique_ptr<PreparedSmoother> prepare_mesh(std::int32_t vertex_count, std::span<const Triangle> triangles,

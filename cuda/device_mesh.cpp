@@ -188,7 +188,7 @@ class Plan::Implementation {
 
   void find_layers(const Point2<double>* local) {
     std::vector<std::int32_t> held;
-    layers_ = topology_.hold_layers(local, options_.layers, held);
+    layers_ = topology_.hold_layers(local, options_.used_layers(), held);
     if (!held.empty() && slide_.along != Slide::off) {
       slidable_.wait();
       hold_otherwise(near_, held);

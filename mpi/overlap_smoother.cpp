@@ -134,7 +134,7 @@ void OverlapSmoother::count_free() {
 }
 
 void OverlapSmoother::find_layers(std::span<const Point2<double>> points) {
-  layers_ = hold_layers(overlap_, points, options_.layers, fixed_, *communicator_, *workers_);
+  layers_ = hold_layers(overlap_, points, options_.used_layers(), fixed_, *communicator_, *workers_);
   count_free();
   communicator_->on_all([&] {
     if (is_gathered_) {

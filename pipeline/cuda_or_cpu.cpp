@@ -144,7 +144,7 @@ std::optional<MeshRings> CudaOrCpu::find_rings(std::span<const Point2<double>> l
   } catch (const DeviceError& error) {
     // Found here, whoever else could have: so the note is with the rings that it is about.
     Workers workers(options.threads);
-    MeshRings found = find_mesh_rings(local, triangles, constraints, workers, options.layers);
+    MeshRings found = find_mesh_rings(local, triangles, constraints, workers, options.used_layers());
     found.note = "the CPU found the rings: " + failure_note(error);
     return found;
   }

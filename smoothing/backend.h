@@ -32,9 +32,9 @@ class PreparedSmoother {
   /// never-worse guard. Results are rounded to `storage`; vertices that do not move keep their bits. `frame` is the
   /// local frame of the vertices that cells use, for a caller who has found it already; without it, it is found here.
   /// Who made the mesh ready by prepare() has seen to it that all coordinates are finite; prepare_mesh() leaves that to
-  /// this call, which throws MeshError. Whoever has the triangles counts the invalid ones of the result: the caller, but
-  /// of a mesh prepared by prepare_mesh() the smoother. Where it throws DeviceError, points prepared by prepare() may have been written
-  /// in part, those prepared by prepare_mesh() are untouched.
+  /// this call, which throws MeshError. Whoever has the triangles counts the invalid ones of the result: the caller,
+  /// but of a mesh prepared by prepare_mesh() the smoother. Where it throws DeviceError, points prepared by prepare()
+  /// may have been written in part, those prepared by prepare_mesh() are untouched.
   virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                                  const std::optional<LocalFrame>& frame) = 0;
 

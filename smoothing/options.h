@@ -83,10 +83,11 @@ enum class TargetShape : std::uint8_t {
   input,    ///< as flat as the edges nearby are in the input: for layers that are flat on purpose
 };
 
-/// What becomes of triangles that are flat on purpose: stretches of triangles four times as long as high and more, all in
-/// one direction, with angles near 90 degrees: boundary layers, thin insulation.
+/// What becomes of triangles that are flat on purpose: stretches of triangles four times as long as high and more, all
+/// in one direction, with angles near 90 degrees: boundary layers, thin insulation.
 enum class Layers : std::uint8_t {
-  automatic,  ///< their vertices are held; other stretches that are flat in one direction are smoothed, and counted
+  automatic,  ///< their vertices are held; other stretches that are flat in one direction are smoothed, and counted.
+              ///< With TargetShape::input, which aims at such shapes, as `smooth`
   keep,       ///< the vertices of these are held as well
   smooth,     ///< nothing is looked for: all are smoothed
 };
@@ -233,6 +234,12 @@ struct SmoothingOptions {
     return topology == Topology::device ||
            // By the paper's version one thread of the device finds it, which is for comparison.
            (topology == Topology::automatic && execution == Execution::resident);
+  }
+
+  /// What becomes of layers with the method and its target.
+  [[nodiscard]] Layers used_layers() const {
+    const bool aims_at_layers = method == Method::mean_ratio && mean_ratio.target == TargetShape::input;
+    return layers == Layers::automatic && aims_at_layers ? Layers::smooth : layers;
   }
 
   /// Whether sizes are asked for, and heard.

@@ -97,7 +97,7 @@ struct SlidingResult {
 struct LayersResult {
   std::int64_t kept = 0;   ///< vertices that are held for that and for nothing else
   double kept_aspect = 0;  ///< the largest aspect of the triangles around them; 0: there is none
-  std::int64_t left = 0;   ///< vertices inside of stretches that are flat in one direction and are smoothed all the same
+  std::int64_t left = 0;  ///< vertices inside of stretches that are flat in one direction and are smoothed all the same
   double left_aspect = 0;  ///< the largest aspect of their triangles; 0: there is none
 };
 

@@ -182,7 +182,8 @@ void hold_named_sides(const MeshDocument& document, PlanarMesh& mesh) {
   }
   if (sides.count() > 0) {
     mesh.notes.push_back("named boundaries on sides of triangles (" + sides.names + "; " +
-                         counted(sides.count(), "side") + "): their vertices are held, or slide along them with --slide");
+                         counted(sides.count(), "side") +
+                         "): their vertices are held, or slide along them with --slide");
   }
 }
 

@@ -248,7 +248,8 @@ class PieceRun {
                       std::back_inserter(result_.input.point_sets));
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
-    layers_ = mpi::hold_layers(topology_->overlap(), points, options_.smoothing.layers, held_, *ranks_, workers_);
+    layers_ =
+        mpi::hold_layers(topology_->overlap(), points, options_.smoothing.used_layers(), held_, *ranks_, workers_);
     local_ = entered(frame_, points).points;
     reversed_ = topology_->reversed(local_, workers_);
     summarise();
@@ -372,7 +373,7 @@ class PieceRun {
     if (std::string warning = warning_of_options_without_effect(options_); !warning.empty()) {
       say_warning(std::move(warning));
     }
-    if (std::string warning = warning_of_layers(layers_, options_.smoothing); !warning.empty()) {
+    if (std::string warning = warning_of_layers(layers_); !warning.empty()) {
       say_warning(std::move(warning));
     }
     const CoarseBoundary coarse = find_coarse_boundary(*topology_, local_, reversed_, held_, workers_.count());

@@ -170,8 +170,9 @@ MeshRings rings_of(RunState& run, const Constraints& constraints) {
     return rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, [&] {
       return run.smoothing.topology == Topology::halfedge
                  ? find_halfedge_rings(run.document.points, run.local.points, mesh.triangles, constraints, run.workers,
-                                       run.smoothing.layers)
-                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, run.smoothing.layers);
+                                       run.smoothing.used_layers())
+                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers,
+                                   run.smoothing.used_layers());
     });
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());

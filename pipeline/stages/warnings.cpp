@@ -105,9 +105,8 @@ std::string note_of_layers(const LayersResult& layers) {
                                 layers.kept == 1 ? "is" : "are", layers.kept == 1 ? "it" : "them");
 }
 
-std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions& options) {
-  const bool keeps_shapes = options.method == Method::mean_ratio && options.mean_ratio.target == TargetShape::input;
-  return layers.left == 0 || keeps_shapes
+std::string warning_of_layers(const LayersResult& layers) {
+  return layers.left == 0
              ? std::string()
              : fmt::format(
                    "{} {} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
@@ -121,7 +120,7 @@ void warn_before_smoothing(RunState& run) {
   warn_of_precision(run);
   warn_of_options_without_effect(run);
   warn_of_boundary(run);
-  if (std::string warning = warning_of_layers(run.found.layers, run.smoothing); !warning.empty()) {
+  if (std::string warning = warning_of_layers(run.found.layers); !warning.empty()) {
     run.warn(std::move(warning));
   }
   warn_of_projection(run);

@@ -27,7 +27,7 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// What was held since it is flat on purpose, and what is smoothed though it is flat in one direction, with the way
 /// out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
-std::string warning_of_layers(const LayersResult& layers, const SmoothingOptions& options);
+std::string warning_of_layers(const LayersResult& layers);
 
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_dropped_annotations(std::span<const std::string> names);

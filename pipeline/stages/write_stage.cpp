@@ -58,8 +58,7 @@ std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) 
   std::vector<DataArray> metrics = metric_annotations(run.options.annotated_metrics, run.view(), mesh.cells,
                                                       run.document.cells.size(), run.workers, suffix);
   if (run.options.annotated_size_ratio) {
-    metrics.push_back(
-        size_ratio_annotation(run.view(), mesh.cells, run.document.cells.size(), run.workers, suffix));
+    metrics.push_back(size_ratio_annotation(run.view(), mesh.cells, run.document.cells.size(), run.workers, suffix));
   }
   for (DataArray& metric : mesh.repeats.empty() ? std::span<DataArray>{} : std::span(metrics)) {
     const std::span<const double> read = metric.as<double>();

@@ -21,7 +21,7 @@ import trismooth
 
 ARGUMENTS = (
     "points|triangles|regions|fixed|other_cells|size|out|method|form|backend|layout|execution|order|topology|precision|"
-    "evaluation|guard|untangle|max_sweeps|tolerance|time_limit|target_quality|threads|size_weight|power|target|"
+    "evaluation|guard|untangle|layers|max_sweeps|tolerance|time_limit|target_quality|threads|size_weight|power|target|"
     "record_min_shape|progress|stream|inplace|n_points|quality|slide|corner_angle|deviation|curve|slide_coincident|"
     "lines|line_tags|links"
 )
@@ -133,6 +133,7 @@ class Maker:
             "evaluation": ["changed", "all"],
             "guard": [True, False],
             "untangle": [True, False, "auto"],
+            "layers": ["auto", "keep", "smooth"],
             "max_sweeps": [1, 5, 50],
             "tolerance": [0.0, 1e-6, 0.1],
             "time_limit": [None, 0.0, 1e-3],

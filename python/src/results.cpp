@@ -57,6 +57,16 @@ nb::object untangling_of(const Outcome& outcome) {
   return counts;
 }
 
+nb::dict layers_of(const Outcome& outcome) {
+  const LayersResult& layers = outcome.smoothing.layers;
+  nb::dict found;
+  found["kept"] = layers.kept;
+  found["kept_aspect"] = layers.kept_aspect;
+  found["left"] = layers.left;
+  found["left_aspect"] = layers.left_aspect;
+  return found;
+}
+
 nb::list reverted_of(const Outcome& outcome) {
   nb::list vertices;
   for (const auto& [vertex, position] : outcome.smoothing.reverted) {
@@ -171,6 +181,7 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("reverted_vertices", &reverted_of)
       .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
       .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
+      .def_prop_ro("layers", &layers_of)
       .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())
       .def_prop_ro("degenerate", of_smoothing<&SmoothingResult::degenerate>())
       .def_prop_ro("colours", of_smoothing<&SmoothingResult::colours>())

@@ -28,6 +28,24 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     return [f"the result has {' and '.join(found)}: {why}"]
 
 
+def layers_notes(outcome: _core.Outcome) -> List[str]:
+    """What to say of triangles that are flat in one direction."""
+    layers = outcome.layers
+    notes = []
+    if layers["kept"] > 0:
+        notes.append(
+            f"vertices of layers that are flat on purpose (aspect {layers['kept_aspect']:.3g} at most) are held: "
+            f"{layers['kept']:,}; layers='smooth' moves them"
+        )
+    if layers["left"] > 0:
+        notes.append(
+            f"vertices where triangles are flat in one direction (aspect {layers['left_aspect']:.3g} at most) are smoothed "
+            f"as all others: {layers['left']:,}; if that is on purpose, layers='keep' holds them, and method='mean-ratio' "
+            "with target='input-shape' keeps the shapes"
+        )
+    return notes
+
+
 def free_moved(result: Result) -> int:
     """How many of the free vertices moved: those that slid are none of them."""
     return result.moved - (0 if result.sliding is None else result.sliding.slid)
@@ -86,7 +104,7 @@ class Result:
         self.input_points = input_points
         self.mesh: Any = None
         self._outcome = outcome
-        self.notes: List[str] = invalid_triangles_note(outcome)
+        self.notes: List[str] = [*layers_notes(outcome), *invalid_triangles_note(outcome)]
 
     def _quality(self, report: Optional[QualityReport]) -> QualityReport:
         if report is None:
@@ -151,6 +169,13 @@ class Result:
     def free_vertices(self) -> int:
         """How many vertices nothing held, neither in their place nor to a line."""
         return self._outcome.free_vertices
+
+    @property
+    def layers(self) -> Dict[str, float]:
+        """What was found of triangles that are flat in one direction: how many vertices are held for it (kept) and are
+        smoothed though they are inside of such stretches (left), with the largest aspects of their triangles
+        (kept_aspect, left_aspect; 0: none). See ``layers=``."""
+        return self._outcome.layers
 
     @property
     def inverted(self) -> int:

@@ -86,7 +86,8 @@ def smooth(
         Called with a SweepRecord after each sweep, on this thread. Returning False, or what is false but None, ends the
         smoothing: the result is a valid mesh. Ctrl-C raises KeyboardInterrupt.
     **options
-        ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``precision`` "double" or "single";
+        ``form`` "b" or "a"; ``guard`` True; ``untangle`` "auto", True or False; ``layers`` "auto", "keep" or "smooth" (what is
+        flat on purpose: see docs/command_line.md); ``precision`` "double" or "single";
         ``max_sweeps`` 1000 (0: no limit); ``tolerance`` 1e-6; ``time_limit`` None (seconds); ``target_quality`` None
         (stop at this smallest shape); ``threads`` 0 (all); ``size_weight`` 1, ``power`` None (1 to 8) and ``target``
         "uniform" or "input-shape" of "mean-ratio"; with ``slide`` ``corner_angle`` None (30 degrees: a line that turns

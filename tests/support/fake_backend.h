@@ -65,7 +65,7 @@ class FakeBackend final : public trismooth::Backend {
     ++rings_found;
     fail_at(Failure::rings, points.size());
     trismooth::Workers workers(options.threads);
-    return trismooth::find_mesh_rings(points, triangles, constraints, workers, options.layers);
+    return trismooth::find_mesh_rings(points, triangles, constraints, workers, options.used_layers());
   }
 
   /// Keeps the mesh "on the device", and brings results back in pieces.
