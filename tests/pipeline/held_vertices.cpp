@@ -24,14 +24,15 @@ TEST_CASE("vertices count for each of their reasons, and once more where there a
                                           both(hold::isolated, hold::other_cell),  // used by the other cell
                                           both(hold::other_cell, hold::named)};
   trismooth::Workers workers(1);
-  const trismooth::HeldVertices held = trismooth::count_held(trismooth::count_reasons(reasons, workers));
+  const trismooth::HeldVertices held = trismooth::count_held(trismooth::count_reasons(reasons, workers), {.kept = 1});
   CHECK(held.boundary == 2);
   CHECK(held.interface == 2);
   CHECK(held.non_manifold == 1);
   CHECK(held.bow_tie == 1);
   CHECK(held.unused == 1);
   CHECK(held.other_cells == 2);
-  CHECK(held.named == 2);
+  CHECK(held.named == 1);  // of two, of which one is of a layer
+  CHECK(held.layers == 1);
   CHECK(held.several == 2);
 }
 
