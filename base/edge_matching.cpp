@@ -38,12 +38,6 @@ Edge edge_of(std::span<const Triangle> triangles, std::int32_t halfedge) {
   return {triangle[i], triangle[i == 2 ? 0 : i + 1]};
 }
 
-/// The vertex of a halfedge's triangle that is not on its edge.
-std::int32_t opposite(std::span<const Triangle> triangles, std::int32_t halfedge) {
-  const std::int32_t i = halfedge % 3;
-  return triangles[halfedge / 3][i == 0 ? 2 : i - 1];
-}
-
 /// The halfedges of one part that have been met, one of each edge.
 class MetSides {
  public:
@@ -75,19 +69,14 @@ class MetSides {
     return a.print == b.print && edge_of(triangles_, a.halfedge).is(edge_of(triangles_, b.halfedge));
   }
 
-  /// Whether two halfedges of one edge are of triangles with the same three vertices.
-  bool is_repeated(std::int32_t first, std::int32_t next) const {
-    return opposite(triangles_, first) == opposite(triangles_, next);
-  }
-
   void pair(std::int32_t first, std::int32_t next) {
     const std::int32_t second = twins_[first];
-    if (second == unpaired && !is_repeated(first, next)) {
+    if (second == unpaired) {
       twins_[first] = next;
       twins_[next] = first;
       return;
     }
-    if (second >= 0) {
+    if (second != one_of_many) {
       twins_[second] = one_of_many;
     }
     twins_[first] = one_of_many;

@@ -14,9 +14,7 @@ namespace trismooth {
 
 class Workers;
 
-/// The components of a mesh: triangles connected through edges with exactly two triangles. Triangles with the same
-/// three vertices, in whatever order, are copies of one: they are not connected through the edges of it, for what lies
-/// on the other side of these is not the copy. So copies free no vertex of the boundary, and turn no triangle over.
+/// The components of a mesh: triangles connected through edges with exactly two triangles.
 struct TriangleComponents {
   std::vector<std::uint8_t> parity;    ///< per triangle: 1 where it is listed against its component's lowest triangle
   BulkVector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
@@ -28,7 +26,7 @@ struct TriangleComponents {
 /// well as a halfedge mesh. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
 struct MatchedSides : TriangleComponents {
   static constexpr std::int32_t no_twin = -1;     ///< a boundary edge
-  static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more, or with two that are copies
+  static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
 
   std::int32_t vertex_count = 0;
   BulkVector<std::int32_t> twins;   ///< per halfedge: the other triangle's halfedge on the edge

@@ -133,8 +133,8 @@ void OverlapSmoother::count_free() {
   overlap_.part.free_vertices = communicator_->sum(own_free);
 }
 
-void OverlapSmoother::find_layers(std::span<const Point2<double>> points) {
-  layers_ = hold_layers(overlap_, points, options_.used_layers(), fixed_, *communicator_, *workers_);
+void OverlapSmoother::find_layers(std::span<const Point2<double>> local, std::span<const std::uint8_t> reversed) {
+  layers_ = hold_layers(overlap_, local, reversed, options_.used_layers(), fixed_, *communicator_, *workers_);
   count_free();
   communicator_->on_all([&] {
     if (is_gathered_) {
@@ -158,9 +158,6 @@ SmoothingResult OverlapSmoother::smooth(const PointView& points, Storage storage
                       lengths_.begin());
   }
   const LocalFrame frame = shared_frame(mine, fixed_, *communicator_);
-  if (!std::exchange(has_found_layers_, true)) {
-    find_layers(mine);
-  }
   make_ready(frame, mine);
   SmoothingResult result = smoothed(mine, stored, frame);
   result.layers = layers_;
@@ -174,6 +171,9 @@ SmoothingResult OverlapSmoother::smooth(const PointView& points, Storage storage
 void OverlapSmoother::make_ready(const LocalFrame& frame, std::span<const Point2<double>> mine) {
   const BulkVector<Point2<double>> local = entered(frame, mine).points;
   std::vector<std::uint8_t> reversed = labels_.reversed(overlap_, components(), local, *communicator_, *workers_);
+  if (!std::exchange(has_found_layers_, true)) {
+    find_layers(local, reversed);
+  }
   if (!communicator_->any(!is_ready_ || reversed != reversed_)) {
     return;
   }

@@ -60,7 +60,7 @@ class OverlapSmoother {
   /// How many vertices are free in the whole mesh. Collective.
   void count_free();
   /// Holds layers, and finds what may slide beside them. Collective.
-  void find_layers(std::span<const Point2<double>> points);
+  void find_layers(std::span<const Point2<double>> local, std::span<const std::uint8_t> reversed);
   void make_ready(const LocalFrame& frame, std::span<const Point2<double>> mine);
   /// Colours the free vertices as colour_free_vertices() does it in the whole mesh.
   void colour(const OneRings& rings);

@@ -27,7 +27,7 @@ struct Findings {
   std::vector<LayersResult> result;
 };
 
-Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, Workers& workers) {
+Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, std::int64_t least, Workers& workers) {
   std::vector<std::int64_t> ids;
   for (const auto& candidates : by_rank) {
     for (const SentCandidate& candidate : candidates) {
@@ -45,7 +45,7 @@ Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, Workers& wo
       });
     }
   }
-  const LayerSearch found = search_layers(flat, static_cast<std::int32_t>(ids.size()), layers, workers);
+  const LayerSearch found = search_layers(flat, static_cast<std::int32_t>(ids.size()), layers, least, workers);
   Findings findings;
   for (const std::int32_t place : found.kept) {
     findings.kept.push_back(ids[static_cast<std::size_t>(place)]);
@@ -54,16 +54,13 @@ Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, Workers& wo
   return findings;
 }
 
-}  // namespace
-
-LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points, Layers layers,
-                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers) {
-  if (layers == Layers::smooth) {
-    return {};
-  }
+/// What rank 0 finds among the candidates of all ranks, on all of them. Collective.
+Findings shared_findings(const Overlap& overlap, std::span<const Point2<double>> points,
+                         std::span<const std::uint8_t> reversed, Layers layers, int choices, std::int64_t least,
+                         const Communicator& ranks, Workers& workers) {
   GhostValues ghosts(overlap.part);
   const std::vector<FlatTriangle> candidates =
-      flat_candidates(points, overlap.triangles, workers,
+      flat_candidates(points, overlap.triangles, reversed, choices, workers,
                       [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
   auto to_first = lists_by_rank<SentCandidate>(ranks);
   for (const FlatTriangle& flat : candidates) {
@@ -77,11 +74,28 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
   Findings found;
   ranks.on_all([&] {
     if (ranks.rank() == 0) {
-      found = search(all, layers, workers);
+      found = search(all, layers, least, workers);
     }
   });
   ranks.broadcast(found.kept);
   ranks.broadcast(found.result);
+  return found;
+}
+
+}  // namespace
+
+LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,
+                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
+                         const Communicator& ranks, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  Findings found =
+      shared_findings(overlap, points, reversed, layers, layers_first_choices, layers_least_seen, ranks, workers);
+  if (found.kept.empty() && found.result.front().left == 0) {
+    return {};
+  }
+  found = shared_findings(overlap, points, reversed, layers, layers_choices, layers_least, ranks, workers);
   std::int64_t own_kept = 0;
   for (std::size_t v = 0; v < fixed.size(); ++v) {
     if (fixed[v] == 0 && std::ranges::binary_search(found.kept, overlap.ids[v])) {

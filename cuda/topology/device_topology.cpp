@@ -72,7 +72,9 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   if (layers == Layers::smooth) {
     return {};
   }
-  const std::vector<FlatTriangle> candidates = flat_candidates(*context_, triangles_, vertex_count(), points);
+  const auto candidates = [&](int choices) {
+    return flat_candidates(*context_, triangles_, vertex_count(), points, reversed(), choices);
+  };
   Workers workers(0);
   LayerSearch found = search_layers(candidates, vertex_count(), layers, workers);
   if (!found.kept.empty()) {

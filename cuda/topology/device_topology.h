@@ -38,7 +38,8 @@ class DeviceTopology {
   /// What trismooth::find_slidable() is to look at. `regions`: those of the constraints, on the device. Waits.
   NearLines near_lines(const std::int32_t* regions) const;
 
-  /// trismooth::hold_layers() at these coordinates, which are on the device. `held`: the vertices that it holds.
+  /// trismooth::hold_layers() at these coordinates, which are on the device, in the orientation found last. `held`: the
+  /// vertices that it holds.
   LayersResult hold_layers(const Point2<double>* points, Layers layers, std::vector<std::int32_t>& held);
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the

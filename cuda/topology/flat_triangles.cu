@@ -12,11 +12,12 @@ namespace {
 struct MarkFlat {
   TriangleList triangles;
   const Point2<double>* points;
+  const std::uint8_t* reversed;
   std::uint8_t* levels;
 
   __device__ void operator()(std::uint32_t t) const {
     const Triangle corners = triangles[t];
-    levels[t] = is_flat(points[corners[0]], points[corners[1]], points[corners[2]]) ? 1 : 0;
+    levels[t] = is_flat_and_valid(points[corners[0]], points[corners[1]], points[corners[2]], reversed[t] != 0) ? 1 : 0;
   }
 };
 
@@ -46,11 +47,11 @@ struct ChooseCandidates {
     if (levels[t] != level) {
       return;
     }
-    int crowded = 0;
+    bool are_crowded = true;
     for (const std::int32_t v : triangles[t]) {
-      crowded += at[v] >= layers_crowd ? 1 : 0;
+      are_crowded = are_crowded && at[v] >= layers_crowd;
     }
-    levels[t] = crowded >= layers_crowded_corners ? level + 1 : 0;
+    levels[t] = are_crowded ? level + 1 : 0;
   }
 };
 
@@ -58,12 +59,13 @@ struct ListCandidates {
   TriangleList triangles;
   const Point2<double>* points;
   const std::uint8_t* levels;
+  std::uint8_t level;
   FlatTriangle* list;
   std::uint32_t list_size;
   std::uint32_t* count;
 
   __device__ void operator()(std::uint32_t t) const {
-    if (levels[t] != layers_rounds + 1) {
+    if (levels[t] != level) {
       return;
     }
     if (const std::uint32_t place = atomicAdd(count, 1U); place < list_size) {
@@ -76,19 +78,21 @@ struct ListCandidates {
 }  // namespace
 
 std::vector<FlatTriangle> flat_candidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
-                                          const Point2<double>* points) {
+                                          const Point2<double>* points, const std::uint8_t* reversed, int choices) {
   const auto count = static_cast<std::uint32_t>(triangles.count);
   DeviceBuffer<std::uint8_t> levels(context, count);
   DeviceBuffer<std::uint32_t> at(context, static_cast<std::size_t>(vertex_count));
-  for_each(context, count, MarkFlat{triangles, points, levels.data()});
-  for (int round = 0; round < layers_rounds; ++round) {
-    const auto level = static_cast<std::uint8_t>(round + 1);
+  for_each(context, count, MarkFlat{triangles, points, reversed, levels.data()});
+  for (int choice = 0; choice < choices; ++choice) {
+    const auto level = static_cast<std::uint8_t>(choice + 1);
     at.fill_bytes(0);
     for_each(context, count, CountAtCorners{triangles, levels.data(), level, at.data()});
     for_each(context, count, ChooseCandidates{triangles, at.data(), level, levels.data()});
   }
   return listed<FlatTriangle>(context, count, [&](FlatTriangle* list, std::uint32_t size, std::uint32_t* found) {
-    for_each(context, count, ListCandidates{triangles, points, levels.data(), list, size, found});
+    for_each(
+        context, count,
+        ListCandidates{triangles, points, levels.data(), static_cast<std::uint8_t>(choices + 1), list, size, found});
   });
 }
 

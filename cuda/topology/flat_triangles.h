@@ -10,9 +10,9 @@
 
 namespace trismooth::cuda {
 
-/// trismooth::flat_candidates() of a mesh on the device, in any order; of less than layers_least it may have none.
+/// trismooth::flat_candidates() of a mesh on the device, in any order; also where they are few.
 /// Memory meanwhile: 4 bytes a vertex and 1 a triangle. Waits for the device.
 std::vector<FlatTriangle> flat_candidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
-                                          const Point2<double>* points);
+                                          const Point2<double>* points, const std::uint8_t* reversed, int choices);
 
 }  // namespace trismooth::cuda

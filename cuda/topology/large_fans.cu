@@ -81,15 +81,6 @@ struct LinkRecords {
     return j < record_count && keys[i] == keys[j];
   }
 
-  /// Whether two records of one edge are of triangles with the same three vertices.
-  TRISMOOTH_HOST_DEVICE bool is_copy(std::uint64_t key, std::uint32_t record, std::uint32_t other) const {
-    const std::uint32_t i = large_vertex_of(key);
-    const auto opposite = [&](std::uint32_t of) {
-      return triangles.neighbour(fans.corner(corners, i, of / 2), of % 2 == 0 ? 1 : 0);
-    };
-    return opposite(record) == opposite(other);
-  }
-
   TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t i) const {
     const std::uint64_t key = keys[i];
     const std::uint32_t record = records[i];
@@ -100,8 +91,7 @@ struct LinkRecords {
     if (!before && !after) {
       partners[record] = LargeFansView::none;
       set_bits(own_reasons, hold::boundary);
-    } else if ((before && after) || (before && same_edge(i, i - 2)) || (after && same_edge(i, i + 2)) ||
-               is_copy(key, record, records[before ? i - 1 : i + 1])) {
+    } else if ((before && after) || (before && same_edge(i, i - 2)) || (after && same_edge(i, i + 2))) {
       partners[record] = LargeFansView::many;
       set_bits(own_reasons, hold::non_manifold);
     } else if (before) {

@@ -72,7 +72,7 @@ struct VertexFan {
 /// Which records of a fan are of the same edge.
 struct FanLinks {
   static constexpr std::int8_t none = -1;  ///< an edge with one triangle: the neighbour is recorded once
-  static constexpr std::int8_t many = -2;  ///< an edge with three triangles or more, or with copies of one
+  static constexpr std::int8_t many = -2;  ///< an edge with three triangles or more
 
   int degree;
   std::int8_t partners[2 * VertexFan::capacity];  ///< of each record: the other one of its neighbour, none, or many
@@ -90,8 +90,7 @@ struct FanLinks {
       std::int8_t partner = none;
       for (int s = r + 1; s < records; ++s) {
         if (fan.neighbours[s] == fan.neighbours[r]) {
-          const bool is_copy = fan.neighbours[s ^ 1] == fan.neighbours[r ^ 1];
-          partner = partner == none && !is_copy ? static_cast<std::int8_t>(s) : many;
+          partner = partner == none ? static_cast<std::int8_t>(s) : many;
         }
       }
       partners[r] = partner;

@@ -248,10 +248,10 @@ class PieceRun {
                       std::back_inserter(result_.input.point_sets));
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
-    layers_ =
-        mpi::hold_layers(topology_->overlap(), points, options_.smoothing.used_layers(), held_, *ranks_, workers_);
     local_ = entered(frame_, points).points;
     reversed_ = topology_->reversed(local_, workers_);
+    layers_ = mpi::hold_layers(topology_->overlap(), local_, reversed_, options_.smoothing.used_layers(), held_,
+                               *ranks_, workers_);
     summarise();
   }
 

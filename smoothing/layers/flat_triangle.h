@@ -15,9 +15,8 @@ namespace trismooth {
 /// a function of the shape alone: of the tensor with trace 1 the determinant is shape^2 / 4, so an aspect of 4 is a
 /// shape of 8 / 17, and what is written here needs no eigenvalues, roots or angles.
 ///
-/// All of it is computed from the corners in the order in which they are listed, by + - x and /, with the same bits on
-/// host and device, and does not depend on place or unit: differences of coordinates are scaled by powers of two where
-/// their squares would overflow or vanish.
+/// All of it is computed from the corners in the order in which they are listed, in the local frame, by + - x and /,
+/// with the same bits on host and device.
 struct FlatTriangle {
   /// How large its largest angle is.
   enum class Angle : std::uint32_t { moderate, wide, obtuse };  ///< below 110 degrees, up to 135, above that
@@ -26,7 +25,7 @@ struct FlatTriangle {
   Angle angle;
   double xx;        ///< of its edge tensor with trace 1; yy is 1 - xx
   double xy;        ///< likewise
-  double quotient;  ///< cross product / sum of the squared edges: shape / (2 sqrt(3)), without its sign
+  double quotient;  ///< cross product / sum of the squared edges: shape / (2 sqrt(3)), as the corners are listed
 };
 
 namespace flat_triangle_details {
@@ -40,43 +39,28 @@ TRISMOOTH_HOST_DEVICE inline double sum_of_squares(const Edges& e) {
   return squared_length(e.ab) + squared_length(e.bc) + squared_length(e.ac);
 }
 
-/// Edges whose squares are neither too large nor too small; with no edge at all they stay zero.
-TRISMOOTH_HOST_DEVICE inline Edges within_range(Edges e) {
-  constexpr double most = 0x1p400;
-  constexpr double least = 0x1p-400;
-  const double sum = sum_of_squares(e);
-  if (sum >= least && sum <= most) {
-    return e;
-  }
-  double largest = 0;
-  for (const Point2<double> edge : {e.ab, e.ac, e.bc}) {
-    largest = std::fmax(largest, std::fmax(std::fabs(edge.x), std::fabs(edge.y)));
-  }
-  if (!(largest > 0)) {
-    return e;
-  }
-  const int exponent = std::ilogb(largest);
-  const auto scaled = [exponent](Point2<double> edge) {
-    return Point2<double>{std::ldexp(edge.x, -exponent), std::ldexp(edge.y, -exponent)};
-  };
-  return {scaled(e.ab), scaled(e.ac), scaled(e.bc)};
-}
-
 }  // namespace flat_triangle_details
 
-/// Whether the triangle (a, b, c) has an aspect of 4 or more; degenerate ones have, points alone have not.
+/// Whether the triangle (a, b, c) has an aspect of 4 or more, and an area: where there is none, nothing is on purpose.
 TRISMOOTH_HOST_DEVICE inline bool is_flat(Point2<double> a, Point2<double> b, Point2<double> c) {
-  const flat_triangle_details::Edges e = flat_triangle_details::within_range({b - a, c - a, c - b});
+  const flat_triangle_details::Edges e = {b - a, c - a, c - b};
   const double sum = flat_triangle_details::sum_of_squares(e);
   const double twice_area = cross(e.ab, e.ac);
   // 12 (C / D)^2 <= (8 / 17)^2
-  return sum > 0 && 867 * (twice_area * twice_area) <= 16 * (sum * sum);
+  return twice_area != 0 && 867 * (twice_area * twice_area) <= 16 * (sum * sum);
+}
+
+/// Whether it is flat and turned as its component is, `is_reversed` being what MeshRings::reversed says of it: what is
+/// inverted is no layer.
+TRISMOOTH_HOST_DEVICE inline bool is_flat_and_valid(Point2<double> a, Point2<double> b, Point2<double> c,
+                                                    bool is_reversed) {
+  return is_flat(a, b, c) && (cross(b - a, c - a) > 0) != is_reversed;
 }
 
 /// What is to be known of a flat triangle.
 TRISMOOTH_HOST_DEVICE inline FlatTriangle described_flat(const Triangle& corners, Point2<double> a, Point2<double> b,
                                                          Point2<double> c) {
-  const flat_triangle_details::Edges e = flat_triangle_details::within_range({b - a, c - a, c - b});
+  const flat_triangle_details::Edges e = {b - a, c - a, c - b};
   const double squares[3] = {squared_length(e.ab), squared_length(e.bc), squared_length(e.ac)};
   const double sum = flat_triangle_details::sum_of_squares(e);
   const int longest = squares[1] > squares[0] ? (squares[2] > squares[1] ? 2 : 1) : (squares[2] > squares[0] ? 2 : 0);
@@ -93,7 +77,7 @@ TRISMOOTH_HOST_DEVICE inline FlatTriangle described_flat(const Triangle& corners
   }
   flat.xx = (e.ab.x * e.ab.x + e.bc.x * e.bc.x + e.ac.x * e.ac.x) / sum;
   flat.xy = (e.ab.x * e.ab.y + e.bc.x * e.bc.y + e.ac.x * e.ac.y) / sum;
-  flat.quotient = std::fabs(cross(e.ab, e.ac) / sum);
+  flat.quotient = cross(e.ab, e.ac) / sum;
   return flat;
 }
 
@@ -104,7 +88,7 @@ TRISMOOTH_HOST_DEVICE inline bool are_coherent(const FlatTriangle& one, const Fl
   return 289 * (xx * (1 - xx) - xy * xy) <= 16;
 }
 
-/// The aspect of a triangle of this quotient; infinity where it is degenerate.
+/// The aspect of a flat triangle of this quotient.
 inline double aspect_of(double quotient) {
   const double square = 12 * quotient * quotient;
   return (1 + std::sqrt(square < 1 ? 1 - square : 0)) / std::sqrt(square);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 
 #include "trismooth/base/blocks.h"
@@ -49,9 +50,8 @@ struct Stretch {
     ++triangles;
     moderate += flat.angle == FlatTriangle::Angle::moderate ? 1 : 0;
     obtuse += flat.angle == FlatTriangle::Angle::obtuse ? 1 : 0;
-    smallest_quotient = std::min(smallest_quotient, flat.quotient);
+    smallest_quotient = std::min(smallest_quotient, std::abs(flat.quotient));
   }
-  bool counts() const { return triangles >= layers_least; }
   bool is_clean() const { return 2 * moderate > triangles && 10 * obtuse < triangles; }
   /// Whether it is as wide as it is long. (Chains of slivers along the hull of random points are not.)
   bool is_wide() const { return 8 * inside >= triangles; }
@@ -60,8 +60,8 @@ struct Stretch {
 /// Which stretch each candidate is in, by the number of its first one.
 class Stretches {
  public:
-  Stretches(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Workers& workers)
-      : candidates_(candidates), roots_(candidates.size()), stretches_(candidates.size()) {
+  Stretches(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, std::int64_t least, Workers& workers)
+      : candidates_(candidates), least_(least), roots_(candidates.size()), stretches_(candidates.size()) {
     join(vertex_count, workers);
     for (std::size_t t = 0; t < candidates_.size(); ++t) {
       stretches_[roots_[t]].add(candidates_[t]);
@@ -70,6 +70,7 @@ class Stretches {
   }
 
   const Stretch& of(std::size_t triangle) const { return stretches_[roots_[triangle]]; }
+  bool counts(const Stretch& stretch) const { return stretch.triangles >= least_; }
   /// The vertices inside of the stretch of a triangle are counted at each triangle around them; here they are once.
   std::int64_t inside_of_wide() const { return inside_of_wide_; }
 
@@ -92,7 +93,8 @@ class Stretches {
     }
     for (std::size_t h = 0; h < twins.size(); ++h) {
       const std::int32_t twin = twins[h];
-      if (twin >= 0 && static_cast<std::size_t>(twin) > h && are_coherent(candidates_[h / 3], candidates_[twin / 3])) {
+      if (twin >= 0 && static_cast<std::size_t>(twin) > h &&
+          are_coherent(candidates_[h / 3], candidates_[static_cast<std::size_t>(twin) / 3])) {
         forest.join(static_cast<std::uint32_t>(h / 3), static_cast<std::uint32_t>(twin / 3), 0);
         sides_.push_back(static_cast<std::int32_t>(h));
       }
@@ -123,11 +125,12 @@ class Stretches {
       }
     }
     for (const Stretch& stretch : stretches_) {
-      inside_of_wide_ += stretch.counts() && !stretch.is_clean() && stretch.is_wide() ? stretch.inside : 0;
+      inside_of_wide_ += counts(stretch) && !stretch.is_clean() && stretch.is_wide() ? stretch.inside : 0;
     }
   }
 
   std::span<const FlatTriangle> candidates_;
+  std::int64_t least_;
   std::vector<std::uint32_t> roots_;
   std::vector<Stretch> stretches_;   ///< one a candidate; of those that are no root nothing is counted
   std::vector<std::int32_t> sides_;  ///< between coherent candidates, by the halfedge of the first
@@ -137,18 +140,18 @@ class Stretches {
 }  // namespace
 
 std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                                          Workers& workers,
+                                          std::span<const std::uint8_t> reversed, int choices, Workers& workers,
                                           const std::function<void(std::span<std::uint32_t>)>& complete) {
   const auto corner = [&](std::size_t t, int i) { return points[static_cast<std::size_t>(triangles[t][i])]; };
   std::vector<std::int32_t> listed = list_wanted(
       std::ssize(triangles),
       [&](std::int64_t i) {
         const auto t = static_cast<std::size_t>(i);
-        return is_flat(corner(t, 0), corner(t, 1), corner(t, 2));
+        return is_flat_and_valid(corner(t, 0), corner(t, 1), corner(t, 2), reversed[t] != 0);
       },
       workers);
-  const auto are_enough = [&] { return complete || std::ssize(listed) >= layers_least; };
-  for (int round = 0; round < layers_rounds && are_enough(); ++round) {
+  const auto are_enough = [&] { return complete || std::ssize(listed) >= layers_least_seen; };
+  for (int choice = 0; choice < choices && are_enough(); ++choice) {
     BulkVector<std::uint32_t> at(points.size());
     std::ranges::fill(at, 0U);
     workers.for_blocks(std::ssize(listed), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -162,9 +165,8 @@ std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points
       complete(at);
     }
     std::erase_if(listed, [&](std::int32_t t) {
-      return std::ranges::count_if(triangles[static_cast<std::size_t>(t)], [&](std::int32_t v) {
-               return at[static_cast<std::size_t>(v)] >= layers_crowd;
-             }) < layers_crowded_corners;
+      return !std::ranges::all_of(triangles[static_cast<std::size_t>(t)],
+                                  [&](std::int32_t v) { return at[static_cast<std::size_t>(v)] >= layers_crowd; });
     });
   }
   if (!are_enough()) {
@@ -181,17 +183,17 @@ std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points
 }
 
 LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
-                          Workers& workers) {
+                          std::int64_t least, Workers& workers) {
   LayerSearch found;
-  if (std::ssize(candidates) < layers_least) {
+  if (std::ssize(candidates) < least) {
     return found;
   }
-  const Stretches stretches(candidates, vertex_count, workers);
+  const Stretches stretches(candidates, vertex_count, least, workers);
   double kept_quotient = 1;
   double left_quotient = 1;
   for (std::size_t t = 0; t < candidates.size(); ++t) {
     const Stretch& stretch = stretches.of(t);
-    if (!stretch.counts() || !(stretch.is_clean() || stretch.is_wide())) {
+    if (!stretches.counts(stretch) || !(stretch.is_clean() || stretch.is_wide())) {
       continue;
     }
     if (stretch.is_clean() || layers == Layers::keep) {
@@ -214,6 +216,14 @@ LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t
   return found;
 }
 
+LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates, std::int32_t vertex_count,
+                          Layers layers, Workers& workers) {
+  if (!search_layers(candidates(layers_first_choices), vertex_count, layers, layers_least_seen, workers).finds_any()) {
+    return {};
+  }
+  return search_layers(candidates(layers_choices), vertex_count, layers, layers_least, workers);
+}
+
 LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed) {
   LayersResult result = found.result;
   result.kept = 0;
@@ -227,12 +237,13 @@ LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed)
   return result;
 }
 
-LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles, Layers layers,
-                         std::span<std::uint8_t> fixed, Workers& workers) {
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
+                         Workers& workers) {
   if (layers == Layers::smooth) {
     return {};
   }
-  const std::vector<FlatTriangle> candidates = flat_candidates(points, triangles, workers);
+  const auto candidates = [&](int choices) { return flat_candidates(points, triangles, reversed, choices, workers); };
   return hold_found(search_layers(candidates, static_cast<std::int32_t>(points.size()), layers, workers), fixed);
 }
 

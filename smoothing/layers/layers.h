@@ -17,49 +17,60 @@ class Workers;
 
 /// The search for layers: triangles that are flat on purpose, as along the walls of a flow or in thin insulation.
 ///
-/// Flat triangles (see FlatTriangle) that share a side and are flat in one direction (are_coherent()) belong to one
-/// *stretch*. A stretch of layers_least triangles or more is *clean* if more than half of its largest angles are below
-/// 110 degrees and less than a tenth above 135: layers are made of right angles. Those of meshes that are distorted, or
-/// adapted to a metric, are not, and flat triangles that are so by chance form stretches of a few triangles.
+/// Flat triangles (see FlatTriangle) that are not inverted, share a side and are flat in one direction
+/// (are_coherent()) belong to one *stretch*. A stretch of layers_least triangles or more is *clean* if more than half
+/// of its largest angles are below 110 degrees and less than a tenth above 135: layers are made of right angles. Those
+/// of meshes that are distorted, or adapted to a metric, are not, and flat triangles that are so by chance form
+/// stretches of a few triangles.
 ///
-/// On the way triangles are left out that cannot be in a stretch: a corner is crowded where three flat triangles or
-/// more meet, and whoever has less than two crowded corners is no candidate. That is done twice, the second time among
-/// the candidates of the first.
+/// Candidates for it are the flat triangles whose corners all have a second one. In random meshes these are many, so a
+/// first look is at those that are left when the choice is made once more among them: only where that shows a stretch
+/// of layers_least_seen does the search go on.
 ///
-/// Nothing of it depends on the orientation of triangles, on their order, on place or unit, or on what holds vertices.
+/// Nothing of it depends on the order of triangles and corners, on place or unit, or on what holds vertices.
 
 /// The triangles of the smallest stretch that counts. Among 600,000 triangles of random points the largest clean one
 /// has 9, and each further triangle is four times rarer.
 inline constexpr std::int64_t layers_least = 20;
-/// The flat triangles at a crowded corner, and the crowded corners of a candidate.
-inline constexpr std::uint32_t layers_crowd = 3;
-inline constexpr int layers_crowded_corners = 2;
-/// How often candidates are chosen.
-inline constexpr int layers_rounds = 2;
+/// Of the smallest one for which the search goes on: at its ends a stretch loses some triangles by the second choice.
+inline constexpr std::int64_t layers_least_seen = 12;
+/// The flat triangles at each corner of a candidate.
+inline constexpr std::uint32_t layers_crowd = 2;
+/// How often candidates are chosen for the first look, and for the search.
+inline constexpr int layers_first_choices = 2;
+inline constexpr int layers_choices = 1;
 
 /// What the search says of vertices, whatever else holds them.
 struct LayerSearch {
+  bool finds_any() const { return !kept.empty() || result.left > 0; }
+
   std::vector<std::int32_t> kept;  ///< of stretches that are to be kept, ascending
   LayersResult result;             ///< of which `kept` is their number
 };
 
-/// The flat triangles that can be in a stretch, in the order of `triangles`, in parallel. Complexity: linear; nearly
-/// all of the time goes into looking at all triangles once. `complete`: where these are the triangles of a part of a
-/// mesh, brings the numbers of flat triangles at vertices that another part owns; called layers_rounds times.
+/// The valid flat triangles that are left after so many choices; `reversed`: as MeshRings::reversed; in the order of
+/// `triangles`, in parallel. Complexity: linear; nearly all of the time goes into looking at all triangles once.
+/// `complete`: where these are the triangles of a part of a mesh, brings the numbers of flat triangles at vertices that
+/// another part owns; called once a choice.
 std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                                          Workers& workers,
+                                          std::span<const std::uint8_t> reversed, int choices, Workers& workers,
                                           const std::function<void(std::span<std::uint32_t>)>& complete = {});
 
-/// Looks for stretches among candidates, in any order; their corners are below `vertex_count`. Not with Layers::smooth.
-/// Complexity: linear in their number, and in `vertex_count` where there are layers_least of them.
+/// Looks for stretches of `least` triangles among candidates, in any order; their corners are below `vertex_count`. Not
+/// with Layers::smooth. Complexity: linear in their number, and in `vertex_count` where there are so many.
 LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
-                          Workers& workers);
+                          std::int64_t least, Workers& workers);
+
+/// The first look, and the search where it goes on. `candidates(choices)` lists them.
+LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates, std::int32_t vertex_count,
+                          Layers layers, Workers& workers);
 
 /// Both, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and was free. Of what it
 /// returns `kept` counts these vertices alone. With Layers::smooth it does nothing. `points`: one for each vertex, in
-/// the local frame or not.
-LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles, Layers layers,
-                         std::span<std::uint8_t> fixed, Workers& workers);
+/// the local frame.
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
+                         Workers& workers);
 
 /// Marks what a search found in `fixed`, and counts anew.
 LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed);

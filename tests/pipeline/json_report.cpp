@@ -58,8 +58,8 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "cell_sets",
                                          "line_groups",
                                          "held"});
-  CHECK(keys_of(report["input"]["held"]) ==
-        Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells", "unused", "named", "several"});
+  CHECK(keys_of(report["input"]["held"]) == Keys{"boundary", "interface", "non_manifold", "bow_tie", "other_cells",
+                                                 "unused", "named", "layers", "several"});
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
   for (const char* key :

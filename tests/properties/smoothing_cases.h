@@ -38,6 +38,7 @@ inline SmoothingOptions combination(std::uint64_t index) {
   options.form = static_cast<Form>(index / 4 % 2);
   options.precision = static_cast<Precision>(index / 8 % 2);
   options.threads = 1;
+  options.layers = trismooth::Layers::smooth;  // what holds vertices is looked at as the connectivity says
   return options;
 }
 

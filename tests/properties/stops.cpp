@@ -133,6 +133,7 @@ TEST_CASE("plain averages end at the solution of the linear system, in both form
       SmoothingOptions options;
       options.method = Method::laplacian;
       options.form = form;
+      options.layers = trismooth::Layers::smooth;
       options.guard = false;
       options.tolerance = 0;
       options.max_sweeps = 2000;

@@ -96,6 +96,7 @@ void check_history(const SmoothingResult& result, const Reference& expected, con
 /// Every number of threads and both evaluations against the reference.
 void check_against_reference(const Mesh& mesh, SmoothingOptions options) {
   options.guard = false;
+  options.layers = trismooth::Layers::smooth;
   options.untangle = trismooth::Untangle::off;
   const Reference expected = reference(mesh, options);
   for (const Evaluation evaluation : {Evaluation::changed, Evaluation::all}) {

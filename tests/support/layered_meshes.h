@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -18,7 +19,7 @@ struct Layers {
   std::vector<double> heights{};  ///< of the rows of triangles in the layer, from the wall; columns are 1 wide
   std::int32_t rows_above = 0;    ///< rows of triangles about as high as wide, on top of it
   double jitter = 0;              ///< by which vertices above the layer are off their places, in widths
-  double layer_jitter = 0;        ///< by which those inside the layer are, in heights of their rows
+  double layer_jitter = 0;        ///< by which those in the layer are, in widths along it and in heights of their rows
 };
 
 /// Row by row from the wall, which is y = 0; columns of uneven width, diagonals at random.
@@ -40,8 +41,8 @@ inline Mesh rectangle(const Layers& layers, Random& random) {
   for (std::int32_t j = 0; j < rows; ++j) {
     for (std::int32_t i = 0; i < layers.columns; ++i) {
       const bool is_inner = i > 0 && i + 1 < layers.columns && j > 0 && j + 1 < rows;
-      const double by = j <= in_layer ? 0 : layers.jitter;
-      const double up = j > 0 && j < in_layer ? layers.layer_jitter * layers.heights[static_cast<std::size_t>(j)] : by;
+      const double by = j <= in_layer ? layers.layer_jitter : layers.jitter;
+      const double up = j <= in_layer ? by * layers.heights[static_cast<std::size_t>(std::min(j, in_layer - 1))] : by;
       const Point off{random.between(-by, by), random.between(-up, up)};
       mesh.points.push_back({x[static_cast<std::size_t>(i)] + (is_inner ? off.x : 0),
                              y[static_cast<std::size_t>(j)] + (is_inner ? off.y : 0)});
