@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -10,8 +9,6 @@
 
 #include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/document/array_names.h"
-#include "trismooth/pipeline/input/inner_neighbours.h"
-#include "trismooth/pipeline/input/marked_points.h"
 
 namespace trismooth {
 
@@ -27,15 +24,73 @@ std::vector<std::int32_t> different_members(const NamedSet& set) {
   return members;
 }
 
+/// The neighbours of the vertices that are asked for.
+class InnerNeighbours {
+ public:
+  /// Of the vertices whose flag in `wanted` is 1.
+  InnerNeighbours(std::span<const Triangle> triangles, std::span<const std::uint8_t> wanted)
+      : starts_(wanted.size() + 1, 0), ends_(wanted.size(), 0) {
+    const auto is_wanted = [wanted](std::int32_t v) { return wanted[static_cast<std::size_t>(v)] != 0; };
+    for (const Triangle& triangle : triangles) {
+      for (const std::int32_t v : triangle) {
+        starts_[static_cast<std::size_t>(v) + 1] += is_wanted(v) ? 2 : 0;
+      }
+    }
+    for (std::size_t v = 0; v < wanted.size(); ++v) {
+      starts_[v + 1] += starts_[v];
+      ends_[v] = starts_[v];
+    }
+    neighbours_.resize(static_cast<std::size_t>(starts_.back()));
+    for (const auto& [a, b, c] : triangles) {
+      for (const auto& [v, left, right] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
+        if (is_wanted(v)) {
+          std::int64_t& end = ends_[static_cast<std::size_t>(v)];
+          neighbours_[static_cast<std::size_t>(end++)] = left;
+          neighbours_[static_cast<std::size_t>(end++)] = right;
+        }
+      }
+    }
+    for (std::size_t v = 0; v < wanted.size(); ++v) {
+      keep_inner(v);
+    }
+  }
+
+  /// The neighbours of a wanted vertex, each once; none where it is not inside the mesh.
+  std::span<const std::int32_t> operator[](std::int32_t vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return std::span(neighbours_)
+        .subspan(static_cast<std::size_t>(starts_[v]), static_cast<std::size_t>(ends_[v] - starts_[v]));
+  }
+
+ private:
+  /// Keeps one of the two times that each neighbour is there; nothing where one is there another number of times.
+  void keep_inner(std::size_t v) {
+    const auto begin = neighbours_.begin() + starts_[v];
+    const auto end = neighbours_.begin() + ends_[v];
+    std::sort(begin, end);
+    auto kept = begin;
+    ends_[v] = starts_[v];
+    for (auto next = begin; next != end; next += 2) {
+      if (*next != *(next + 1) || (kept != begin && *(kept - 1) == *next)) {
+        return;
+      }
+      *kept++ = *next;
+    }
+    ends_[v] += kept - begin;
+  }
+
+  std::vector<std::int64_t> starts_;
+  std::vector<std::int64_t> ends_;
+  std::vector<std::int32_t> neighbours_;
+};
+
 class SetFinder {
  public:
-  /// `marked`: what find_marked_points() finds.
-  SetFinder(const MeshDocument& document, std::vector<NamedSet> marked, std::span<const Triangle> triangles,
-            std::span<const std::int32_t> regions, bool slides)
-      : document_(document), implied_(document.implied_sets), slides_(slides) {
-    std::ranges::move(marked, std::back_inserter(implied_));
+  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions,
+            bool slides)
+      : document_(document), slides_(slides) {
     std::vector<std::uint8_t> in_set(document.point_count(), 0);
-    for (const auto& sets : {std::span<const NamedSet>(document.point_sets), std::span<const NamedSet>(implied_)}) {
+    for (const auto& sets : {std::span(document.point_sets), std::span(document.implied_sets)}) {
       for (const NamedSet& set : sets) {
         members_.push_back(different_members(set));
         for (const std::int32_t v : members_.back()) {
@@ -60,8 +115,8 @@ class SetFinder {
       });
       found_.sets.push_back({document.point_sets[s].name, std::ssize(members_[s]), is_area, false});
     }
-    for (std::size_t s = 0; s < implied_.size(); ++s) {
-      found_.sets.push_back({implied_[s].name, std::ssize(members_[document.point_sets.size() + s])});
+    for (std::size_t s = 0; s < document.implied_sets.size(); ++s) {
+      found_.sets.push_back({document.implied_sets[s].name, std::ssize(members_[document.point_sets.size() + s])});
     }
   }
 
@@ -91,14 +146,6 @@ class SetFinder {
           fmt::format("point sets that cover an area hold nothing: {}; --fixed-set {} holds the vertices of one", areas,
                       shell_word(first_area)));
     }
-    for (std::size_t s = document_.point_sets.size() + document_.implied_sets.size(); s < found_.sets.size(); ++s) {
-      if (const FilePointSet& set = found_.sets[s]; set.vertices > 0) {
-        found_.notes.push_back(fmt::format(
-            "{} inside, which '{}' marks otherwise than what surrounds {}: held fixed; --fixed-set none frees {}",
-            set.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", set.vertices), set.name,
-            set.vertices == 1 ? "it" : "them", set.vertices == 1 ? "it" : "them"));
-      }
-    }
     return finished();
   }
 
@@ -106,7 +153,7 @@ class SetFinder {
   /// Leaves the implied sets what nothing else of the mesh holds.
   void keep_inner_points(const InnerNeighbours& neighbours, std::span<const Triangle> triangles,
                          std::span<const std::int32_t> regions) {
-    if (implied_.empty()) {
+    if (document_.implied_sets.empty()) {
       return;
     }
     std::vector<std::uint8_t> is_held(document_.point_count(), 0);
@@ -130,7 +177,7 @@ class SetFinder {
     }
     for (std::size_t s = document_.point_sets.size(); s < members_.size(); ++s) {
       // (Who slides may be held by nothing else. On curves and at periodic sides they slide.)
-      if (slides_ && implied_[s - document_.point_sets.size()].name == points_of_geometry) {
+      if (slides_ && document_.implied_sets[s - document_.point_sets.size()].name == points_of_geometry) {
         continue;
       }
       std::erase_if(members_[s],
@@ -192,7 +239,6 @@ class SetFinder {
   }
 
   const MeshDocument& document_;
-  std::vector<NamedSet> implied_;  ///< those of the document, and of points that arrays mark
   bool slides_;
   /// Of each set of the document, then of each implied one, each once.
   std::vector<std::vector<std::int32_t>> members_;
@@ -207,11 +253,10 @@ HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> 
   if (holds_none && names.size() > 1) {
     throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
   }
-  std::vector<NamedSet> marked = find_marked_points(document, triangles);
-  if (document.point_sets.empty() && document.implied_sets.empty() && marked.empty() && (names.empty() || holds_none)) {
+  if (document.point_sets.empty() && document.implied_sets.empty() && (names.empty() || holds_none)) {
     return {};
   }
-  SetFinder finder(document, std::move(marked), triangles, regions, slides);
+  SetFinder finder(document, triangles, regions, slides);
   if (holds_none) {
     return finder.by_names({});
   }

@@ -32,9 +32,6 @@ inline constexpr std::string_view no_sets = "none";
 /// what else they have is held anyway, unless vertices slide: then that of points of the geometry has all of its
 /// points. They are never of an area, and there are none without points.
 ///
-/// Points that an array of the document marks (see find_marked_points()) are an implied set of the array's name, and a
-/// note tells of them.
-///
 /// `triangles`: of the document. Throws std::invalid_argument for a name that no set has, with those there are.
 /// Complexity: n log n in the members of all sets and the triangles around them.
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,

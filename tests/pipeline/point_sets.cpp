@@ -5,7 +5,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "catch.h"
@@ -167,79 +166,4 @@ TEST_CASE("cell sets are counted") {
   CHECK(sets[0].name == "EALL");
   CHECK(sets[0].cells == 3);
   CHECK(sets[1].cells == 0);
-}
-
-namespace {
-
-/// A grid with an array of markers: 1 on the boundary, 0 inside, and what `marks` says.
-MeshDocument with_markers(std::int32_t side, const std::string& array,
-                          const std::vector<std::pair<std::int32_t, std::int32_t>>& marks) {
-  MeshDocument document = with_sets(side, {});
-  Numbers markers(document.point_count(), 0);
-  for (std::int32_t v = 0; v < side * side; ++v) {
-    const std::int32_t x = v % side;
-    const std::int32_t y = v / side;
-    markers[static_cast<std::size_t>(v)] = x == 0 || y == 0 || x == side - 1 || y == side - 1 ? 1 : 0;
-  }
-  for (const auto& [v, marker] : marks) {
-    markers[static_cast<std::size_t>(v)] = marker;
-  }
-  document.point_arrays.push_back(trismooth::make_data_array(array, 1, std::move(markers)));
-  return document;
-}
-
-Numbers held_by(const HeldSets& held) {
-  Numbers numbers;
-  for (std::size_t v = 0; v < held.flags.size(); ++v) {
-    if (held.flags[v] != 0) {
-      numbers.push_back(static_cast<std::int32_t>(v));
-    }
-  }
-  return numbers;
-}
-
-}  // namespace
-
-TEST_CASE("points inside that carry a marker other than what surrounds them are held, and named") {
-  const auto triangles = grid_triangles(9);
-  // An electrode, and a segment that crosses from side to side with the marker of the boundary.
-  std::vector<std::pair<std::int32_t, std::int32_t>> marks{{2 * 9 + 2, 7}};
-  Numbers expected{2 * 9 + 2};
-  for (std::int32_t x = 1; x < 8; ++x) {
-    marks.emplace_back(5 * 9 + x, 1);
-    expected.push_back(5 * 9 + x);
-  }
-  for (const std::string array : {"triangle:marker", "medit:ref", "freefem:label"}) {
-    CAPTURE(array);
-    const MeshDocument document = with_markers(9, array, marks);
-    const HeldSets held = find_held_sets(document, triangles);
-    CHECK(held_by(held) == expected);
-    REQUIRE(held.sets.size() == 1);
-    CHECK(held.sets[0].name == array);
-    CHECK(held.sets[0].vertices == 8);
-    REQUIRE(held.notes.size() == 1);
-    CHECK(says(held.notes[0], "8 vertices inside, which '" + array + "' marks"));
-    CHECK(says(held.notes[0], "--fixed-set none"));
-    CHECK(find_held_sets(document, triangles, std::vector<std::string>{"none"}).flags.empty());
-  }
-  // A name that no program gives to markers, and a mesh as Triangle writes it.
-  CHECK(find_held_sets(with_markers(9, "temperature_class", marks), triangles).flags.empty());
-  CHECK(find_held_sets(with_markers(9, "triangle:marker", {}), triangles).sets.empty());
-}
-
-TEST_CASE("numbers of whole parts and numbers of points mark nothing") {
-  constexpr std::int32_t side = 12;
-  const auto triangles = grid_triangles(side);
-  std::vector<std::pair<std::int32_t, std::int32_t>> parts;
-  std::vector<std::pair<std::int32_t, std::int32_t>> numbers;
-  for (std::int32_t v = 0; v < side * side; ++v) {
-    parts.emplace_back(v, v % side < side / 2 ? 3 : 4);
-    numbers.emplace_back(v, v + 1);
-  }
-  CHECK(find_held_sets(with_markers(side, "medit:ref", parts), triangles).flags.empty());
-  CHECK(find_held_sets(with_markers(side, "medit:ref", numbers), triangles).flags.empty());
-  CHECK(find_held_sets(with_markers(side, "triangle:marker", numbers), triangles).flags.empty());
-  // A point of its own in one of the parts.
-  parts[5 * side + 3].second = 9;
-  CHECK(held_by(find_held_sets(with_markers(side, "medit:ref", parts), triangles)) == Numbers{5 * side + 3});
 }
