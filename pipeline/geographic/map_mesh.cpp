@@ -71,12 +71,6 @@ double west_of(const DegreeRange& range) {
 void set_apart(PlanarMesh& mesh, std::span<const std::int32_t> cut) {
   std::vector<Triangle> triangles;
   BulkVector<std::int32_t> cells;
-  // (Copies of those that are cut stay in the file as they do.)
-  std::erase_if(mesh.repeats,
-                [&](const RepeatedTriangle& copy) { return std::ranges::binary_search(cut, copy.triangle); });
-  for (RepeatedTriangle& copy : mesh.repeats) {
-    copy.triangle -= static_cast<std::int32_t>(std::ranges::lower_bound(cut, copy.triangle) - cut.begin());
-  }
   auto next = cut.begin();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (next != cut.end() && *next == static_cast<std::int32_t>(t)) {

@@ -210,7 +210,6 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
   PlanarMesh mesh;
   sort_cells(document, mesh, workers);
   hold_named_sides(document, mesh);
-  take_out_repeats(mesh, workers);
   require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path,
                     mesh.high_order_triangles);
   if (mesh.triangles.empty()) {

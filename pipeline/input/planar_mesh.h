@@ -16,7 +16,6 @@
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/geographic/geographic_map.h"
 #include "trismooth/pipeline/input/middle_nodes.h"
-#include "trismooth/pipeline/input/repeated_triangles.h"
 #include "trismooth/quality/quadratic_quality.h"
 
 namespace trismooth {
@@ -35,8 +34,8 @@ struct PlanarMesh {
   Plane plane;
   std::optional<GeographicMap> map;   ///< where the points are longitudes and latitudes: what they are laid on
   BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
-  /// In the document's order, each once and in the document's vertex order. They are the document's own connectivity
-  /// where it has nothing but triangles, each once, else they are in triangles_of_cells.
+  /// In the document's order, each in the document's vertex order. They are the document's own connectivity where it
+  /// has nothing but triangles, else they are in triangles_of_cells.
   std::span<const Triangle> triangles;
   std::vector<Triangle> triangles_of_cells;
   BulkVector<std::int32_t> cells;             ///< the document's cell of each triangle, ascending; a strip has several
@@ -46,7 +45,6 @@ struct PlanarMesh {
   std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it, or the
                                               ///< side of a triangle that is a named boundary (named_sides.h)
   std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
-  std::vector<RepeatedTriangle> repeats;      ///< what the document lists again, by the triangles of which it is copies
   std::int64_t other_cells = 0;               ///< cells that are not triangles
   std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
   std::int64_t high_order_triangles = 0;      ///< those of them that are triangles of seven nodes, of ten, or of more
@@ -95,10 +93,10 @@ Storage storage_of(const MeshDocument& document);
 /// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says; see
 /// triangle_of_cell() for the others. A note says how many quadrilaterals are triangles, and names triangles of more
 /// nodes. A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says
-/// so. One that is listed again is taken out (see take_out_repeats()). Sides that are named boundaries (named_sides.h)
-/// hold their vertices as line cells do. Throws ReadError naming `path` where the vertices of cells do not lie in one
-/// plane (see fit_plane()) or have no finite coordinates in it (near the largest double), or the document holds cells
-/// but no triangle. A document without any cell is fine: nothing to smooth. Complexity: linear.
+/// so. Sides that are named boundaries (named_sides.h) hold their vertices as line cells do. Throws ReadError naming
+/// `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in it
+/// (near the largest double), or the document holds cells but no triangle. A document without any cell is fine: nothing
+/// to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// The same on the calling thread.
@@ -108,8 +106,7 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
 PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// The same of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for the
-/// whole mesh; triangles that are listed again stay, since copies may be of other pieces: their vertices are held.
-/// Throws ReadError naming `path` for too many points or cells.
+/// whole mesh. Throws ReadError naming `path` for too many points or cells.
 PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// What the user should know of cells that are no triangles, one sentence each. `first_repeating`: the first triangle

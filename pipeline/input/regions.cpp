@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_names.h"
@@ -74,7 +73,7 @@ class RegionFinder {
                                                   candidate->array.name, candidate->array.components));
         }
         if (std::ranges::find(obeyed_, candidate) == obeyed_.end()) {
-          obey(*candidate, number_values_of_triangles(candidate->array, mesh_), RegionReason::named);
+          obey(*candidate, number_values(candidate->array, mesh_.cells), RegionReason::named);
         }
       }
     }
@@ -88,7 +87,7 @@ class RegionFinder {
       }
     }
     if (regions_.arrays.empty() && constant_ != nullptr) {
-      obey(*constant_, number_values_of_triangles(constant_->array, mesh_), RegionReason::known_name);
+      obey(*constant_, number_values(constant_->array, mesh_.cells), RegionReason::known_name);
     }
     return take();
   }
@@ -117,7 +116,7 @@ class RegionFinder {
 
   void judge(const Candidate& candidate) {
     ValueNumbers numbers =
-        candidate.array.components == 1 ? number_values_of_triangles(candidate.array, mesh_) : ValueNumbers{};
+        candidate.array.components == 1 ? number_values(candidate.array, mesh_.cells) : ValueNumbers{};
     const TriangleValues values{candidate.array.name,
                                 candidate.array.components,
                                 std::ssize(mesh_.triangles),
@@ -156,24 +155,12 @@ class RegionFinder {
   }
 
   std::string name_of_region(std::int32_t triangle, bool with_values) const {
+    const auto row = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]);
     std::string name;
     for (const Candidate* const candidate : obeyed_) {
-      name.append(candidate == obeyed_.front() ? "" : ", ").append(text_of(*candidate, triangle, with_values));
+      name.append(candidate == obeyed_.front() ? "" : ", ").append(candidate->text(row, with_values));
     }
     return name;
-  }
-
-  /// The value of a triangle, or what it is called; of one that is listed with several, all of them.
-  std::string text_of(const Candidate& candidate, std::int32_t triangle, bool with_values) const {
-    std::vector<std::string> texts{
-        candidate.text(static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]), with_values)};
-    for (const RepeatedTriangle& copy : copies_of(mesh_, triangle)) {
-      std::string text = candidate.text(static_cast<std::size_t>(copy.cell), with_values);
-      if (std::ranges::find(texts, text) == texts.end()) {
-        texts.push_back(std::move(text));
-      }
-    }
-    return fmt::format("{}", fmt::join(texts, " + "));
   }
 
   const PlanarMesh& mesh_;

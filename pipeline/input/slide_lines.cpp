@@ -41,15 +41,13 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
   if (mesh.other_cells > 0) {
     // (What the mesh keeps as it is: all cells but its triangles.)
     std::vector<std::int32_t> line_cells;
-    std::vector<std::uint8_t> is_triangle(cells.size(), 0);
-    for (const std::int32_t c : mesh.cells) {
-      is_triangle[static_cast<std::size_t>(c)] = 1;
-    }
-    for (const RepeatedTriangle& copy : mesh.repeats) {
-      is_triangle[static_cast<std::size_t>(copy.cell)] = 1;
-    }
+    auto triangle = mesh.cells.begin();
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      if (is_triangle[c] != 0) {
+      bool is_triangle = false;
+      for (; triangle != mesh.cells.end() && static_cast<std::size_t>(*triangle) == c; ++triangle) {
+        is_triangle = true;
+      }
+      if (is_triangle) {
         continue;
       }
       if (is_straight_line(cells.types[c]) && cells[c].size() >= 2) {

@@ -54,25 +54,13 @@ AddedArrays annotations_of(RunState& run) {
 }
 
 std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) {
-  const PlanarMesh& mesh = run.mesh;
-  std::vector<DataArray> metrics = metric_annotations(run.options.annotated_metrics, run.view(), mesh.cells,
-                                                      run.document.cells.size(), run.workers, suffix);
+  const std::size_t cells = run.document.cells.size();
+  std::vector<DataArray> arrays =
+      metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, cells, run.workers, suffix);
   if (run.options.annotated_size_ratio) {
-    metrics.push_back(size_ratio_annotation(run.view(), mesh.cells, run.document.cells.size(), run.workers, suffix));
+    arrays.push_back(size_ratio_annotation(run.view(), run.mesh.cells, cells, run.workers, suffix));
   }
-  for (DataArray& metric : mesh.repeats.empty() ? std::span<DataArray>{} : std::span(metrics)) {
-    const std::span<const double> read = metric.as<double>();
-    std::vector<double> values(read.begin(), read.end());
-    for (const RepeatedTriangle& copy : mesh.repeats) {
-      // (A strip has the value of its triangles that are listed for the first time.)
-      if (!std::ranges::binary_search(mesh.cells, copy.cell)) {
-        values[static_cast<std::size_t>(copy.cell)] =
-            values[static_cast<std::size_t>(mesh.cells[static_cast<std::size_t>(copy.triangle)])];
-      }
-    }
-    metric = make_data_array(metric.name, 1, std::move(values));
-  }
-  return metrics;
+  return arrays;
 }
 
 WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool annotate) {

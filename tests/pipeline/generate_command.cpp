@@ -26,7 +26,7 @@ TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothe
   CHECK(folder.size() == 1);
 }
 
-TEST_CASE("--quiet prints nothing, as it does elsewhere") {
+TEST_CASE("with --quiet nothing is printed, as elsewhere") {
   const ScratchFolder folder;
   for (const char* const quiet : {"-q", "--quiet"}) {
     const Outcome made = call({"generate", (folder / "mesh.off").string(), "--vertices", "50", quiet});
