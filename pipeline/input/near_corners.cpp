@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/input/near_corners.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -26,8 +27,8 @@ class CornerSquares {
   template <class Visit>
   void visit_around(Point2<double> point, const Visit& visit) const {
     const auto [column, row] = square_of(point);
-    for (const std::int64_t x : {column - 1, column, column + 1}) {
-      for (const std::int64_t y : {row - 1, row, row + 1}) {
+    for (const double x : {column - 1, column, column + 1}) {
+      for (const double y : {row - 1, row, row + 1}) {
         const auto [first, last] = vertices_.equal_range(key_of(x, y));
         std::for_each(first, last, [&visit](const auto& entry) { visit(entry.second); });
       }
@@ -41,18 +42,22 @@ class CornerSquares {
 
  private:
   struct Square {
-    std::int64_t column;
-    std::int64_t row;
+    double column;
+    double row;
   };
 
-  Square square_of(Point2<double> point) const {
-    return {static_cast<std::int64_t>(std::floor(point.x / side_)),
-            static_cast<std::int64_t>(std::floor(point.y / side_))};
+  Square square_of(Point2<double> point) const { return {number_of(point.x), number_of(point.y)}; }
+
+  /// A whole number as a double: beyond 2^53 it is its own neighbour, and so is the coordinate, which is as coarse.
+  double number_of(double x) const {
+    const double number = std::floor(x / side_);
+    return std::isfinite(number) ? number : x;
   }
 
   /// (Squares that share a key cost time, no more.)
-  static std::uint64_t key_of(std::int64_t column, std::int64_t row) {
-    return splitmix64(static_cast<std::uint64_t>(column)) ^ static_cast<std::uint64_t>(row);
+  static std::uint64_t key_of(double column, double row) {
+    const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number + 0.0); };  // of -0 those of 0
+    return splitmix64(splitmix64(bits(column)) ^ bits(row));
   }
 
   double side_;
@@ -66,17 +71,12 @@ std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> poin
   std::vector<std::int32_t> joined(points.size());
   std::iota(joined.begin(), joined.end(), 0);
   std::vector<std::uint8_t> is_corner(points.size(), 0);
-  double largest = 0;
   for (const Triangle& triangle : triangles) {
     for (const std::int32_t v : triangle) {
       is_corner[static_cast<std::size_t>(v)] = 1;
-      const Point2<double> point = points[static_cast<std::size_t>(v)];
-      largest = std::max({largest, std::abs(point.x), std::abs(point.y)});
     }
   }
-  // Squares are no smaller than what 64 bits number.
-  constexpr double smallest_part = 0x1p-50;
-  CornerSquares squares(std::max({distance, largest * smallest_part, std::numeric_limits<double>::min()}));
+  CornerSquares squares(distance);
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (is_corner[v] == 0) {
       continue;

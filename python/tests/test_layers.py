@@ -33,6 +33,6 @@ def test_a_boundary_layer_keeps_its_heights_and_a_warning_says_so(method):
 def test_layers_are_smoothed_where_that_is_asked_for():
     points, triangles, of_layer = layered()
     result = trismooth.smooth(points, triangles, layers="smooth")
-    assert (result.points[:of_layer] != points[:of_layer]).any()
+    assert result.free_vertices == (len(points) // 40 - 2) * 38
     assert result.layers["kept"] == 0
     assert not result.notes

@@ -23,6 +23,8 @@ SINGLE = [
     {"untangle": True},
     {"untangle": False},
     {"untangle": "auto"},
+    {"layers": "keep"},
+    {"layers": "smooth"},
     {"max_sweeps": 3},
     {"max_sweeps": 0},
     {"tolerance": 1e-2},
