@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "trismooth/cuda/backend.h"
+#include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
+#include "support/layered_meshes.h"
 #include "support/sliding_meshes.h"
 
 using namespace properties;
@@ -158,6 +160,41 @@ TEST_CASE("the device gives sliding up where the CPU does") {
     const Run found = run(mesh, options);
     CHECK(expected.result.sliding->given_up);
     CHECK(difference_of_sliding(found, expected).empty());
+  }
+}
+
+TEST_CASE("layers are held by the device as by the CPU, whoever finds the topology, and where walls slide") {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    test_meshes::Random random(seed);
+    const test_meshes::Mesh mesh =
+        layered_meshes::rectangle({static_cast<std::int32_t>(40 + 60 * seed), layered_meshes::growing(0.004, 1.2, 12),
+                                   12, 0.4, seed % 3 == 2 ? 0.4 : 0.0},
+                                  random);
+    for (const auto method : {trismooth::Method::smart, trismooth::Method::mean_ratio}) {
+      for (const bool slides : {false, true}) {
+        trismooth::Constraints constraints;
+        constraints.slide.along = slides ? trismooth::Slide::straight : trismooth::Slide::off;
+        trismooth::SmoothingOptions options;
+        options.method = method;
+        std::vector<double> expected = mesh.xy();
+        const auto by_cpu =
+            trismooth::smooth(trismooth::xy_points(expected), mesh.indices(), constraints, options).layers;
+        CHECK((by_cpu.kept > 0) == (seed % 3 != 2));
+        CHECK((by_cpu.left > 0) == (seed % 3 == 2));
+        options.backend = &trismooth::cuda::backend();
+        for (const auto topology : {trismooth::Topology::device, trismooth::Topology::host}) {
+          options.topology = topology;
+          CAPTURE(seed, to_string(method), slides, to_string(topology));
+          std::vector<double> xy = mesh.xy();
+          const auto layers = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), constraints, options).layers;
+          CHECK(xy == expected);
+          CHECK(layers.kept == by_cpu.kept);
+          CHECK(layers.kept_aspect == by_cpu.kept_aspect);
+          CHECK(layers.left == by_cpu.left);
+          CHECK(layers.left_aspect == by_cpu.left_aspect);
+        }
+      }
+    }
   }
 }
 
