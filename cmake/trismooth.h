@@ -15,6 +15,7 @@
 #include "trismooth/quality/region_quality.h"
 #include "trismooth/quality/size_change.h"
 #include "trismooth/quality/size_fit.h"
+#include "trismooth/quality/size_ratio.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
