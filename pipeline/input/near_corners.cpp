@@ -154,7 +154,7 @@ double shortest_side(std::span<const Point2<double>> points, std::span<const Tri
 }
 
 std::string describe_apart_triangles(std::span<const Point2<double>> points, std::span<const Triangle> triangles) {
-  const std::string apart =
+  std::string apart =
       fmt::format("no two of the {} triangles share a side, so all vertices are on boundaries", triangles.size());
   constexpr double near = 0.1;
   const double shortest = shortest_side(points, triangles);
