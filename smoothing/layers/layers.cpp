@@ -71,7 +71,7 @@ class Stretches {
 
   const Stretch& of(std::size_t triangle) const { return stretches_[roots_[triangle]]; }
   bool counts(const Stretch& stretch) const { return stretch.triangles >= least_; }
-  /// The vertices inside of the stretch of a triangle are counted at each triangle around them; here they are once.
+  /// The vertices inside of all wide stretches that count and are not clean.
   std::int64_t inside_of_wide() const { return inside_of_wide_; }
 
  private:
@@ -224,19 +224,6 @@ LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& c
   return search_layers(candidates(layers_choices), vertex_count, layers, layers_least, workers);
 }
 
-LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed) {
-  LayersResult result = found.result;
-  result.kept = 0;
-  for (const std::int32_t v : found.kept) {
-    std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
-    if (reasons == 0) {
-      reasons = hold::named;
-      ++result.kept;
-    }
-  }
-  return result;
-}
-
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                          std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
                          Workers& workers) {
@@ -244,7 +231,16 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
     return {};
   }
   const auto candidates = [&](int choices) { return flat_candidates(points, triangles, reversed, choices, workers); };
-  return hold_found(search_layers(candidates, static_cast<std::int32_t>(points.size()), layers, workers), fixed);
+  LayerSearch found = search_layers(candidates, static_cast<std::int32_t>(points.size()), layers, workers);
+  found.result.kept = 0;
+  for (const std::int32_t v : found.kept) {
+    std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
+    if (reasons == 0) {
+      reasons = hold::named;
+      ++found.result.kept;
+    }
+  }
+  return found.result;
 }
 
 }  // namespace trismooth

@@ -72,7 +72,4 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
                          std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
                          Workers& workers);
 
-/// Marks what a search found in `fixed`, and counts anew.
-LayersResult hold_found(const LayerSearch& found, std::span<std::uint8_t> fixed);
-
 }  // namespace trismooth
