@@ -71,8 +71,10 @@ void set_point_labels(MeshDocument& document, std::vector<std::int64_t> labels) 
     return;
   }
   document.first_point_label = labels.front();
-  const bool count_on =
-      std::ranges::adjacent_find(labels, [](std::int64_t a, std::int64_t b) { return a + 1 != b; }) == labels.end();
+  // Labels are any numbers of 64 bits: a difference of neighbours may overflow, a comparison does not.
+  const bool count_on = std::ranges::adjacent_find(labels, [](std::int64_t a, std::int64_t b) {
+                          return b <= a || b - 1 != a;
+                        }) == labels.end();
   document.point_labels = count_on ? std::vector<std::int64_t>() : std::move(labels);
 }
 
