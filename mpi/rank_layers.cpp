@@ -55,13 +55,8 @@ Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, std::int64_
 }
 
 /// What rank 0 finds among the candidates of all ranks, on all of them. Collective.
-Findings shared_findings(const Overlap& overlap, std::span<const Point2<double>> points,
-                         std::span<const std::uint8_t> reversed, Layers layers, int choices, std::int64_t least,
-                         const Communicator& ranks, Workers& workers) {
-  GhostValues ghosts(overlap.part);
-  const std::vector<FlatTriangle> candidates =
-      flat_candidates(points, overlap.triangles, reversed, choices, workers,
-                      [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
+Findings shared_findings(const Overlap& overlap, std::span<const FlatTriangle> candidates, Layers layers,
+                         std::int64_t least, const Communicator& ranks, Workers& workers) {
   auto to_first = lists_by_rank<SentCandidate>(ranks);
   for (const FlatTriangle& flat : candidates) {
     // Each goes from the owner of its first vertex.
@@ -90,12 +85,15 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
   if (layers == Layers::smooth) {
     return {};
   }
-  Findings found =
-      shared_findings(overlap, points, reversed, layers, layers_first_choices, layers_least_seen, ranks, workers);
+  GhostValues ghosts(overlap.part);
+  const LayerCandidates candidates(points, overlap.triangles, reversed, workers,
+                                   [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
+  Findings found = shared_findings(overlap, candidates.after(layers_first_choices, workers), layers, layers_least_seen,
+                                   ranks, workers);
   if (found.kept.empty() && found.result.front().left == 0) {
     return {};
   }
-  found = shared_findings(overlap, points, reversed, layers, layers_choices, layers_least, ranks, workers);
+  found = shared_findings(overlap, candidates.after(layers_choices, workers), layers, layers_least, ranks, workers);
   std::int64_t own_kept = 0;
   for (std::size_t v = 0; v < fixed.size(); ++v) {
     if (fixed[v] == 0 && std::ranges::binary_search(found.kept, overlap.ids[v])) {

@@ -72,11 +72,10 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   if (layers == Layers::smooth) {
     return {};
   }
-  const auto candidates = [&](int choices) {
-    return flat_candidates(*context_, triangles_, vertex_count(), points, reversed(), choices);
-  };
+  const LayerCandidates candidates(*context_, triangles_, vertex_count(), points, reversed());
   Workers workers(0);
-  LayerSearch found = search_layers(candidates, vertex_count(), layers, workers);
+  LayerSearch found =
+      search_layers([&](int choices) { return candidates.after(choices); }, vertex_count(), layers, workers);
   if (!found.kept.empty()) {
     const std::vector<std::uint8_t> was_free = hold_free_vertices(*context_, found.kept, fixed_.data());
     for (std::size_t i = 0; i < was_free.size(); ++i) {

@@ -8,7 +8,7 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// How far a triangle has come: 0 is not flat, 1 is flat, and each choice of candidates adds one.
+/// How far a triangle has come: 0 is not flat, 1 is flat, and each choice that it passes adds one.
 struct MarkFlat {
   TriangleList triangles;
   const Point2<double>* points;
@@ -16,8 +16,8 @@ struct MarkFlat {
   std::uint8_t* levels;
 
   __device__ void operator()(std::uint32_t t) const {
-    const Triangle corners = triangles[t];
-    levels[t] = is_flat_and_valid(points[corners[0]], points[corners[1]], points[corners[2]], reversed[t] != 0) ? 1 : 0;
+    const auto [a, b, c] = canonical_corners(triangles[t], reversed[t] != 0);
+    levels[t] = is_flat(points[a], points[b], points[c]) ? 1 : 0;
   }
 };
 
@@ -51,13 +51,14 @@ struct ChooseCandidates {
     for (const std::int32_t v : triangles[t]) {
       are_crowded = are_crowded && at[v] >= layers_crowd;
     }
-    levels[t] = are_crowded ? level + 1 : 0;
+    levels[t] = are_crowded ? level + 1 : level;
   }
 };
 
 struct ListCandidates {
   TriangleList triangles;
   const Point2<double>* points;
+  const std::uint8_t* reversed;
   const std::uint8_t* levels;
   std::uint8_t level;
   FlatTriangle* list;
@@ -65,11 +66,11 @@ struct ListCandidates {
   std::uint32_t* count;
 
   __device__ void operator()(std::uint32_t t) const {
-    if (levels[t] != level) {
+    if (levels[t] < level) {
       return;
     }
     if (const std::uint32_t place = atomicAdd(count, 1U); place < list_size) {
-      const Triangle corners = triangles[t];
+      const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
       list[place] = described_flat(corners, points[corners[0]], points[corners[1]], points[corners[2]]);
     }
   }
@@ -77,22 +78,29 @@ struct ListCandidates {
 
 }  // namespace
 
-std::vector<FlatTriangle> flat_candidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
-                                          const Point2<double>* points, const std::uint8_t* reversed, int choices) {
+LayerCandidates::LayerCandidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
+                                 const Point2<double>* points, const std::uint8_t* reversed)
+    : context_(&context),
+      triangles_(triangles),
+      points_(points),
+      reversed_(reversed),
+      levels_(context, static_cast<std::size_t>(triangles.count)) {
   const auto count = static_cast<std::uint32_t>(triangles.count);
-  DeviceBuffer<std::uint8_t> levels(context, count);
   DeviceBuffer<std::uint32_t> at(context, static_cast<std::size_t>(vertex_count));
-  for_each(context, count, MarkFlat{triangles, points, reversed, levels.data()});
-  for (int choice = 0; choice < choices; ++choice) {
-    const auto level = static_cast<std::uint8_t>(choice + 1);
+  for_each(context, count, MarkFlat{triangles, points, reversed, levels_.data()});
+  for (std::uint8_t level = 1; level <= layers_first_choices; ++level) {
     at.fill_bytes(0);
-    for_each(context, count, CountAtCorners{triangles, levels.data(), level, at.data()});
-    for_each(context, count, ChooseCandidates{triangles, at.data(), level, levels.data()});
+    for_each(context, count, CountAtCorners{triangles, levels_.data(), level, at.data()});
+    for_each(context, count, ChooseCandidates{triangles, at.data(), level, levels_.data()});
   }
-  return listed<FlatTriangle>(context, count, [&](FlatTriangle* list, std::uint32_t size, std::uint32_t* found) {
-    for_each(
-        context, count,
-        ListCandidates{triangles, points, levels.data(), static_cast<std::uint8_t>(choices + 1), list, size, found});
+}
+
+std::vector<FlatTriangle> LayerCandidates::after(int choices) const {
+  const auto count = static_cast<std::uint32_t>(triangles_.count);
+  const auto level = static_cast<std::uint8_t>(choices + 1);
+  return listed<FlatTriangle>(*context_, count, [&](FlatTriangle* list, std::uint32_t size, std::uint32_t* found) {
+    for_each(*context_, count,
+             ListCandidates{triangles_, points_, reversed_, levels_.data(), level, list, size, found});
   });
 }
 

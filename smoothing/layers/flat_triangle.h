@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "trismooth/base/exact_arithmetic.h"
 #include "trismooth/base/host_device.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
 
@@ -15,8 +15,8 @@ namespace trismooth {
 /// a function of the shape alone: of the tensor with trace 1 the determinant is shape^2 / 4, so an aspect of 4 is a
 /// shape of 8 / 17, and what is written here needs no eigenvalues, roots or angles.
 ///
-/// All of it is computed from the corners in the order in which they are listed, in the local frame, by + - x and /,
-/// with the same bits on host and device.
+/// All of it is computed from the corners in canonical order, in the local frame, by + - x and /, with the same bits on
+/// host and device and however the file lists the triangle.
 struct FlatTriangle {
   /// How large its largest angle is.
   enum class Angle : std::uint32_t { moderate, wide, obtuse };  ///< below 110 degrees, up to 135, above that
@@ -25,59 +25,39 @@ struct FlatTriangle {
   Angle angle;
   double xx;        ///< of its edge tensor with trace 1; yy is 1 - xx
   double xy;        ///< likewise
-  double quotient;  ///< cross product / sum of the squared edges: shape / (2 sqrt(3)), as the corners are listed
+  double quotient;  ///< shape_quotient(), above 0
 };
 
-namespace flat_triangle_details {
-
-/// The edges at the first corner and the third edge.
-struct Edges {
-  Point2<double> ab, ac, bc;
-};
-
-TRISMOOTH_HOST_DEVICE inline double sum_of_squares(const Edges& e) {
-  return squared_length(e.ab) + squared_length(e.bc) + squared_length(e.ac);
+/// Whether the triangle with these canonical corners has an aspect of 4 or more. Where it has no area, or is inverted,
+/// nothing is on purpose.
+constexpr TRISMOOTH_HOST_DEVICE bool is_flat(Point2<double> a, Point2<double> b, Point2<double> c) {
+  const double quotient = shape_quotient(a, b, c);
+  // (2 sqrt(3) quotient)^2 <= (8 / 17)^2
+  return quotient > 0 && 867 * (quotient * quotient) <= 16;
 }
 
-}  // namespace flat_triangle_details
-
-/// Whether the triangle (a, b, c) has an aspect of 4 or more, and an area: where there is none, nothing is on purpose.
-TRISMOOTH_HOST_DEVICE inline bool is_flat(Point2<double> a, Point2<double> b, Point2<double> c) {
-  const flat_triangle_details::Edges e = {b - a, c - a, c - b};
-  const double sum = flat_triangle_details::sum_of_squares(e);
-  const double twice_area = cross(e.ab, e.ac);
-  // 12 (C / D)^2 <= (8 / 17)^2
-  return twice_area != 0 && 867 * (twice_area * twice_area) <= 16 * (sum * sum);
-}
-
-/// Whether it is flat and turned as its component is, `is_reversed` being what MeshRings::reversed says of it: what is
-/// inverted is no layer.
-TRISMOOTH_HOST_DEVICE inline bool is_flat_and_valid(Point2<double> a, Point2<double> b, Point2<double> c,
-                                                    bool is_reversed) {
-  return is_flat(a, b, c) && (cross(b - a, c - a) > 0) != is_reversed;
-}
-
-/// What is to be known of a flat triangle.
+/// What is to be known of a flat triangle with these canonical corners.
 TRISMOOTH_HOST_DEVICE inline FlatTriangle described_flat(const Triangle& corners, Point2<double> a, Point2<double> b,
                                                          Point2<double> c) {
-  const flat_triangle_details::Edges e = {b - a, c - a, c - b};
-  const double squares[3] = {squared_length(e.ab), squared_length(e.bc), squared_length(e.ac)};
-  const double sum = flat_triangle_details::sum_of_squares(e);
+  const Point2<double> ab = b - a;
+  const Point2<double> bc = c - b;
+  const Point2<double> ac = c - a;
+  const double squares[3] = {squared_length(ab), squared_length(bc), squared_length(ac)};
+  const double sum = squares[0] + squares[1] + squares[2];
   const int longest = squares[1] > squares[0] ? (squares[2] > squares[1] ? 2 : 1) : (squares[2] > squares[0] ? 2 : 0);
   const double m = squares[(longest + 1) % 3];
   const double n = squares[(longest + 2) % 3];
   // The law of cosines: excess = -2 sqrt(m n) cos(angle).
   const double excess = squares[longest] - m - n;
   constexpr double square_of_cosine_110 = 0.11697777844051098;
-  FlatTriangle flat{corners, FlatTriangle::Angle::moderate, 0, 0, 0};
+  FlatTriangle flat{corners, FlatTriangle::Angle::moderate, 0, 0, shape_quotient(a, b, c)};
   if (excess > 0 && excess * excess > 2 * (m * n)) {
     flat.angle = FlatTriangle::Angle::obtuse;
   } else if (excess > 0 && excess * excess >= 4 * square_of_cosine_110 * (m * n)) {
     flat.angle = FlatTriangle::Angle::wide;
   }
-  flat.xx = (e.ab.x * e.ab.x + e.bc.x * e.bc.x + e.ac.x * e.ac.x) / sum;
-  flat.xy = (e.ab.x * e.ab.y + e.bc.x * e.bc.y + e.ac.x * e.ac.y) / sum;
-  flat.quotient = cross(e.ab, e.ac) / sum;
+  flat.xx = (ab.x * ab.x + bc.x * bc.x + ac.x * ac.x) / sum;
+  flat.xy = (ab.x * ab.y + bc.x * bc.y + ac.x * ac.y) / sum;
   return flat;
 }
 

@@ -11,6 +11,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/parity_forest.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/corner_points.h"
 
 namespace trismooth {
 
@@ -18,18 +19,20 @@ namespace {
 
 constexpr std::int64_t triangle_grain = 16384;
 
-/// The triangles below `count` for which is_wanted(t), ascending.
-template <class IsWanted>
-std::vector<std::int32_t> list_wanted(std::int64_t count, const IsWanted& is_wanted, Workers& workers) {
-  const Blocks blocks(count, triangle_grain, workers);
+/// The flat triangles of the view, ascending.
+std::vector<std::int32_t> list_flat(const TriangleView& view, Workers& workers) {
+  const Blocks blocks(std::ssize(view.triangles), triangle_grain, workers);
   std::vector<std::vector<std::int32_t>> found(static_cast<std::size_t>(blocks.count()));
   blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::vector<std::int32_t>& own = found[static_cast<std::size_t>(block)];
-    for (std::int64_t i = begin; i < end; ++i) {
-      if (is_wanted(i)) {
-        own.push_back(static_cast<std::int32_t>(i));
-      }
-    }
+    for_corners(view, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+                [&own](std::size_t first, std::span<const CornerPoints> corners) {
+                  for (std::size_t i = 0; i < corners.size(); ++i) {
+                    if (is_flat(corners[i][0], corners[i][1], corners[i][2])) {
+                      own.push_back(static_cast<std::int32_t>(first + i));
+                    }
+                  }
+                });
   });
   std::vector<std::int32_t> all = std::move(found.front());
   for (std::size_t b = 1; b < found.size(); ++b) {
@@ -50,18 +53,44 @@ struct Stretch {
     ++triangles;
     moderate += flat.angle == FlatTriangle::Angle::moderate ? 1 : 0;
     obtuse += flat.angle == FlatTriangle::Angle::obtuse ? 1 : 0;
-    smallest_quotient = std::min(smallest_quotient, std::abs(flat.quotient));
+    smallest_quotient = std::min(smallest_quotient, flat.quotient);
   }
   bool is_clean() const { return 2 * moderate > triangles && 10 * obtuse < triangles; }
   /// Whether it is as wide as it is long. (Chains of slivers along the hull of random points are not.)
   bool is_wide() const { return 8 * inside >= triangles; }
 };
 
+/// The corners of candidates. Where these are few, in numbers of their own, and `vertex_count` becomes theirs: what is
+/// counted at vertices costs no more than the candidates then.
+std::vector<Triangle> corners_of(std::span<const FlatTriangle> candidates, std::int32_t& vertex_count) {
+  std::vector<Triangle> triangles(candidates.size());
+  std::ranges::transform(candidates, triangles.begin(), &FlatTriangle::corners);
+  if (8 * std::ssize(triangles) < vertex_count) {
+    std::vector<std::int32_t> used;
+    for (const Triangle& corners : triangles) {
+      used.insert(used.end(), corners.begin(), corners.end());
+    }
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (Triangle& corners : triangles) {
+      for (std::int32_t& v : corners) {
+        v = static_cast<std::int32_t>(std::ranges::lower_bound(used, v) - used.begin());
+      }
+    }
+    vertex_count = static_cast<std::int32_t>(used.size());
+  }
+  return triangles;
+}
+
 /// Which stretch each candidate is in, by the number of its first one.
 class Stretches {
  public:
   Stretches(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, std::int64_t least, Workers& workers)
-      : candidates_(candidates), least_(least), roots_(candidates.size()), stretches_(candidates.size()) {
+      : candidates_(candidates),
+        triangles_(corners_of(candidates, vertex_count)),
+        least_(least),
+        roots_(candidates.size()),
+        stretches_(candidates.size()) {
     join(vertex_count, workers);
     for (std::size_t t = 0; t < candidates_.size(); ++t) {
       stretches_[roots_[t]].add(candidates_[t]);
@@ -76,17 +105,15 @@ class Stretches {
 
  private:
   void join(std::int32_t vertex_count, Workers& workers) {
-    std::vector<Triangle> triangles(candidates_.size());
-    std::ranges::transform(candidates_, triangles.begin(), &FlatTriangle::corners);
     std::vector<std::int32_t> corner(static_cast<std::size_t>(vertex_count), -1);
-    for (std::size_t t = triangles.size(); t-- > 0;) {
+    for (std::size_t t = triangles_.size(); t-- > 0;) {
       for (int i = 2; i >= 0; --i) {
-        corner[static_cast<std::size_t>(triangles[t][i])] = static_cast<std::int32_t>(3 * t) + i;
+        corner[static_cast<std::size_t>(triangles_[t][i])] = static_cast<std::int32_t>(3 * t) + i;
       }
     }
-    std::vector<std::int32_t> twins(3 * triangles.size());
-    match_edges(triangles, corner, twins, workers);
-    std::vector<std::uint32_t> words(triangles.size());
+    std::vector<std::int32_t> twins(3 * triangles_.size());
+    match_edges(triangles_, corner, twins, workers);
+    std::vector<std::uint32_t> words(triangles_.size());
     const ParityForest forest{words.data()};
     for (std::uint32_t t = 0; t < words.size(); ++t) {
       forest.plant(t);
@@ -108,14 +135,14 @@ class Stretches {
   void count_inside(std::int32_t vertex_count) {
     std::vector<std::int32_t> excess(static_cast<std::size_t>(vertex_count), 0);
     std::vector<std::int32_t> some(static_cast<std::size_t>(vertex_count), -1);
-    for (std::size_t t = 0; t < candidates_.size(); ++t) {
-      for (const std::int32_t v : candidates_[t].corners) {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (const std::int32_t v : triangles_[t]) {
         ++excess[static_cast<std::size_t>(v)];
         some[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(roots_[t]);
       }
     }
     for (const std::int32_t h : sides_) {
-      const Triangle& corners = candidates_[static_cast<std::size_t>(h / 3)].corners;
+      const Triangle& corners = triangles_[static_cast<std::size_t>(h / 3)];
       --excess[static_cast<std::size_t>(corners[h % 3])];
       --excess[static_cast<std::size_t>(corners[(h + 1) % 3])];
     }
@@ -130,6 +157,7 @@ class Stretches {
   }
 
   std::span<const FlatTriangle> candidates_;
+  std::vector<Triangle> triangles_;  ///< their corners
   std::int64_t least_;
   std::vector<std::uint32_t> roots_;
   std::vector<Stretch> stretches_;   ///< one a candidate; of those that are no root nothing is counted
@@ -139,24 +167,20 @@ class Stretches {
 
 }  // namespace
 
-std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                                          std::span<const std::uint8_t> reversed, int choices, Workers& workers,
-                                          const std::function<void(std::span<std::uint32_t>)>& complete) {
-  const auto corner = [&](std::size_t t, int i) { return points[static_cast<std::size_t>(triangles[t][i])]; };
-  std::vector<std::int32_t> listed = list_wanted(
-      std::ssize(triangles),
-      [&](std::int64_t i) {
-        const auto t = static_cast<std::size_t>(i);
-        return is_flat_and_valid(corner(t, 0), corner(t, 1), corner(t, 2), reversed[t] != 0);
-      },
-      workers);
-  const auto are_enough = [&] { return complete || std::ssize(listed) >= layers_least_seen; };
-  for (int choice = 0; choice < choices && are_enough(); ++choice) {
+LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                                 std::span<const std::uint8_t> reversed, Workers& workers,
+                                 const std::function<void(std::span<std::uint32_t>)>& complete)
+    : view_{points, triangles, reversed} {
+  std::vector<std::int32_t> left = list_flat(view_, workers);
+  for (std::vector<std::int32_t>& chosen : chosen_) {
+    if (!complete && std::ssize(left) < layers_least_seen) {
+      return;
+    }
     BulkVector<std::uint32_t> at(points.size());
     std::ranges::fill(at, 0U);
-    workers.for_blocks(std::ssize(listed), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+    workers.for_blocks(std::ssize(left), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
-        for (const std::int32_t v : triangles[static_cast<std::size_t>(listed[static_cast<std::size_t>(i)])]) {
+        for (const std::int32_t v : triangles[static_cast<std::size_t>(left[static_cast<std::size_t>(i)])]) {
           std::atomic_ref(at[static_cast<std::size_t>(v)]).fetch_add(1, std::memory_order_relaxed);
         }
       }
@@ -164,19 +188,24 @@ std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points
     if (complete) {
       complete(at);
     }
-    std::erase_if(listed, [&](std::int32_t t) {
+    std::erase_if(left, [&](std::int32_t t) {
       return !std::ranges::all_of(triangles[static_cast<std::size_t>(t)],
                                   [&](std::int32_t v) { return at[static_cast<std::size_t>(v)] >= layers_crowd; });
     });
+    chosen = left;
   }
-  if (!are_enough()) {
-    return {};
-  }
-  std::vector<FlatTriangle> candidates(listed.size());
-  workers.for_blocks(std::ssize(listed), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+}
+
+std::vector<FlatTriangle> LayerCandidates::after(int choices, Workers& workers) const {
+  const std::vector<std::int32_t>& chosen = chosen_[static_cast<std::size_t>(choices - 1)];
+  std::vector<FlatTriangle> candidates(chosen.size());
+  workers.for_blocks(std::ssize(chosen), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const auto t = static_cast<std::size_t>(listed[i]);
-      candidates[i] = described_flat(triangles[t], corner(t, 0), corner(t, 1), corner(t, 2));
+      const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(chosen[i]));
+      const auto [a, b, c] = corners;
+      candidates[i] =
+          described_flat(corners, view_.points[static_cast<std::size_t>(a)], view_.points[static_cast<std::size_t>(b)],
+                         view_.points[static_cast<std::size_t>(c)]);
     }
   });
   return candidates;
@@ -216,12 +245,14 @@ LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t
   return found;
 }
 
-LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates, std::int32_t vertex_count,
-                          Layers layers, Workers& workers) {
-  if (!search_layers(candidates(layers_first_choices), vertex_count, layers, layers_least_seen, workers).finds_any()) {
+LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates_after,
+                          std::int32_t vertex_count, Layers layers, Workers& workers) {
+  const LayerSearch look =
+      search_layers(candidates_after(layers_first_choices), vertex_count, layers, layers_least_seen, workers);
+  if (!look.finds_any()) {
     return {};
   }
-  return search_layers(candidates(layers_choices), vertex_count, layers, layers_least, workers);
+  return search_layers(candidates_after(layers_choices), vertex_count, layers, layers_least, workers);
 }
 
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
@@ -230,8 +261,9 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   if (layers == Layers::smooth) {
     return {};
   }
-  const auto candidates = [&](int choices) { return flat_candidates(points, triangles, reversed, choices, workers); };
-  LayerSearch found = search_layers(candidates, static_cast<std::int32_t>(points.size()), layers, workers);
+  const LayerCandidates candidates(points, triangles, reversed, workers);
+  LayerSearch found = search_layers([&](int choices) { return candidates.after(choices, workers); },
+                                    static_cast<std::int32_t>(points.size()), layers, workers);
   found.result.kept = 0;
   for (const std::int32_t v : found.kept) {
     std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];

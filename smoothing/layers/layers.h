@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -24,20 +25,20 @@ class Workers;
 /// stretches of a few triangles.
 ///
 /// Candidates for it are the flat triangles whose corners all have a second one. In random meshes these are many, so a
-/// first look is at those that are left when the choice is made once more among them: only where that shows a stretch
-/// of layers_least_seen does the search go on.
+/// first look is at those that are left when the choice is made three more times among them: only where that shows a
+/// stretch of layers_least_seen does the search go on.
 ///
 /// Nothing of it depends on the order of triangles and corners, on place or unit, or on what holds vertices.
 
 /// The triangles of the smallest stretch that counts. Among 600,000 triangles of random points the largest clean one
 /// has 9, and each further triangle is four times rarer.
 inline constexpr std::int64_t layers_least = 20;
-/// Of the smallest one for which the search goes on: at its ends a stretch loses some triangles by the second choice.
+/// Of the smallest one for which the search goes on: at its ends a stretch loses some by each further choice.
 inline constexpr std::int64_t layers_least_seen = 12;
 /// The flat triangles at each corner of a candidate.
 inline constexpr std::uint32_t layers_crowd = 2;
 /// How often candidates are chosen for the first look, and for the search.
-inline constexpr int layers_first_choices = 2;
+inline constexpr int layers_first_choices = 4;
 inline constexpr int layers_choices = 1;
 
 /// What the search says of vertices, whatever else holds them.
@@ -48,24 +49,37 @@ struct LayerSearch {
   LayersResult result;             ///< of which `kept` is their number
 };
 
-/// The valid flat triangles that are left after so many choices; `reversed`: as MeshRings::reversed; in the order of
-/// `triangles`, in parallel. Complexity: linear; nearly all of the time goes into looking at all triangles once.
-/// `complete`: where these are the triangles of a part of a mesh, brings the numbers of flat triangles at vertices that
-/// another part owns; called once a choice.
-std::vector<FlatTriangle> flat_candidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                                          std::span<const std::uint8_t> reversed, int choices, Workers& workers,
-                                          const std::function<void(std::span<std::uint32_t>)>& complete = {});
+/// The flat triangles of a mesh, and which of them are left after each choice.
+class LayerCandidates {
+ public:
+  /// `points`: one for each vertex, in the local frame; `reversed`: one for each triangle, as MeshRings::reversed. All
+  /// outlive it. `complete`: where these are the triangles of a part of a mesh, brings the numbers of flat triangles at
+  /// vertices that another part owns; called once a choice. Complexity: linear; nearly all of the time goes into
+  /// looking at all triangles once.
+  LayerCandidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+                  std::span<const std::uint8_t> reversed, Workers& workers,
+                  const std::function<void(std::span<std::uint32_t>)>& complete = {});
+
+  /// Those left after so many choices, 1 to layers_first_choices, in the order of `triangles`. Complexity: linear in
+  /// their number.
+  std::vector<FlatTriangle> after(int choices, Workers& workers) const;
+
+ private:
+  TriangleView view_;
+  std::array<std::vector<std::int32_t>, layers_first_choices> chosen_;  ///< by each choice
+};
 
 /// Looks for stretches of `least` triangles among candidates, in any order; their corners are below `vertex_count`. Not
-/// with Layers::smooth. Complexity: linear in their number, and in `vertex_count` where there are so many.
+/// with Layers::smooth. Complexity: linear in their number and, where they are many, in `vertex_count`; n log n in
+/// their number where they are few.
 LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
                           std::int64_t least, Workers& workers);
 
-/// The first look, and the search where it goes on. `candidates(choices)` lists them.
-LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates, std::int32_t vertex_count,
-                          Layers layers, Workers& workers);
+/// The first look, and the search where it goes on. `candidates_after(choices)` lists them.
+LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates_after,
+                          std::int32_t vertex_count, Layers layers, Workers& workers);
 
-/// Both, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and was free. Of what it
+/// All of it, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and was free. Of what it
 /// returns `kept` counts these vertices alone. With Layers::smooth it does nothing. `points`: one for each vertex, in
 /// the local frame.
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
