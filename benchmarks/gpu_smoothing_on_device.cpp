@@ -27,6 +27,7 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
   const std::size_t there = context.bytes_in_use();
   std::vector<double> topology_ms;
   std::vector<double> orient_ms;
+  std::vector<double> layers_ms;
   std::vector<double> rings_ms;
   std::vector<double> total;
   for (int run = -1; run < session.settings().runs; ++run) {
@@ -41,6 +42,11 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
       topology->orient(points.data());
       context.synchronize();
     });
+    const double layers = milliseconds_of([&] {
+      std::vector<std::int32_t> held;
+      topology->hold_layers(points.data(), Layers::automatic, held);
+      context.synchronize();
+    });
     const double build = milliseconds_of([&] {
       rings = topology->rings();
       context.synchronize();
@@ -48,14 +54,15 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
     if (run >= 0) {  // the first warms up
       topology_ms.push_back(connect);
       orient_ms.push_back(orient);
+      layers_ms.push_back(layers);
       rings_ms.push_back(build);
-      total.push_back(connect + orient + build);
+      total.push_back(connect + orient + layers + build);
     }
   }
   const double bytes = static_cast<double>(context.peak_bytes() - there) / vertex_count_of(mesh);
-  fmt::print(" {:>9} {:>9} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.1f}\n", vertex_count_of(mesh),
+  fmt::print(" {:>9} {:>9} {:>24} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.1f}\n", vertex_count_of(mesh),
              mesh.triangles.size(), Spread(total).text(), Spread(topology_ms).median, Spread(orient_ms).median,
-             Spread(rings_ms).median, upload, bytes);
+             Spread(layers_ms).median, Spread(rings_ms).median, upload, bytes);
   std::fflush(stdout);
   session.report()["rings"].push_back({{"vertices", vertex_count_of(mesh)},
                                        {"triangles", mesh.triangles.size()},
@@ -63,6 +70,7 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
                                        {"total_ms", json_of(Spread(total))},
                                        {"topology_ms", json_of(Spread(topology_ms))},
                                        {"orient_ms", json_of(Spread(orient_ms))},
+                                       {"layers_ms", json_of(Spread(layers_ms))},
                                        {"rings_ms", json_of(Spread(rings_ms))},
                                        {"upload_of_triangles_ms", upload},
                                        {"device_bytes_per_vertex", bytes}});
@@ -126,8 +134,8 @@ void find_rings(Session& session) {
   session.require_device();
   fmt::print(
       "\none-rings from triangles on the device: milliseconds by the host's clock, median (least-most)\n"
-      " {:>9} {:>9} {:>24} {:>9} {:>9} {:>9} {:>9} {:>7}\n",
-      "vertices", "triangles", "all", "topology", "orient", "rings", "upload", "B/vtx");
+      " {:>9} {:>9} {:>24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}\n",
+      "vertices", "triangles", "all", "topology", "orient", "layers", "rings", "upload", "B/vtx");
   for (const std::int64_t vertices : session.sizes({1'000'000, 10'000'000})) {
     measure_rings(session, session.mesh(vertices));
   }
