@@ -38,29 +38,37 @@ std::size_t next_of_other_cell(std::span<const std::int32_t> cells, std::size_t 
 
 std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
                                           std::span<const std::int32_t> cells, std::size_t cell_count, Workers& workers,
-                                          std::string_view suffix) {
+                                          std::string_view suffix, std::span<const CellCopy> copies) {
   std::vector<DataArray> arrays;
   arrays.reserve(metrics.size());
   for (const Metric metric : metrics) {
     std::vector<double> values = zeros<double>(cell_count, workers);
+    // A strip is as bad as the worst of its triangles.
+    const auto take = [&](std::size_t t, std::int32_t cell, bool has_others) {
+      const auto [a, b, c] = canonical_corners(view, t);
+      double value = evaluate(metric, view.points[static_cast<std::size_t>(a)],
+                              view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]);
+      if (metric == Metric::area) {
+        value = std::ldexp(value, 2 * view.exponent);
+      }
+      value = std::clamp(value, -largest_annotation, largest_annotation);
+      double& of_cell = values[static_cast<std::size_t>(cell)];
+      const bool is_worse = info(metric).larger_is_better ? value < of_cell : value > of_cell;
+      of_cell = has_others && !is_worse ? of_cell : value;
+    };
     workers.for_blocks(std::ssize(view.triangles), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
       const std::size_t first = next_of_other_cell(cells, static_cast<std::size_t>(begin));
       const std::size_t last = next_of_other_cell(cells, static_cast<std::size_t>(end));
       for (std::size_t t = first; t < last; ++t) {
-        const auto [a, b, c] = canonical_corners(view, t);
-        double value = evaluate(metric, view.points[static_cast<std::size_t>(a)],
-                                view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]);
-        if (metric == Metric::area) {
-          value = std::ldexp(value, 2 * view.exponent);
-        }
-        value = std::clamp(value, -largest_annotation, largest_annotation);
-        // A strip is as bad as the worst of its triangles, which come one after the other.
-        double& of_cell = values[static_cast<std::size_t>(cells[t])];
-        const bool is_next_of_strip = t > first && cells[t] == cells[t - 1];
-        const bool is_worse = info(metric).larger_is_better ? value < of_cell : value > of_cell;
-        of_cell = is_next_of_strip && !is_worse ? of_cell : value;
+        // (They come one after the other.)
+        take(t, cells[t], t > first && cells[t] == cells[t - 1]);
       }
     });
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+      const auto [t, cell] = copies[i];
+      take(static_cast<std::size_t>(t), cell,
+           (i > 0 && copies[i - 1].cell == cell) || std::ranges::binary_search(cells, cell));
+    }
     arrays.push_back(make_data_array(annotation_name(info(metric).name).append(suffix), 1, std::move(values)));
   }
   return arrays;
@@ -102,12 +110,18 @@ std::vector<std::string> drop_annotations(MeshDocument& document) {
 }
 
 DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
-                                Workers& workers, std::string_view suffix) {
+                                Workers& workers, std::string_view suffix, std::span<const CellCopy> copies) {
   const std::vector<double> ratios = size_ratios(view, workers.count());
   std::vector<double> values = zeros<double>(cell_count, workers);
-  for (std::size_t t = 0; t < ratios.size(); ++t) {
-    double& of_cell = values[static_cast<std::size_t>(cells[t])];
+  const auto take = [&](std::size_t t, std::int32_t cell) {
+    double& of_cell = values[static_cast<std::size_t>(cell)];
     of_cell = std::max(of_cell, std::min(ratios[t], largest_annotation));  // 0 before the first of a strip
+  };
+  for (std::size_t t = 0; t < ratios.size(); ++t) {
+    take(t, cells[t]);
+  }
+  for (const CellCopy& copy : copies) {
+    take(static_cast<std::size_t>(copy.triangle), copy.cell);
   }
   return make_data_array(annotation_name(size_ratio_info.name).append(suffix), 1, std::move(values));
 }

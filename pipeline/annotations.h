@@ -29,11 +29,12 @@ struct MeshDocument;
 inline constexpr double largest_annotation = 1e30;
 
 /// Each of `metrics` of each cell of the file, as arrays of `cell_count` float64 in the order of `metrics`, `suffix`
-/// behind their names. `cells` has the file's cell of every triangle of the view; other cells have 0. The area is in
-/// the file's unit. Values are at most 1e30 in amount, so that every format can hold them. Complexity: linear.
+/// behind their names. `cells` has the file's cell of every triangle of the view, ascending, and `copies` the cells
+/// that are these triangles again; other cells have 0. The area is in the file's unit. Values are at most 1e30 in
+/// amount, so that every format can hold them. Complexity: linear, and n log n in the copies.
 std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
                                           std::span<const std::int32_t> cells, std::size_t cell_count, Workers& workers,
-                                          std::string_view suffix = {});
+                                          std::string_view suffix = {}, std::span<const CellCopy> copies = {});
 
 /// `reasons` has, for every vertex, what holds it (see hold.h), 0 for a free one. An array of uint8.
 DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& workers);
@@ -47,7 +48,7 @@ std::vector<std::string> drop_annotations(MeshDocument& document);
 
 /// The size ratio (size_ratio.h) of each cell, as metric_annotations() has the others: of a strip the largest.
 DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
-                                Workers& workers, std::string_view suffix = {});
+                                Workers& workers, std::string_view suffix = {}, std::span<const CellCopy> copies = {});
 
 /// What annotations are to show of triangles.
 struct AnnotatedMetrics {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
 
 namespace trismooth {
 

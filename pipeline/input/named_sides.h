@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/planar_mesh.h"
-
 namespace trismooth {
+
+struct MeshDocument;
+struct PlanarMesh;
 
 /// Sides of triangles that a document's cell arrays mark as named boundaries (is_side_name() in region_names.h). They
 /// are to a mesh what line cells are: they hold their vertices, or these slide along them.

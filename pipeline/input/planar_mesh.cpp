@@ -11,7 +11,6 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/pipeline/input/named_sides.h"
 
 namespace trismooth {
 
@@ -176,7 +175,8 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
 
 /// Named boundaries hold their vertices as line cells do.
 void hold_named_sides(const MeshDocument& document, PlanarMesh& mesh) {
-  const NamedSides sides = find_named_sides(document, mesh);
+  mesh.sides = find_named_sides(document, mesh);
+  const NamedSides& sides = mesh.sides;
   for (const std::int32_t v : sides.lines) {
     mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
   }

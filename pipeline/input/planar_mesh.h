@@ -15,7 +15,9 @@
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/geographic/geographic_map.h"
+#include "trismooth/pipeline/input/cell_copies.h"
 #include "trismooth/pipeline/input/middle_nodes.h"
+#include "trismooth/pipeline/input/named_sides.h"
 #include "trismooth/quality/quadratic_quality.h"
 
 namespace trismooth {
@@ -39,11 +41,13 @@ struct PlanarMesh {
   std::span<const Triangle> triangles;
   std::vector<Triangle> triangles_of_cells;
   BulkVector<std::int32_t> cells;             ///< the document's cell of each triangle, ascending; a strip has several
+  std::vector<CellCopy> copies;               ///< the cells that are these triangles again: see take_out_copies()
   std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
   std::vector<MiddleNode> middles;            ///< the middles that follow their sides: see settle_middles()
   std::vector<std::int32_t> merged;           ///< per vertex the one it goes with: see merge_corners(); or empty
   std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it, or the
-                                              ///< side of a triangle that is a named boundary (named_sides.h)
+                                              ///< side of a triangle that is a named boundary
+  NamedSides sides;                           ///< these sides
   std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;               ///< cells that are not triangles
   std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat

@@ -1,6 +1,8 @@
 #include "trismooth/pipeline/input/regions.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -63,7 +65,18 @@ std::string names_of(const std::vector<Candidate>& candidates) {
 class RegionFinder {
  public:
   RegionFinder(const MeshDocument& document, const PlanarMesh& mesh)
-      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.triangles, mesh.points.size()) {}
+      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.triangles, mesh.points.size()) {
+    if (!mesh.copies.empty()) {
+      rows_.assign(mesh.cells.begin(), mesh.cells.end());
+      for (const CellCopy& copy : mesh.copies) {
+        rows_.push_back(copy.cell);
+        copy_of_.push_back(copy.triangle);
+      }
+      copies_by_triangle_ = mesh.copies;
+      std::ranges::stable_sort(copies_by_triangle_, {}, &CellCopy::triangle);
+      has_several_.assign(mesh.cells.size(), 0);
+    }
+  }
 
   Regions by_names(std::span<const std::string> names) {
     for (const std::string& name : names) {
@@ -73,7 +86,7 @@ class RegionFinder {
                                                   candidate->array.name, candidate->array.components));
         }
         if (std::ranges::find(obeyed_, candidate) == obeyed_.end()) {
-          obey(*candidate, number_values(candidate->array, mesh_.cells), RegionReason::named);
+          obey(*candidate, numbers_at_triangles(candidate->array), RegionReason::named);
         }
       }
     }
@@ -87,7 +100,7 @@ class RegionFinder {
       }
     }
     if (regions_.arrays.empty() && constant_ != nullptr) {
-      obey(*constant_, number_values(constant_->array, mesh_.cells), RegionReason::known_name);
+      obey(*constant_, numbers_at_triangles(constant_->array), RegionReason::known_name);
     }
     return take();
   }
@@ -114,15 +127,26 @@ class RegionFinder {
     return found;
   }
 
+  /// A triangle that is listed with several values has the set of them, which is a value of its own: where groups
+  /// overlap, what is in both has a border with what is in one.
+  ValueNumbers numbers_at_triangles(const DataArray& array) const {
+    return mesh_.copies.empty() ? number_values(array, mesh_.cells)
+                                : join_copies(number_values(array, rows_), copy_of_);
+  }
+
+  bool has_whole_numbers(const DataArray& array, const ValueNumbers& numbers) const {
+    return mesh_.copies.empty() ? are_whole(array, mesh_.cells, numbers)
+                                : are_whole(array, rows_, number_values(array, rows_));
+  }
+
   void judge(const Candidate& candidate) {
-    ValueNumbers numbers =
-        candidate.array.components == 1 ? number_values(candidate.array, mesh_.cells) : ValueNumbers{};
+    ValueNumbers numbers = candidate.array.components == 1 ? numbers_at_triangles(candidate.array) : ValueNumbers{};
     const TriangleValues values{candidate.array.name,
                                 candidate.array.components,
                                 std::ssize(mesh_.triangles),
                                 [&] { return numbers.count() > 1; },
                                 [&] { return std::int64_t{numbers.count()}; },
-                                [&] { return are_whole(candidate.array, mesh_.cells, numbers); },
+                                [&] { return has_whole_numbers(candidate.array, numbers); },
                                 [&] { return edges_.vertices_between(numbers.of_item); },
                                 [&] { return edges_.fraction_between(numbers.of_item); }};
     if (const auto reason = judge_regions(values, regions_.notes)) {
@@ -135,11 +159,28 @@ class RegionFinder {
   void obey(const Candidate& candidate, ValueNumbers numbers, RegionReason reason) {
     regions_.arrays.push_back(
         {candidate.array.name, reason, numbers.count(), edges_.vertices_between(numbers.of_item)});
+    mark_several(candidate.array);
     obeyed_.push_back(&candidate);
     numbers_ = obeyed_.size() == 1 ? std::move(numbers) : number_pairs(numbers_, numbers);
   }
 
+  void mark_several(const DataArray& array) {
+    const ValueNumbers listed = mesh_.copies.empty() ? ValueNumbers{} : number_values(array, rows_);
+    for (std::size_t i = 0; i < copy_of_.size(); ++i) {
+      const auto first = static_cast<std::size_t>(copy_of_[i]);
+      if (listed.of_item[mesh_.cells.size() + i] != listed.of_item[first]) {
+        has_several_[first] = 1;
+      }
+    }
+  }
+
   Regions take() {
+    if (const auto several = std::ranges::count(has_several_, 1); several > 0) {
+      regions_.notes.push_back(
+          fmt::format("{} triangle{} listed in several regions: what these share is a region of its own, whose border "
+                      "is held; --region-array none switches regions off",
+                      several, several == 1 ? " is" : "s are"));
+    }
     std::unordered_map<std::string, int> uses;
     for (const std::int32_t triangle : numbers_.example) {
       regions_.names.push_back(name_of_region(triangle, false));
@@ -155,12 +196,26 @@ class RegionFinder {
   }
 
   std::string name_of_region(std::int32_t triangle, bool with_values) const {
-    const auto row = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]);
     std::string name;
     for (const Candidate* const candidate : obeyed_) {
-      name.append(candidate == obeyed_.front() ? "" : ", ").append(candidate->text(row, with_values));
+      name.append(candidate == obeyed_.front() ? "" : ", ").append(text_of(*candidate, triangle, with_values));
     }
     return name;
+  }
+
+  /// The value of a triangle, or what it is called; of one that is listed with several, all of them.
+  std::string text_of(const Candidate& candidate, std::int32_t triangle, bool with_value) const {
+    std::string text =
+        candidate.text(static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]), with_value);
+    std::set<std::string> said{text};
+    const auto [begin, end] = std::ranges::equal_range(copies_by_triangle_, triangle, {}, &CellCopy::triangle);
+    for (auto copy = begin; copy != end; ++copy) {
+      if (const auto [other, is_new] = said.insert(candidate.text(static_cast<std::size_t>(copy->cell), with_value));
+          is_new) {
+        text.append(" + ").append(*other);
+      }
+    }
+    return text;
   }
 
   const PlanarMesh& mesh_;
@@ -170,6 +225,12 @@ class RegionFinder {
   std::vector<const Candidate*> obeyed_;
   ValueNumbers numbers_;  ///< the triangles by the values of all obeyed arrays
   const Candidate* constant_ = nullptr;
+
+  // Of a mesh with triangles that are listed again; else empty.
+  std::vector<std::int32_t> rows_;            ///< the cells of the triangles, then those of their copies
+  std::vector<std::int32_t> copy_of_;         ///< one triangle for each of these
+  std::vector<CellCopy> copies_by_triangle_;  ///< those of a triangle in the document's order
+  std::vector<std::uint8_t> has_several_;     ///< per triangle: 1 where arrays that were obeyed give it several values
 };
 
 }  // namespace

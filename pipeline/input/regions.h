@@ -12,7 +12,8 @@
 
 namespace trismooth {
 
-/// The regions of a mesh. Two triangles are in one region if all arrays agree on them.
+/// The regions of a mesh. Two triangles are in one region if all arrays agree on them. One that is listed again with
+/// other values is in none of their regions, but in that of those that are listed with the same values.
 struct Regions {
   std::vector<RegionArray> arrays;        ///< the cell arrays that were obeyed, in the file's order
   std::vector<std::int32_t> of_triangle;  ///< a number from 0 for each triangle; empty where no array was obeyed

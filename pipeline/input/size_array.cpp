@@ -57,13 +57,13 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
   std::vector<double> areas(mesh.triangles.size());
   double largest = 0;
   for (std::size_t begin = 0, end = 0; begin < areas.size(); begin = end) {
-    // A strip has several triangles, one after the other, and its area is that of all of them.
+    // A strip has several triangles, one after the other, and its area is that of all of them, also of copies.
     while (end < areas.size() && mesh.cells[end] == mesh.cells[begin]) {
       ++end;
     }
     const double area = size_at(array, static_cast<std::size_t>(mesh.cells[begin]), "cell", "cell");
     std::fill(areas.begin() + static_cast<std::ptrdiff_t>(begin), areas.begin() + static_cast<std::ptrdiff_t>(end),
-              area / static_cast<double>(end - begin));
+              area / static_cast<double>(end - begin + copies_in_cell(mesh.copies, mesh.cells[begin]).size()));
     largest = std::max(largest, areas[begin]);
   }
   // By the largest, sums are within the range of double.

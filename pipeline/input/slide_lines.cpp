@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "trismooth/mesh_io/document/region_names.h"
-#include "trismooth/pipeline/input/named_sides.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
@@ -41,13 +40,15 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
   if (mesh.other_cells > 0) {
     // (What the mesh keeps as it is: all cells but its triangles.)
     std::vector<std::int32_t> line_cells;
-    auto triangle = mesh.cells.begin();
+    std::vector<std::uint8_t> has_triangles(cells.size(), 0);
+    for (const std::int32_t cell : mesh.cells) {
+      has_triangles[static_cast<std::size_t>(cell)] = 1;
+    }
+    for (const CellCopy& copy : mesh.copies) {
+      has_triangles[static_cast<std::size_t>(copy.cell)] = 1;
+    }
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      bool is_triangle = false;
-      for (; triangle != mesh.cells.end() && static_cast<std::size_t>(*triangle) == c; ++triangle) {
-        is_triangle = true;
-      }
-      if (is_triangle) {
+      if (has_triangles[c] != 0) {
         continue;
       }
       if (is_straight_line(cells.types[c]) && cells[c].size() >= 2) {
@@ -78,7 +79,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
       }
     }
   }
-  const NamedSides sides = find_named_sides(document, mesh);
+  const NamedSides& sides = mesh.sides;
   const auto line_tags = found.tags.empty() ? 0 : *std::ranges::max_element(found.tags) + 1;
   found.lines.insert(found.lines.end(), sides.lines.begin(), sides.lines.end());
   for (const std::int32_t tag : sides.tags) {

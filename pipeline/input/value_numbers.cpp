@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -82,6 +84,32 @@ ValueNumbers number_pairs(const ValueNumbers& first, const ValueNumbers& second)
   const std::int64_t width = second.count();
   return number_items(first.of_item.size(),
                       [&](std::size_t item) { return first.of_item[item] * width + second.of_item[item]; });
+}
+
+ValueNumbers join_copies(const ValueNumbers& numbers, std::span<const std::int32_t> copy_of) {
+  const std::size_t count = numbers.of_item.size() - copy_of.size();
+  std::vector<std::pair<std::int32_t, std::int32_t>> values;  // of items that have copies
+  for (std::size_t i = 0; i < copy_of.size(); ++i) {
+    values.emplace_back(copy_of[i], numbers.of_item[static_cast<std::size_t>(copy_of[i])]);
+    values.emplace_back(copy_of[i], numbers.of_item[count + i]);
+  }
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::vector<std::int32_t> joined(numbers.of_item.begin(),
+                                   numbers.of_item.begin() + static_cast<std::ptrdiff_t>(count));
+  std::map<std::vector<std::int32_t>, std::int32_t> sets;
+  for (std::size_t begin = 0, end = 0; begin < values.size(); begin = end) {
+    const std::int32_t item = values[begin].first;
+    std::vector<std::int32_t> set;
+    for (; end < values.size() && values[end].first == item; ++end) {
+      set.push_back(values[end].second);
+    }
+    if (set.size() > 1) {
+      const std::int32_t next = numbers.count() + static_cast<std::int32_t>(sets.size());
+      joined[static_cast<std::size_t>(item)] = sets.try_emplace(std::move(set), next).first->second;
+    }
+  }
+  return number_items(count, [&](std::size_t item) { return joined[item]; });
 }
 
 bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const ValueNumbers& numbers) {

@@ -28,6 +28,11 @@ ValueNumbers number_values(const DataArray& array, std::span<const std::int32_t>
 /// Numbers the pairs of values of the same items: ascending by the first, then by the second. Complexity: as above.
 ValueNumbers number_pairs(const ValueNumbers& first, const ValueNumbers& second);
 
+/// The numbers of the first items, of which the others are copies: `copy_of` has one item for each of the others. An
+/// item whose copies have other values has the set of these in place of one: a number behind those of all values.
+/// Complexity: linear, and n log n in the copies.
+ValueNumbers join_copies(const ValueNumbers& numbers, std::span<const std::int32_t> copy_of);
+
 /// Whether every value is a whole number.
 bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const ValueNumbers& numbers);
 

@@ -215,8 +215,9 @@ void connect_mesh(RunState& run) {
     run.note(
         "x and y look like longitude and latitude in degrees: --geographic smooths shapes as they are on the sphere");
   }
-  std::ranges::copy(mesh.notes, std::back_inserter(result.notes));
   merge_near_corners(run);
+  take_out_copies(mesh, run.workers);
+  std::ranges::copy(mesh.notes, std::back_inserter(result.notes));
   run.enter_frame();
   find_sizes(run);
   run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");

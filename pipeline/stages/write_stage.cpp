@@ -55,10 +55,10 @@ AddedArrays annotations_of(RunState& run) {
 
 std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) {
   const std::size_t cells = run.document.cells.size();
-  std::vector<DataArray> arrays =
-      metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, cells, run.workers, suffix);
+  std::vector<DataArray> arrays = metric_annotations(run.options.annotated_metrics, run.view(), run.mesh.cells, cells,
+                                                     run.workers, suffix, run.mesh.copies);
   if (run.options.annotated_size_ratio) {
-    arrays.push_back(size_ratio_annotation(run.view(), run.mesh.cells, cells, run.workers, suffix));
+    arrays.push_back(size_ratio_annotation(run.view(), run.mesh.cells, cells, run.workers, suffix, run.mesh.copies));
   }
   return arrays;
 }

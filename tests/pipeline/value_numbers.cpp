@@ -92,3 +92,11 @@ TEST_CASE("a value's text has every digit") {
   CHECK(value_text(make_data_array("a", 1, std::vector<float>{0.1F, 3}), 1) == "3");
   CHECK(value_text(make_data_array("a", 1, std::vector<double>{std::numeric_limits<double>::quiet_NaN()}), 0) == "nan");
 }
+
+TEST_CASE("copies of an item with other values make a value of the set of them, whatever their order") {
+  const auto array = make_data_array("a", 1, std::vector<std::int16_t>{1, 1, 1, 2, 2, 3, 2, 3, 1, 1});
+  // The first five are the items: 1; 1, 3 and 2; 1 and 1; 2, 3 and 1; 2.
+  const ValueNumbers joined = trismooth::join_copies(number_values(array, all_rows(10)), Numbers{1, 1, 3, 3, 2});
+  CHECK(joined.of_item == Numbers{0, 2, 0, 2, 1});
+  CHECK(joined.example == Numbers{0, 4, 1});
+}

@@ -1,0 +1,117 @@
+#include "trismooth/pipeline/input/cell_copies.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/repeated_triangles.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
+
+namespace trismooth {
+
+namespace {
+
+/// The middle across from each corner, by ascending corners; -1 where there is none.
+using Middles = std::array<std::pair<std::int32_t, std::int32_t>, 3>;
+
+Middles middles_of(const PlanarMesh& mesh, std::int32_t triangle) {
+  const auto found = std::ranges::lower_bound(mesh.quadratics, triangle, {}, &QuadraticTriangle::triangle);
+  const bool has_any = found != mesh.quadratics.end() && found->triangle == triangle;
+  Middles middles;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t across = (i + 2) % 3;
+    middles[i] = {mesh.triangles[static_cast<std::size_t>(triangle)][across], has_any ? found->middles[i] : -1};
+  }
+  std::ranges::sort(middles);
+  return middles;
+}
+
+/// Whether the copy has a middle that the triangle has not.
+bool has_other_middles(const Middles& copy, const Middles& first) {
+  return !std::ranges::equal(copy, first, [](const auto& a, const auto& b) { return a.second == -1 || a == b; });
+}
+
+void hold_as_other_cell(PlanarMesh& mesh, std::int32_t triangle) {
+  for (const auto& [corner, middle] : middles_of(mesh, triangle)) {
+    for (const std::int32_t v : {corner, middle}) {
+      if (v >= 0) {
+        mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+  }
+  ++mesh.other_cells;
+}
+
+/// Makes the mesh one of the other triangles. Returns their numbers there.
+std::vector<std::int32_t> leave_out(PlanarMesh& mesh, std::span<const RepeatedTriangle> repeated) {
+  std::vector<Triangle> triangles;
+  BulkVector<std::int32_t> cells;
+  std::vector<QuadraticTriangle> quadratics;
+  std::vector<std::int32_t> numbers(mesh.triangles.size(), -1);
+  auto next = repeated.begin();
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    if (next != repeated.end() && next->triangle == static_cast<std::int32_t>(t)) {
+      ++next;
+      continue;
+    }
+    numbers[t] = static_cast<std::int32_t>(triangles.size());
+    triangles.push_back(mesh.triangles[t]);
+    cells.push_back(mesh.cells[t]);
+  }
+  for (const QuadraticTriangle& quadratic : mesh.quadratics) {
+    if (const std::int32_t number = numbers[static_cast<std::size_t>(quadratic.triangle)]; number >= 0) {
+      quadratics.push_back({number, quadratic.middles});
+    }
+  }
+  mesh.triangles_of_cells = std::move(triangles);
+  mesh.triangles = mesh.triangles_of_cells;
+  mesh.cells = std::move(cells);
+  mesh.quadratics = std::move(quadratics);
+  return numbers;
+}
+
+}  // namespace
+
+std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell) {
+  const auto [first, last] = std::ranges::equal_range(copies, cell, {}, &CellCopy::cell);
+  return {first, last};
+}
+
+void take_out_copies(PlanarMesh& mesh, Workers& workers) {
+  const auto repeated = find_repeated_triangles(mesh.triangles, mesh.points.size(), workers);
+  if (repeated.empty()) {
+    return;
+  }
+  std::int64_t others = 0;
+  for (const auto& [triangle, first] : repeated) {
+    if (has_other_middles(middles_of(mesh, triangle), middles_of(mesh, first))) {
+      hold_as_other_cell(mesh, triangle);
+      ++others;
+    } else {
+      mesh.copies.push_back({first, mesh.cells[static_cast<std::size_t>(triangle)]});
+    }
+  }
+  const auto [triangle, first] = repeated.front();
+  mesh.notes.push_back(fmt::format(
+      "{} triangle{} listed again (the first is cell {}, which has the corners of cell {}): {} and smoothed once, as "
+      "it is listed first; the file keeps all",
+      repeated.size(), repeated.size() == 1 ? " is" : "s are", mesh.cells[static_cast<std::size_t>(triangle)],
+      mesh.cells[static_cast<std::size_t>(first)], repeated.size() == 1 ? "it is counted" : "each is counted"));
+  if (others > 0) {
+    mesh.notes.push_back(
+        fmt::format("{} of the triangles that are listed again {} other middles of sides: kept as "
+                    "they are, their vertices held fixed",
+                    others, others == 1 ? "has" : "have"));
+  }
+  const std::vector<std::int32_t> numbers = leave_out(mesh, repeated);
+  for (CellCopy& copy : mesh.copies) {
+    copy.triangle = numbers[static_cast<std::size_t>(copy.triangle)];
+  }
+}
+
+}  // namespace trismooth

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace trismooth {
+
+class Workers;
+struct PlanarMesh;
+
+/// A cell of the document, or of a strip a part, that is a triangle of the mesh once more.
+struct CellCopy {
+  std::int32_t triangle;  ///< of the mesh
+  std::int32_t cell;      ///< of the document
+
+  bool operator==(const CellCopy&) const = default;
+};
+
+/// The copies that are of this cell. `copies` ascend by their cells. Complexity: log n.
+std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell);
+
+/// Takes triangles that have the corners of one before them, in whatever order, out of those of the mesh, which has
+/// each once then: they are its `copies`. Programs list triangles again for every group that has them. One of six nodes
+/// whose middles are others counts as another cell: its vertices are held. Notes say how many there are of both. To be
+/// called when the mesh's triangles are what they stay. Complexity: as find_repeated_triangles().
+void take_out_copies(PlanarMesh& mesh, Workers& workers);
+
+}  // namespace trismooth

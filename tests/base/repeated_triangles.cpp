@@ -1,0 +1,60 @@
+#include "trismooth/base/repeated_triangles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "trismooth/base/workers.h"
+
+#include "catch.h"
+#include "support/test_meshes.h"
+
+using trismooth::find_repeated_triangles;
+using trismooth::RepeatedTriangle;
+using trismooth::Triangle;
+using trismooth::Workers;
+
+namespace {
+
+/// Looks at every pair.
+std::vector<RepeatedTriangle> by_pairs(const std::vector<Triangle>& triangles) {
+  std::vector<RepeatedTriangle> repeated;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t first = 0; first < t; ++first) {
+      if (std::ranges::is_permutation(triangles[t], triangles[first])) {
+        repeated.push_back({static_cast<std::int32_t>(t), static_cast<std::int32_t>(first)});
+        break;
+      }
+    }
+  }
+  return repeated;
+}
+
+}  // namespace
+
+TEST_CASE("triangles of the same three corners are found, in whatever order and however often they are listed") {
+  test_meshes::Random random(7);
+  for (int round = 0; round < 300; ++round) {
+    const std::int32_t vertices = 3 + random.below(10);
+    std::vector<Triangle> triangles = test_meshes::random_soup(vertices, 1 + random.below(80), random);
+    Workers workers(1 + round % 3);
+    REQUIRE(find_repeated_triangles(triangles, static_cast<std::size_t>(vertices), workers) == by_pairs(triangles));
+  }
+}
+
+TEST_CASE("a large mesh has no repeated triangles, and with one it has one, by any number of threads") {
+  test_meshes::Mesh mesh = test_meshes::jittered_grid(150, 150, 0.3, 5);
+  const auto count = static_cast<std::int32_t>(mesh.triangles.size());
+  const auto [a, b, c] = mesh.triangles[30'001];
+  std::vector<Triangle> with_one = mesh.triangles;
+  with_one.push_back({b, a, c});
+  for (const int threads : {1, 2, 5}) {
+    Workers workers(threads);
+    CHECK(find_repeated_triangles(mesh.triangles, mesh.points.size(), workers).empty());
+    CHECK(find_repeated_triangles(with_one, mesh.points.size(), workers) ==
+          std::vector<RepeatedTriangle>{{count, 30'001}});
+    CHECK(find_repeated_triangles({}, 0, workers).empty());
+  }
+}
