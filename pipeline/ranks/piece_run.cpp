@@ -35,6 +35,7 @@
 #include "trismooth/pipeline/ranks/rank_mesh.h"
 #include "trismooth/pipeline/ranks/rank_quality.h"
 #include "trismooth/pipeline/ranks/rank_regions.h"
+#include "trismooth/pipeline/ranks/rank_repeats.h"
 #include "trismooth/pipeline/ranks/rank_topology.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/shared_vertices.h"
@@ -104,6 +105,10 @@ class PieceRun {
       return;
     }
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
+    if (has_repeats()) {
+      gathered_for_ = "triangles that are listed again";
+      return;
+    }
     timed(Stage::check_before, result_.timings_ms.check_before, [&] { check_before(); });
     if (!options_.output) {
       return;
@@ -326,6 +331,21 @@ class PieceRun {
     if (options_.fixed_ids && constraints_.listed == 0) {
       say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
     }
+  }
+
+  /// Whether triangles are listed again, which are not taken out in pieces.
+  bool has_repeats() {
+    const RankRepeats repeats = find_rank_repeats(*topology_, workers_);
+    const std::int64_t cell = repeats.count > 0 ? ranks_->sum(cell_of(repeats.lowest)) : 0;
+    agree(*ranks_, [&] {
+      if (repeats.count > 0 && !options_.gather) {
+        throw std::invalid_argument(options_.input.string() + ": triangles are listed again (" +
+                                    std::to_string(repeats.count) + "; the first is cell " + std::to_string(cell) +
+                                    "), which are not taken out in pieces; --gather has rank 0 " +
+                                    "do that, with the whole mesh in its memory");
+      }
+    });
+    return repeats.count > 0;
   }
 
   QualityReport quality_at(std::span<const Point2<double>> points, const LocalFrame& frame) {
