@@ -196,6 +196,29 @@ class WholeMesh(ranks_tool.RanksTest):
                     report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather")
                     self.assertEqual(without_run(report), without_run(whole))
 
+    def test_triangles_that_are_listed_again(self):
+        """Those at the boundary, the other way round: rank 0 takes them out, and nobody smooths them unseen."""
+        mesh = self.random_mesh(300)
+        self.write_both(mesh)
+        once = self.report("smooth", "whole.vtu", "alone.vtu")
+        again = [c for c, cell in enumerate(mesh.cells) if min(mesh.points[v][1] for v in cell) < 0.05]
+        self.assertGreater(len(again), 5)
+        mesh.cells += [mesh.cells[c][::-1] for c in again]
+        mesh.types += [5] * len(again)
+        for values in mesh.cell_arrays.values():
+            values += [values[c] for c in again]
+        self.write_both(mesh)
+        whole = self.report("smooth", "whole.vtu", "alone.vtu")
+        self.assertEqual(whole["coordinates_hash"], once["coordinates_hash"])
+        for name in ("big.pvtu", "whole.vtu"):
+            for ranks in RANKS:
+                with self.subTest(name=name, ranks=ranks):
+                    report = self.report_over(ranks, "smooth", name, "out.pvtu", "--gather")
+                    self.assertEqual(without_run(report), without_run(whole))
+                    errors = self.errors_of(self.run_over(ranks, "smooth", name, "no.pvtu", expect=2))
+                    self.assertIn(f"triangles are listed again ({len(again)}; the first is cell ", errors[0])
+                    self.assertIn("--gather", errors[0])
+
     def test_one_file_in_pieces(self):
         """Rank 0 reads the file itself then: periodic vertices and the like, which pieces do not hold, have their say."""
         self.write_both(self.random_mesh(400))
