@@ -120,6 +120,11 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     "stlsolidlabeling",
 });
 
+/// Of arrays of points: those of this program's readers, of meshio, and those that people choose.
+constexpr std::array marker_names = std::to_array<std::string_view>(
+    {"trianglemarker", "meditref", "freefemlabel", "tetgenref", "marker", "markers", "vertexmarker", "vertexmarkers",
+     "pointmarker", "pointmarkers", "nodemarker", "nodemarkers", "boundarymarker", "boundarymarkers"});
+
 /// Names that contain one of these are bookkeeping ...
 constexpr std::array bookkeeping_parts = std::to_array<std::string_view>(
     {"ghost", "halo", "partition", "rank", "proc", "mpi", "decomposition", "metis", "original", "parent"});
@@ -154,6 +159,10 @@ bool is_region_name(std::string_view name) {
 
 bool is_side_name(std::string_view name) {
   return name.starts_with(skfem_boundary);
+}
+
+bool is_marker_name(std::string_view name) {
+  return contains(marker_names, plain_name(name));
 }
 
 bool is_bookkeeping_name(std::string_view name) {

@@ -12,6 +12,10 @@ bool is_region_name(std::string_view name);
 /// ("skfem:b:wall"): the bits 1, 2 and 4 of a value are the sides 01, 12 and 02 of its triangle.
 bool is_side_name(std::string_view name);
 
+/// Whether programs write markers of points under that name of a point array ("triangle:marker", "medit:ref",
+/// "vertex_markers", ...): numbers of the curves and points of the geometry that they are on. Compared by plain_name().
+bool is_marker_name(std::string_view name);
+
 /// Whether a cell array of that name divides or numbers cells for another purpose: parts of a parallel run, ghost
 /// cells, cells of an older mesh. Compared by plain_name().
 bool is_bookkeeping_name(std::string_view name);

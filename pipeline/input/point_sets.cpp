@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +11,9 @@
 
 #include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/pipeline/input/marked_points.h"
+#include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
 
@@ -22,6 +27,25 @@ std::vector<std::int32_t> different_members(const NamedSet& set) {
   }
   members.erase(std::unique(members.begin(), members.end()), members.end());
   return members;
+}
+
+/// The arrays of markers of points: whole numbers, one a point.
+std::vector<const DataArray*> marker_arrays(const MeshDocument& document) {
+  std::vector<const DataArray*> arrays;
+  for (const DataArray& array : document.point_arrays) {
+    if (array.components == 1 && array.type != ScalarType::float32 && array.type != ScalarType::float64 &&
+        is_marker_name(array.name)) {
+      arrays.push_back(&array);
+    }
+  }
+  return arrays;
+}
+
+/// The number of the value 0 of an array whose rows were numbered, or -1.
+std::int32_t number_of_zero(const DataArray& array, const ValueNumbers& numbers) {
+  const auto zero = std::ranges::find_if(
+      numbers.example, [&](std::int32_t row) { return array.value(static_cast<std::size_t>(row)) == 0; });
+  return zero == numbers.example.end() ? -1 : static_cast<std::int32_t>(zero - numbers.example.begin());
 }
 
 /// The neighbours of the vertices that are asked for.
@@ -89,17 +113,21 @@ class SetFinder {
   SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions,
             bool slides)
       : document_(document), slides_(slides) {
-    std::vector<std::uint8_t> in_set(document.point_count(), 0);
     for (const auto& sets : {std::span(document.point_sets), std::span(document.implied_sets)}) {
       for (const NamedSet& set : sets) {
         members_.push_back(different_members(set));
-        for (const std::int32_t v : members_.back()) {
-          in_set[static_cast<std::size_t>(v)] = 1;
-        }
+        names_.push_back(set.name);
+      }
+    }
+    const std::vector<std::int32_t> regions_inside = find_marked_sets(triangles, regions);
+    std::vector<std::uint8_t> in_set(document.point_count(), 0);
+    for (const std::vector<std::int32_t>& members : members_) {
+      for (const std::int32_t v : members) {
+        in_set[static_cast<std::size_t>(v)] = 1;
       }
     }
     const InnerNeighbours neighbours(triangles, in_set);
-    keep_inner_points(neighbours, triangles, regions);
+    keep_inner_points(neighbours, regions_inside);
     // Which set was the last to have the vertex: no set clears what the one before it has marked.
     std::vector<std::int32_t> last_set(document.point_count(), -1);
     for (std::size_t s = 0; s < document.point_sets.size(); ++s) {
@@ -113,10 +141,10 @@ class SetFinder {
           return last_set[static_cast<std::size_t>(neighbour)] == number;
         });
       });
-      found_.sets.push_back({document.point_sets[s].name, std::ssize(members_[s]), is_area, false});
+      found_.sets.push_back({names_[s], std::ssize(members_[s]), is_area, false});
     }
-    for (std::size_t s = 0; s < document.implied_sets.size(); ++s) {
-      found_.sets.push_back({document.implied_sets[s].name, std::ssize(members_[document.point_sets.size() + s])});
+    for (std::size_t s = document.point_sets.size(); s < members_.size(); ++s) {
+      found_.sets.push_back({names_[s], std::ssize(members_[s])});
     }
   }
 
@@ -146,15 +174,18 @@ class SetFinder {
           fmt::format("point sets that cover an area hold nothing: {}; --fixed-set {} holds the vertices of one", areas,
                       shell_word(first_area)));
     }
+    std::ranges::move(marker_notes_, std::back_inserter(found_.notes));
     return finished();
   }
 
  private:
-  /// Leaves the implied sets what nothing else of the mesh holds.
-  void keep_inner_points(const InnerNeighbours& neighbours, std::span<const Triangle> triangles,
-                         std::span<const std::int32_t> regions) {
-    if (document_.implied_sets.empty()) {
-      return;
+  /// Adds what arrays of markers mark. The region of each vertex that nothing else of the mesh holds, where there are
+  /// implied sets or such arrays.
+  std::vector<std::int32_t> find_marked_sets(std::span<const Triangle> triangles,
+                                             std::span<const std::int32_t> regions) {
+    const std::vector<const DataArray*> arrays = marker_arrays(document_);
+    if (document_.implied_sets.empty() && arrays.empty()) {
+      return {};
     }
     std::vector<std::uint8_t> is_held(document_.point_count(), 0);
     for (std::size_t cell = 0; cell < document_.cells.size(); ++cell) {
@@ -164,24 +195,32 @@ class SetFinder {
         }
       }
     }
-    constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> region_of(document_.point_count(), none);
-    for (std::size_t t = 0; t < regions.size(); ++t) {
-      for (const std::int32_t v : triangles[t]) {
-        std::int32_t& region = region_of[static_cast<std::size_t>(v)];
-        if (region != none && region != regions[t]) {
-          is_held[static_cast<std::size_t>(v)] = 1;
-        }
-        region = regions[t];
-      }
+    const std::string ids =
+        document_.first_point_label ? "a file of --fixed-ids or --fixed-labels" : "a file of --fixed-ids";
+    std::vector<std::int32_t> inside = find_regions_inside(triangles, regions, is_held);
+    for (const DataArray* const array : arrays) {
+      std::vector<std::int32_t> rows(document_.point_count());
+      std::iota(rows.begin(), rows.end(), 0);
+      const ValueNumbers markers = number_values(*array, rows);
+      MarkedPoints marked = find_marked_points(triangles, markers.of_item, number_of_zero(*array, markers), inside);
+      std::ranges::move(notes_of_marked_points(array->name, marked, {"--fixed-set none", ids}),
+                        std::back_inserter(marker_notes_));
+      members_.push_back(std::move(marked.vertices));
+      names_.push_back(array->name);
     }
+    return inside;
+  }
+
+  /// Leaves the implied sets what nothing else of the mesh holds.
+  void keep_inner_points(const InnerNeighbours& neighbours, std::span<const std::int32_t> regions_inside) {
     for (std::size_t s = document_.point_sets.size(); s < members_.size(); ++s) {
       // (Who slides may be held by nothing else. On curves and at periodic sides they slide.)
-      if (slides_ && document_.implied_sets[s - document_.point_sets.size()].name == points_of_geometry) {
+      if (slides_ && names_[s] == points_of_geometry) {
         continue;
       }
-      std::erase_if(members_[s],
-                    [&](std::int32_t v) { return neighbours[v].empty() || is_held[static_cast<std::size_t>(v)] != 0; });
+      std::erase_if(members_[s], [&](std::int32_t v) {
+        return neighbours[v].empty() || regions_inside[static_cast<std::size_t>(v)] < 0;
+      });
     }
   }
 
@@ -240,8 +279,10 @@ class SetFinder {
 
   const MeshDocument& document_;
   bool slides_;
-  /// Of each set of the document, then of each implied one, each once.
+  /// Of each set of the document, then of each implied one and of each array of markers, each once.
   std::vector<std::vector<std::int32_t>> members_;
+  std::vector<std::string> names_;         ///< of each of these
+  std::vector<std::string> marker_notes_;  ///< what the user should know where markers count
   HeldSets found_;
 };
 
@@ -253,7 +294,8 @@ HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> 
   if (holds_none && names.size() > 1) {
     throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
   }
-  if (document.point_sets.empty() && document.implied_sets.empty() && (names.empty() || holds_none)) {
+  if (document.point_sets.empty() && document.implied_sets.empty() && marker_arrays(document).empty() &&
+      (names.empty() || holds_none)) {
     return {};
   }
   SetFinder finder(document, triangles, regions, slides);

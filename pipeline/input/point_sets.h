@@ -32,6 +32,9 @@ inline constexpr std::string_view no_sets = "none";
 /// what else they have is held anyway, unless vertices slide: then that of points of the geometry has all of its
 /// points. They are never of an area, and there are none without points.
 ///
+/// What point arrays of markers (is_marker_name(), whole numbers) mark inside the mesh is an implied set of the array's
+/// name (see find_marked_points()), and a note tells of it.
+///
 /// `triangles`: of the document. Throws std::invalid_argument for a name that no set has, with those there are.
 /// Complexity: n log n in the members of all sets and the triangles around them.
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,

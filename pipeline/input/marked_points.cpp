@@ -1,0 +1,187 @@
+#include "trismooth/pipeline/input/marked_points.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "trismooth/base/splitmix64.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::int32_t none = -1;
+
+/// The vertices inside a region that have the same marker.
+struct Group {
+  std::int32_t region = 0;
+  std::int32_t marker = 0;
+  std::int64_t vertices = 0;
+  std::int64_t amid_alike = 0;  ///< those all of whose neighbours are of the group, too
+  bool surrounds = false;       ///< the vertices of marker 0 in the region, or where it has none the largest group
+  bool is_marked = false;
+
+  /// (One vertex and what is around it may be an electrode.)
+  bool is_area() const { return amid_alike > 1 && 6 * amid_alike > vertices; }
+};
+
+struct Region {
+  std::int64_t vertices = 0;
+  std::int64_t marked = 0;
+  std::int64_t sides = 0;  ///< of triangles, between two that are marked: two an edge
+  const Group* surrounding = nullptr;
+
+  /// Whether the marked are few, or lie on curves, on which there are about as many edges as vertices.
+  bool has_marks() const { return 3 * marked <= vertices || (5 * marked <= 2 * vertices && 5 * sides < 12 * marked); }
+};
+
+/// Per vertex: 1 where a neighbour is not of its group.
+std::vector<std::uint8_t> find_changes(std::span<const Triangle> triangles, std::span<const std::int32_t> group_of) {
+  std::vector<std::uint8_t> changes(group_of.size(), 0);
+  const auto group = [&](std::int32_t v) { return group_of[static_cast<std::size_t>(v)]; };
+  for (const auto& [a, b, c] : triangles) {
+    if (group(a) != group(b) || group(a) != group(c)) {
+      changes[static_cast<std::size_t>(a)] = 1;
+      changes[static_cast<std::size_t>(b)] |= static_cast<std::uint8_t>(group(b) != group(a) || group(b) != group(c));
+      changes[static_cast<std::size_t>(c)] |= static_cast<std::uint8_t>(group(c) != group(a) || group(c) != group(b));
+    }
+  }
+  return changes;
+}
+
+/// The groups, in the order of their first vertices. `group_of`: gets the one of each vertex inside.
+std::vector<Group> find_groups(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
+                               std::span<const std::int32_t> regions_inside, std::vector<std::int32_t>& group_of) {
+  std::vector<Group> groups;
+  std::unordered_map<std::int64_t, std::int32_t> numbers;
+  group_of.assign(markers.size(), none);
+  for (std::size_t v = 0; v < markers.size(); ++v) {
+    if (const std::int32_t region = regions_inside[v]; region != none) {
+      const auto next = static_cast<std::int32_t>(groups.size());
+      const auto [number, is_new] = numbers.try_emplace((std::int64_t{region} << 32) + markers[v], next);
+      if (is_new) {
+        groups.push_back({region, markers[v]});
+      }
+      group_of[v] = number->second;
+      ++groups[static_cast<std::size_t>(group_of[v])].vertices;
+    }
+  }
+  const std::vector<std::uint8_t> changes = find_changes(triangles, group_of);
+  for (std::size_t v = 0; v < markers.size(); ++v) {
+    if (group_of[v] != none && changes[v] == 0) {
+      ++groups[static_cast<std::size_t>(group_of[v])].amid_alike;
+    }
+  }
+  return groups;
+}
+
+/// Finds which groups surround and which are marked, region by region.
+void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> group_of, std::int32_t zero,
+           std::vector<Group>& groups) {
+  const auto last = std::ranges::max_element(groups, {}, &Group::region);
+  std::vector<Region> regions(last == groups.end() ? 0 : static_cast<std::size_t>(last->region) + 1);
+  const auto region_of = [&](const Group& group) -> Region& { return regions[static_cast<std::size_t>(group.region)]; };
+  const auto rank = [zero](const Group& group) {
+    return std::tuple(group.marker == zero, group.vertices, -group.marker);
+  };
+  for (const Group& group : groups) {
+    Region& region = region_of(group);
+    region.vertices += group.vertices;
+    if (region.surrounding == nullptr || rank(group) > rank(*region.surrounding)) {
+      region.surrounding = &group;
+    }
+  }
+  for (Group& group : groups) {
+    group.surrounds = region_of(group).surrounding == &group;
+    group.is_marked = !group.surrounds && !group.is_area();
+    region_of(group).marked += group.is_marked ? group.vertices : 0;
+  }
+  const auto marked_group = [&](std::int32_t v) {
+    const std::int32_t g = group_of[static_cast<std::size_t>(v)];
+    return g != none && groups[static_cast<std::size_t>(g)].is_marked ? &groups[static_cast<std::size_t>(g)] : nullptr;
+  };
+  for (const auto& [a, b, c] : triangles) {
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+      const Group* const first = marked_group(from);
+      const Group* const second = first != nullptr ? marked_group(to) : nullptr;
+      if (second != nullptr && first->region == second->region) {
+        ++region_of(*first).sides;
+      }
+    }
+  }
+  for (Group& group : groups) {
+    group.is_marked = group.is_marked && region_of(group).has_marks();
+  }
+}
+
+/// "1 vertex", "2 vertices"
+std::string counted_vertices(std::int64_t count) {
+  return std::to_string(count) + (count == 1 ? " vertex" : " vertices");
+}
+
+}  // namespace
+
+std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangles,
+                                              std::span<const std::int32_t> regions,
+                                              std::span<const std::uint8_t> is_held) {
+  constexpr std::int32_t unseen = -2;
+  std::vector<std::int32_t> inside(is_held.size(), unseen);
+  // Of a vertex inside each neighbour is met twice, and what is met twice leaves nothing behind.
+  std::vector<std::uint64_t> left(is_held.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::int32_t region = regions.empty() ? 0 : regions[t];
+    std::uint64_t all = 0;
+    for (const std::int32_t v : triangles[t]) {
+      all ^= splitmix64(static_cast<std::uint64_t>(v));
+    }
+    for (const std::int32_t v : triangles[t]) {
+      left[static_cast<std::size_t>(v)] ^= all ^ splitmix64(static_cast<std::uint64_t>(v));
+      std::int32_t& of_vertex = inside[static_cast<std::size_t>(v)];
+      of_vertex = of_vertex == unseen || of_vertex == region ? region : none;
+    }
+  }
+  for (std::size_t v = 0; v < inside.size(); ++v) {
+    if (inside[v] == unseen || left[v] != 0 || is_held[v] != 0) {
+      inside[v] = none;
+    }
+  }
+  return inside;
+}
+
+MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
+                                std::int32_t zero, std::span<const std::int32_t> regions_inside) {
+  std::vector<std::int32_t> group_of;
+  std::vector<Group> groups = find_groups(triangles, markers, regions_inside, group_of);
+  judge(triangles, group_of, zero, groups);
+  MarkedPoints points;
+  for (std::size_t v = 0; v < markers.size(); ++v) {
+    if (group_of[v] != none) {
+      const Group& group = groups[static_cast<std::size_t>(group_of[v])];
+      points.others += group.surrounds || group.is_marked ? 0 : 1;
+      if (group.is_marked) {
+        points.vertices.push_back(static_cast<std::int32_t>(v));
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<std::string> notes_of_marked_points(const std::string& array, const MarkedPoints& points,
+                                                const MarkerWords& words) {
+  std::vector<std::string> notes;
+  if (const auto count = std::ssize(points.vertices); count > 0) {
+    const std::string them = count == 1 ? "it" : "them";
+    notes.push_back(counted_vertices(count) + " inside, which '" + array + "' marks otherwise than what surrounds " +
+                    them + ": held fixed; " + words.free + " frees " + them);
+  }
+  if (points.others > 0) {
+    notes.push_back(
+        counted_vertices(points.others) + " inside " + (points.others == 1 ? "has" : "have") + " values of '" + array +
+        "' that are no marks, being too many or of whole areas: held by nothing; " + words.hold + " holds vertices");
+  }
+  return notes;
+}
+
+}  // namespace trismooth
