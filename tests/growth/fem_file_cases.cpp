@@ -99,6 +99,27 @@ std::string medit_regions(int count) {
   return medit_text(triangles, repeated(count, [](const auto& number) { return "Unknown" + number + " 1\n2\n"; }));
 }
 
+/// A strip of triangles with a row of vertices inside, each of a marker of its own.
+std::string medit_markers(int count) {
+  const std::string points = "Vertices " + std::to_string(3 * count + 3) + "\n";
+  const auto column = [](const std::string& x, const std::string& marker) {
+    return x + " 0 1\n" + x + " 1 " + marker + "\n" + x + " 2 1\n";
+  };
+  std::string triangles = "Triangles " + std::to_string(4 * count) + "\n";
+  for (int first = 1; first <= 3 * count; ++first) {
+    if (first % 3 != 0) {
+      const std::string a = number_of(static_cast<std::size_t>(first - 1));
+      const std::string b = number_of(static_cast<std::size_t>(first));
+      const std::string c = number_of(static_cast<std::size_t>(first + 2));
+      const std::string d = number_of(static_cast<std::size_t>(first + 3));
+      triangles.append(a).append(c).append(b).append("1\n").append(b).append(c).append(d).append("1\n");
+    }
+  }
+  return "MeshVersionFormatted 2\nDimension 2\n" + points +
+         repeated(count, [&](const auto& number) { return column(number, "1" + number); }) +
+         column(std::to_string(count), "0") + triangles + "End\n";
+}
+
 std::string su2_markers(int count) {
   return "NDIME= 2\nNELEM= 4\n" +
          rows(
@@ -256,6 +277,7 @@ std::vector<GrowthCase> fem_file_cases() {
   for (const char* const output : {"mesh", "vtu", "msh"}) {
     cases.push_back(file_case("regions", 100, "mesh", output, &medit_regions));
   }
+  cases.push_back(file_case("markers of points", 200, "mesh", "mesh", &medit_markers));
   for (const char* const output : {"su2", "msh"}) {
     cases.push_back(file_case("markers", 100, "su2", output, &su2_markers));
   }

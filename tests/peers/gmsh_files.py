@@ -221,7 +221,9 @@ class OpenedByGmsh(GmshTest):
                     self.assertAlmostEqual(way[0]**2 + way[1]**2, parameters[0]**2 + parameters[1]**2, delta=1e-12)
 
     def test_embedded_curves_and_points_stay_though_the_file_has_no_elements_of_them(self):
-        for dialect in ("msh41", "msh40", "msh41_binary"):
+        msh_sets = {"gmsh:points": (3, True), "gmsh:curves": (4, True)}
+        for dialect, held in (("msh41", msh_sets), ("msh40", msh_sets), ("msh41_binary", msh_sets),
+                              ("medit", {"medit:ref": (7, True)})):
             with self.subTest(dialect):
                 extension, options = EVERY_DIALECT[dialect]
                 gmsh_model.build_embedded()
@@ -236,8 +238,10 @@ class OpenedByGmsh(GmshTest):
                 self.assertGreater(len(moved), 40)
                 self.assertFalse(moved & bound)
                 sets = {found["name"]: found for found in report["input"]["point_sets"]}
-                self.assertEqual({name: (found["vertices"], found["holds"]) for name, found in sets.items()},
-                                 {"gmsh:points": (3, True), "gmsh:curves": (4, True)})
+                self.assertEqual({name: (found["vertices"], found["holds"]) for name, found in sets.items()}, held)
+                freed, _ = self.smooth(name, None, "--fixed-set", "none")
+                before, after = self.open_both(name, freed)
+                self.assertTrue(bound & {tag for tag in before if before[tag] != after[tag]})
 
     def test_old_files_with_parameters_are_read(self):
         # Gmsh itself does not read version 1 with parameters.
