@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/mesh_io/document/region_names.h"
 
 namespace trismooth {
 
@@ -122,6 +123,10 @@ std::string counted_vertices(std::int64_t count) {
 }
 
 }  // namespace
+
+bool may_be_markers(std::string_view name, ScalarType type, std::uint64_t components) {
+  return components == 1 && type != ScalarType::float32 && type != ScalarType::float64 && is_marker_name(name);
+}
 
 std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangles,
                                               std::span<const std::int32_t> regions,

@@ -3,11 +3,16 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {
+
+/// Whether a point array may have markers: by its name (is_marker_name()), and whole numbers, one a point.
+bool may_be_markers(std::string_view name, ScalarType type, std::uint64_t components);
 
 /// Of each vertex inside the mesh, of one region alone and not held anyway: the number of its region; of the others -1.
 /// `regions`: a number from 0 a triangle; empty: the mesh is one region. `is_held`: a flag a vertex. A vertex is inside

@@ -11,7 +11,6 @@
 
 #include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/document/array_names.h"
-#include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/marked_points.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
@@ -29,12 +28,10 @@ std::vector<std::int32_t> different_members(const NamedSet& set) {
   return members;
 }
 
-/// The arrays of markers of points: whole numbers, one a point.
 std::vector<const DataArray*> marker_arrays(const MeshDocument& document) {
   std::vector<const DataArray*> arrays;
   for (const DataArray& array : document.point_arrays) {
-    if (array.components == 1 && array.type != ScalarType::float32 && array.type != ScalarType::float64 &&
-        is_marker_name(array.name)) {
+    if (may_be_markers(array.name, array.type, array.components)) {
       arrays.push_back(&array);
     }
   }

@@ -97,6 +97,7 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   }
   read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
                           options.output, ranks, workers, notes);
+  read.files.was_read_whole = !by_ranges;
   const std::vector<std::string> all_said = texts_of_all(said, ranks);
   read.losses = texts_of_all(lost, ranks);
   // What the reader says of the file is said of what another format loses.

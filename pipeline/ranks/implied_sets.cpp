@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/ranks/implied_sets.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -9,6 +10,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/mesh_io/ranges/msh_range.h"
+#include "trismooth/pipeline/input/marked_points.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"
 
 namespace trismooth {
@@ -69,6 +71,29 @@ std::vector<FilePointSet> settle_implied_sets(const PieceFiles& files, const Ran
     }
   }
   return sets;
+}
+
+std::string unjudged_markers(const PieceFiles& files, const mpi::Communicator& ranks) {
+  std::string names;
+  for (const PieceArray& array : files.arrays) {
+    if (files.was_read_whole || array.of != PieceArray::Of::points ||
+        !may_be_markers(array.name, array.type, array.components)) {
+      continue;
+    }
+    const bool marks = std::ranges::any_of(files.pieces, [&](const Piece& piece) {
+      const DataArray* const markers = find_array(piece.document.point_arrays, array.name);
+      for (std::size_t v = 0; markers != nullptr && v < markers->rows(); ++v) {
+        if (markers->value(v) != 0) {
+          return true;
+        }
+      }
+      return false;
+    });
+    if (ranks.any(marks)) {
+      names += (names.empty() ? "'" : ", '") + array.name + "'";
+    }
+  }
+  return names;
 }
 
 }  // namespace trismooth

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trismooth/pipeline/file_groups.h"
@@ -16,5 +17,9 @@ namespace trismooth {
 /// inside the mesh, of no line or point cell and not between regions. The sets that hold any, on all ranks. Collective.
 std::vector<FilePointSet> settle_implied_sets(const PieceFiles& files, const RankMesh& mesh,
                                               const RankTopology& topology, std::vector<std::uint8_t>& held);
+
+/// The names, quoted, of arrays of markers of points (may_be_markers()) with a value other than 0. What they mark is
+/// not found in pieces. Empty where there are none, or rank 0 has read the file and found it. Collective.
+std::string unjudged_markers(const PieceFiles& files, const mpi::Communicator& ranks);
 
 }  // namespace trismooth

@@ -37,6 +37,7 @@ struct PieceFiles {
   ParallelFile file;
   std::vector<PieceArray> arrays;  ///< in the order of the first piece that holds anything; known to all ranks
   std::deque<Piece> pieces;
+  bool was_read_whole = false;  ///< by rank 0, so what sets and markers of points hold is known
 
   /// Whether pieces know the numbers of cells in the one file that they are of.
   bool know_cell_ids() const {

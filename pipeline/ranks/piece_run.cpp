@@ -101,6 +101,10 @@ class PieceRun {
     if (gathered_for_.empty() && options_.gather) {
       gathered_for_ = what_is_not_joined(files_, *ranks_);
     }
+    if (gathered_for_.empty() && options_.fixed_sets.empty()) {
+      markers_ = unjudged_markers(files_, *ranks_);
+      gathered_for_ = options_.gather && !markers_.empty() ? "what " + markers_ + " marks" : "";
+    }
     if (!gathered_for_.empty()) {
       return;
     }
@@ -251,6 +255,9 @@ class PieceRun {
     held_ = topology_->held(regions_.of_overlap, workers_);
     std::ranges::move(settle_implied_sets(files_, mesh_, *topology_, held_),
                       std::back_inserter(result_.input.point_sets));
+    if (!markers_.empty()) {
+      note("what " + markers_ + " marks inside is not held in pieces; --gather holds it as in one file");
+    }
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
     local_ = entered(frame_, points).points;
@@ -500,6 +507,7 @@ class PieceRun {
   std::vector<std::string> read_notes_;   ///< of the readers of all pieces
   std::vector<std::string> read_losses_;  ///< likewise
   std::string gathered_for_;              ///< what needs the whole mesh on one rank; empty: nothing does
+  std::string markers_;                   ///< arrays of which it is not known what they mark
   RankMesh mesh_;
   std::vector<std::int32_t> owners_;  ///< of the rank's vertices; empty: the lowest rank that has each
   RankConstraints constraints_;

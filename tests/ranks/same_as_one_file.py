@@ -9,6 +9,7 @@ import unittest
 
 import pieces
 import ranks_tool
+import raw_vtu
 
 # What a run may differ in.
 RUN_ALONE = {"timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date"}
@@ -129,6 +130,31 @@ class SameAsOneFile(ranks_tool.RanksTest):
                     report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu")
                     self.assertEqual(without_run(report), without_run(whole))
                     self.assertEqual(self.notes_of(ranks, "smooth", "big.pvtu", "out.pvtu"), notes)
+
+    def test_marked_vertices(self):
+        """Those of a file that rank 0 reads are held as in one file. Pieces do not know them, and it is said."""
+        mesh = self.random_mesh(600)
+        markers = [7 if v % 20 == 0 else 0 for v in range(len(mesh.points))]
+        self.write("marked.mesh", "MeshVersionFormatted 2\nDimension 2\n" + f"Vertices {len(mesh.points)}\n" +
+                   "".join(f"{p[0]!r} {p[1]!r} {m}\n" for p, m in zip(mesh.points, markers)) +
+                   f"Triangles {len(mesh.cells)}\n" +
+                   "".join(" ".join(str(v + 1) for v in cell) + " 0\n" for cell in mesh.cells) + "End\n")
+        whole = self.report("smooth", "marked.mesh", "smooth.mesh")
+        self.assertEqual([found["name"] for found in whole["input"]["point_sets"]], ["medit:ref"])
+        parts = self.report_over(3, "smooth", "marked.mesh", "out.pvtu")
+        self.assertEqual(parts["coordinates_hash"], whole["coordinates_hash"])
+        self.assertEqual(parts["input"]["point_sets"], whole["input"]["point_sets"])
+        mesh.point_arrays["medit:ref"] = markers
+        pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 3), 3))
+        raw_vtu.write(self.path("raw.vtu"), mesh, raw_vtu.Form())
+        whole = self.report("smooth", "raw.vtu", "smooth.vtu")
+        for name in ("big.pvtu", "raw.vtu"):
+            with self.subTest(name):
+                said = "note: what 'medit:ref' marks inside is not held in pieces; --gather holds it as in one file"
+                self.assertEqual([said in note for note in self.notes_of(3, "smooth", name, "out.pvtu")].count(True), 1)
+                gathered = self.run_over(3, "smooth", name, "out.pvtu", "--gather", "--report", "report.json")
+                self.assertNotIn("not held in pieces", gathered.err)
+                self.assertEqual(self.read_report()["coordinates_hash"], whole["coordinates_hash"])
 
     def test_an_empty_piece_has_any_array_of_ids(self):
         mesh = self.random_mesh(300)
