@@ -1,70 +1,18 @@
 #include "trismooth/pipeline/input/near_corners.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "trismooth/base/splitmix64.h"
+#include "trismooth/base/point_squares.h"
 
 namespace trismooth {
-
-namespace {
-
-/// Squares of the plane with sides of one length, and the vertices in them to which others are joined.
-class CornerSquares {
- public:
-  explicit CornerSquares(double side) : side_(side) {}
-
-  /// The vertices in the squares around the point.
-  template <class Visit>
-  void visit_around(Point2<double> point, const Visit& visit) const {
-    const auto [column, row] = square_of(point);
-    for (const double x : {column - 1, column, column + 1}) {
-      for (const double y : {row - 1, row, row + 1}) {
-        const auto [first, last] = vertices_.equal_range(key_of(x, y));
-        std::for_each(first, last, [&visit](const auto& entry) { visit(entry.second); });
-      }
-    }
-  }
-
-  void add(Point2<double> point, std::int32_t vertex) {
-    const auto [column, row] = square_of(point);
-    vertices_.emplace(key_of(column, row), vertex);
-  }
-
- private:
-  struct Square {
-    double column;
-    double row;
-  };
-
-  Square square_of(Point2<double> point) const { return {number_of(point.x), number_of(point.y)}; }
-
-  /// A whole number as a double: beyond 2^53 it is its own neighbour, and so is the coordinate, which is as coarse.
-  double number_of(double x) const {
-    const double number = std::floor(x / side_);
-    return std::isfinite(number) ? number : x;
-  }
-
-  /// (Squares that share a key cost time, no more.)
-  static std::uint64_t key_of(double column, double row) {
-    const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number + 0.0); };  // of -0 those of 0
-    return splitmix64(splitmix64(bits(column)) ^ bits(row));
-  }
-
-  double side_;
-  std::unordered_multimap<std::uint64_t, std::int32_t> vertices_;
-};
-
-}  // namespace
 
 std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                                             double distance) {
@@ -76,20 +24,20 @@ std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> poin
       is_corner[static_cast<std::size_t>(v)] = 1;
     }
   }
-  CornerSquares squares(distance);
+  PointSquares squares(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (is_corner[v] == 0) {
       continue;
     }
     std::int32_t& first = joined[v];
-    squares.visit_around(points[v], [&](std::int32_t other) {
+    squares.visit_near(points[v], distance, distance, [&](std::int32_t other) {
       const Point2<double> way = points[static_cast<std::size_t>(other)] - points[v];
       if (std::hypot(way.x, way.y) <= distance) {
         first = std::min(first, other);
       }
     });
     if (first == static_cast<std::int32_t>(v)) {
-      squares.add(points[v], first);
+      squares.add(points[v], distance, first);
     }
   }
   return joined;
