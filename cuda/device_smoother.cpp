@@ -279,7 +279,7 @@ class SweepDriver final : public DeviceSmoother {
   /// the device makes the first ones.
   void queue_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done, SmoothingResult& result) {
     with_engine([&](auto& engine) {
-      slides_.find_lines(engine, before_.data());
+      slides_.find_lines(engine, before_.data(), result);
       result.kernel_launches += slides_.queue(engine, stages, loop, done, record_.data(), context_.stream());
     });
   }

@@ -60,14 +60,15 @@ class SlidingRun {
     return count;
   }
 
-  /// Finds what slides, unless that has been done in this run: while the first sweeps are made. `before`: as
-  /// GuardInput.
+  /// Finds what slides, and says it in the result, unless that has been done in this run: while the first sweeps are
+  /// made. `before`: as GuardInput.
   template <class Engine>
-  void find_lines(const Engine& engine, const Point2<double>* before) {
+  void find_lines(const Engine& engine, const Point2<double>* before, SmoothingResult& result) {
     if (!slides_ || slide_->has_lines()) {
       return;
     }
     slides_ = slide_->find_lines();
+    result.sliding = slide_->lines();
     if (slides_ && options_.method == Method::mean_ratio) {
       slide_->aim(engine.targets(), before);
     }
@@ -165,9 +166,11 @@ class SlidingRun {
           again = rounds > 0 || !outcome.held.empty();
         }
       }
+      SlidingResult sliding = slide_->lines();
       if (ran_to_its_end(result.stop_reason) &&
-          is_spoilt_by_sliding(std::ssize(result.reverted), free_count + slide_->vertex_count())) {
-        result.sliding = slide_->given_up();
+          is_spoilt_by_sliding(std::ssize(result.reverted), free_count + sliding.vertices)) {
+        sliding.given_up = true;
+        result.sliding = sliding;
         return;
       }
       launch_writing(rings, input, stored, state, context.stream());

@@ -183,6 +183,7 @@ class CpuSmoother final : public PreparedSmoother {
     if (slidable_.any() && !run.turned) {
       // (Where components are turned over, so is what is on which side of their lines.)
       run.chains = chains_at(run.points, run.storage, run.frame);
+      run.result.sliding = run.chains.result();
     }
     if (run.chains.any() && run.slides) {
       run.slide.emplace(run.chains, workers_);
@@ -304,17 +305,16 @@ class CpuSmoother final : public PreparedSmoother {
       list(run, std::span<const std::int32_t>(reverted));
       put_back += std::ssize(reverted);
     }
-    const std::int64_t vertices = run.chains.vertex_count();
-    if (ran_to_its_end(run.result.stop_reason) && is_spoilt_by_sliding(put_back, rings_.free_count() + vertices)) {
-      run.result.sliding = {.chains = std::ssize(run.chains.chains), .vertices = vertices, .given_up = true};
+    SlidingResult& sliding = *run.result.sliding;
+    if (ran_to_its_end(run.result.stop_reason) &&
+        is_spoilt_by_sliding(put_back, rings_.free_count() + sliding.vertices)) {
+      sliding.given_up = true;
       return;
     }
     const LineDeviation deviation = lines.deviation();
-    run.result.sliding = {.chains = std::ssize(run.chains.chains),
-                          .vertices = vertices,
-                          .slid = lines.slid_vertices(),
-                          .largest_deviation = std::ldexp(deviation.distance, run.frame.exponent),
-                          .relative_deviation = deviation.relative};
+    sliding.slid = lines.slid_vertices();
+    sliding.largest_deviation = std::ldexp(deviation.distance, run.frame.exponent);
+    sliding.relative_deviation = deviation.relative;
   }
 
   /// Writes what is elsewhere to the caller's points.

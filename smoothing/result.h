@@ -87,6 +87,11 @@ struct SlidingResult {
   std::int64_t slid = 0;          ///< that did
   double largest_deviation = 0;   ///< between the old lines and the new ones, in the units of the coordinates
   double relative_deviation = 0;  ///< the largest, as a part of the length of the edge nearby: see Sliding::deviation
+  /// Vertices that would slide but for others that lie in the same place, or within a thousandth of an edge of it: see
+  /// Sliding::coincident.
+  std::int64_t in_same_place = 0;
+  /// Likewise: that lie within an edge of another line without being its ends, and the ends of these edges.
+  std::int64_t at_edges = 0;
   /// So many vertices would have gone back for what slid that all was smoothed once more without sliding: this is what
   /// came of that.
   bool given_up = false;

@@ -123,11 +123,10 @@ void DeviceSlide::report(const LineVerdict& verdict, SmoothingResult& result) co
                                                                      std::bit_cast<double>(verdict.relative)};
   const std::int64_t slid = guard_ ? guard_->slid_vertices() : static_cast<std::int64_t>(verdict.slid);
   result.moved_vertices += slid;
-  result.sliding = {.chains = std::ssize(local_.chains),
-                    .vertices = local_.vertex_count(),
-                    .slid = slid,
-                    .largest_deviation = std::ldexp(deviation.distance, frame_.exponent),
-                    .relative_deviation = deviation.relative};
+  result.sliding = lines();
+  result.sliding->slid = slid;
+  result.sliding->largest_deviation = std::ldexp(deviation.distance, frame_.exponent);
+  result.sliding->relative_deviation = deviation.relative;
 }
 
 }  // namespace trismooth::cuda

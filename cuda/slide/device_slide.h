@@ -96,12 +96,8 @@ class DeviceSlide {
                      const LineVerdict* verdict) {
     write_slid(*context_, slid_points(), before, order_->input_index.data(), stored, state, verdict);
   }
-  /// Vertices that may slide.
-  std::int64_t vertex_count() const { return local_.vertex_count(); }
-  /// What is said of a run where they do not after all.
-  SlidingResult given_up() const {
-    return {.chains = std::ssize(local_.chains), .vertices = vertex_count(), .given_up = true};
-  }
+  /// What is to be said of the lines before anybody has slid.
+  SlidingResult lines() const { return local_.result(); }
   /// Adds them to the result, and says what became of all. `verdict`: of judge(), which counts unless somebody has gone
   /// back since.
   void report(const LineVerdict& verdict, SmoothingResult& result) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -11,7 +10,7 @@
 #include <utility>
 
 #include "trismooth/base/number_lists.h"
-#include "trismooth/base/splitmix64.h"
+#include "trismooth/smoothing/slide/touching_lines.h"
 
 namespace trismooth {
 
@@ -43,37 +42,6 @@ class VertexGroups {
   bool any_ = false;
 };
 
-/// Vertices by where they are, in an open hash table: a sort would take several times as long.
-class VerticesByPoint {
- public:
-  /// For as many vertices as there are points, which outlive it.
-  explicit VerticesByPoint(std::span<const Point2<double>> points)
-      : points_(points), slots_(std::bit_ceil(2 * points.size() + 1), Slidable::none) {}
-
-  /// The first vertex that was put where `v` is, or v itself.
-  std::int32_t put(std::int32_t v) {
-    const Point2<double> point = points_[static_cast<std::size_t>(v)];
-    std::size_t slot = hash(point) & (slots_.size() - 1);
-    while (slots_[slot] != Slidable::none && !(points_[static_cast<std::size_t>(slots_[slot])] == point)) {
-      slot = (slot + 1) & (slots_.size() - 1);
-    }
-    if (slots_[slot] == Slidable::none) {
-      slots_[slot] = v;
-    }
-    return slots_[slot];
-  }
-
- private:
-  static std::uint64_t hash(Point2<double> point) {
-    // (0 and -0 are the same.)
-    return splitmix64(splitmix64(std::bit_cast<std::uint64_t>(point.x + 0.0)) +
-                      std::bit_cast<std::uint64_t>(point.y + 0.0));
-  }
-
-  std::span<const Point2<double>> points_;
-  std::vector<std::int32_t> slots_;  ///< a power of two of them, at most half of them taken
-};
-
 class RunFinder {
  public:
   RunFinder(const Slidable& slidable, const SlideMesh& mesh)
@@ -88,7 +56,9 @@ class RunFinder {
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
       slides_[static_cast<std::size_t>(v)] = slidable_.may_slide(v) && !is_corner(v) ? 1 : 0;
     }
-    link();
+    if (std::ranges::find(slides_, 1) != slides_.end()) {
+      link();
+    }
     if (groups_.any()) {
       std::vector<std::pair<std::int32_t, std::int32_t>> members;
       for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
@@ -106,6 +76,7 @@ class RunFinder {
       }
     }
     found.slides = std::move(slides_);
+    found.held = held_;
     return found;
   }
 
@@ -114,6 +85,11 @@ class RunFinder {
   double rounding(std::int32_t v) const { return mesh_.roundings[static_cast<std::size_t>(v)]; }
   bool slides(std::int32_t v) const { return slides_[static_cast<std::size_t>(v)] != 0; }
   void hold(std::int32_t v) { slides_[static_cast<std::size_t>(v)] = 0; }
+  /// Counts it where it would slide.
+  void hold(std::int32_t v, std::int64_t& count) {
+    count += slides(v) ? 1 : 0;
+    hold(v);
+  }
   const std::array<std::int32_t, 2>& neighbours(std::int32_t v) const {
     return slidable_.neighbours[static_cast<std::size_t>(v)];
   }
@@ -143,20 +119,19 @@ class RunFinder {
         hold(a != Slidable::none ? a : b);
       }
     }
-    VerticesByPoint held(mesh_.points);
-    for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
-      if (slidable_.is_free[static_cast<std::size_t>(v)] != 0) {
-        continue;
-      }
-      const std::int32_t other = held.put(v);
-      if (other == v) {
-        continue;
-      }
-      if (slidable_.coincident) {
-        groups_.join(other, v);
+    const TouchingLines touching = find_touching_lines(slidable_, mesh_.points);
+    for (const auto& [a, b] : touching.together) {
+      // (The same part of an edge of two splines that differ may be farther apart than their vertices.)
+      if (slidable_.coincident && (slidable_.curve == SlideCurve::polyline || point(a) == point(b))) {
+        groups_.join(a, b);
       } else {
-        hold(other);
-        hold(v);
+        hold(a, held_.in_same_place);
+        hold(b, held_.in_same_place);
+      }
+    }
+    for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
+      if (touching.at_edges[static_cast<std::size_t>(v)] != 0) {
+        hold(v, held_.at_edges);
       }
     }
   }
@@ -324,6 +299,7 @@ class RunFinder {
   const SlideMesh& mesh_;
   double sharpest_cosine_;  ///< of the turns that are no corners
   std::vector<std::uint8_t> slides_;
+  HeldTouching held_;
   VertexGroups groups_;
   NumberLists members_;  ///< of each group, where there are any
   std::vector<ChainRun> runs_;

@@ -37,13 +37,21 @@ struct LinkedRuns {
   std::vector<ChainRun> others;
 };
 
+/// Vertices that would slide and are held where lines touch: see TouchingLines.
+struct HeldTouching {
+  std::int64_t in_same_place = 0;
+  std::int64_t at_edges = 0;
+};
+
 struct ChainRuns {
   std::vector<LinkedRuns> runs;        ///< in the order of their smallest vertex that slides
   std::vector<std::uint8_t> slides{};  ///< one flag a vertex of the Slidable
+  HeldTouching held{};
 };
 
-/// Finds where the vertices of a mesh slide: runs end at corners, at vertices that may not slide, that lie in the same
-/// place as others or that are linked with what does not slide. Complexity: n log n in the vertices that are held.
+/// Finds where the vertices of a mesh slide: runs end at corners, at vertices that may not slide, where lines touch
+/// (see find_touching_lines()) or that are linked with what does not slide. Complexity: n log n in the vertices that
+/// are held.
 ChainRuns find_chain_runs(const Slidable& slidable, const SlideMesh& mesh);
 
 }  // namespace trismooth

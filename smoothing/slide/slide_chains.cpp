@@ -23,6 +23,7 @@ class ChainWriter {
   SlideChains run() {
     chains_.curve = slidable_.curve;
     chains_.triangles = &triangles_;
+    chains_.held = runs_.held;
     make_room();
     for (const LinkedRuns& linked : runs_.runs) {
       write_chain(linked.first, linked.others);
@@ -211,6 +212,13 @@ std::int64_t SlideChains::vertex_count() const {
     count += chains[static_cast<std::size_t>(slider.chain)].copies;
   }
   return count;
+}
+
+SlidingResult SlideChains::result() const {
+  return {.chains = std::ssize(chains),
+          .vertices = vertex_count(),
+          .in_same_place = held.in_same_place,
+          .at_edges = held.at_edges};
 }
 
 void SlideChains::renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered) {

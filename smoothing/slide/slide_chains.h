@@ -9,6 +9,7 @@
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/slidable.h"
 #include "trismooth/smoothing/slide/chain_runs.h"
 #include "trismooth/smoothing/slide/slide_triangles.h"
@@ -34,6 +35,7 @@ struct SlideChains {
   std::vector<SlidePlace> places;        ///< of the knots themselves
   const SlideTriangles* triangles = nullptr;  ///< of others; corners have the numbers that vertices have here
   SlideCurve curve = SlideCurve::polyline;
+  HeldTouching held;  ///< on none of the chains
 
   bool any() const { return !sliders.empty(); }
   /// Calls visit(copy, vertex) for the vertices that slide with a slider, those of all copies.
@@ -56,6 +58,8 @@ struct SlideChains {
   }
   /// How many vertices slide, those of all copies.
   std::int64_t vertex_count() const;
+  /// What is to be said of the chains before anybody has slid.
+  SlidingResult result() const;
   /// The triangles that no one-ring has.
   std::span<const Triangle> held_triangles() const {
     return triangles == nullptr ? std::span<const Triangle>() : triangles->held;
@@ -96,10 +100,9 @@ struct SlideChains {
   }
 };
 
-/// Finds the chains: which vertices turn too much to slide on them, which lie in the same place as others, which are
-/// linked; in what order they are visited (greedy colouring, as colour_free_vertices() does it). Vertices have the
-/// numbers of `slidable`; so have the corners of `triangles`, which outlive the chains. Complexity: n log n in the
-/// vertices that may slide.
+/// Finds the chains: which vertices turn too much to slide on them, where they touch, which are linked; in what order
+/// they are visited (greedy colouring, as colour_free_vertices() does it). Vertices have the numbers of `slidable`; so
+/// have the corners of `triangles`, which outlive the chains. Complexity: n log n in the vertices that may slide.
 SlideChains find_slide_chains(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh);
 
 }  // namespace trismooth

@@ -1,0 +1,251 @@
+#include "trismooth/smoothing/slide/touching_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include "trismooth/base/point_squares.h"
+
+namespace trismooth {
+
+namespace {
+
+double coordinate(Point2<double> point, int axis) {
+  return axis == 0 ? point.x : point.y;
+}
+
+/// A part of an edge: what lies between `first` and `last`, 0 and 1 being its ends.
+struct EdgePart {
+  double first = 0;
+  double last = 1;
+
+  bool is_empty() const { return !(first <= last); }
+};
+
+/// Vertices, halved by where they are again and again, for those beside an edge to be found.
+class VertexTree {
+ public:
+  /// `points` outlive it.
+  VertexTree(std::span<const Point2<double>> points, std::vector<std::int32_t> vertices)
+      : points_(points), vertices_(std::move(vertices)), axes_(vertices_.size()) {
+    halve(0, vertices_.size());
+  }
+
+  /// Calls visit(vertex) for all that are no farther from the edge than `distance`, and for some others.
+  template <class Visit>
+  void visit_beside(Point2<double> from, Point2<double> to, double distance, const Visit& visit) const {
+    walk(0, vertices_.size(), {from, to - from, distance}, {}, visit);
+  }
+
+ private:
+  static constexpr std::size_t few = 8;
+
+  struct Edge {
+    Point2<double> from;
+    Point2<double> way;
+    double distance;
+  };
+
+  Point2<double> point(std::size_t i) const { return points_[static_cast<std::size_t>(vertices_[i])]; }
+
+  void halve(std::size_t begin, std::size_t end) {
+    if (end - begin <= few) {
+      return;
+    }
+    Point2<double> low = point(begin);
+    Point2<double> high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+      low = {std::min(low.x, point(i).x), std::min(low.y, point(i).y)};
+      high = {std::max(high.x, point(i).x), std::max(high.y, point(i).y)};
+    }
+    const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [this](std::size_t i) { return vertices_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {
+      return coordinate(points_[static_cast<std::size_t>(a)], axis) <
+             coordinate(points_[static_cast<std::size_t>(b)], axis);
+    });
+    axes_[middle] = static_cast<std::uint8_t>(axis);
+    halve(begin, middle);
+    halve(middle + 1, end);
+  }
+
+  template <class Visit>
+  void walk(std::size_t begin, std::size_t end, const Edge& edge, EdgePart part, const Visit& visit) const {
+    if (part.is_empty()) {
+      return;
+    }
+    if (end - begin <= few) {
+      std::for_each(vertices_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    vertices_.begin() + static_cast<std::ptrdiff_t>(end), visit);
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    const int axis = axes_[middle];
+    const double from = coordinate(edge.from, axis);
+    const double way = coordinate(edge.way, axis);
+    const double border = coordinate(point(middle), axis);
+    visit(vertices_[middle]);
+    walk(begin, middle, edge, part_below(part, from, way, border + edge.distance), visit);
+    walk(middle + 1, end, edge, part_below(part, -from, -way, edge.distance - border), visit);
+  }
+
+  /// What of the part has from + way * place <= border.
+  static EdgePart part_below(EdgePart part, double from, double way, double border) {
+    const double place = (border - from) / way;
+    if (way > 0) {
+      part.last = std::min(part.last, place);
+    } else if (way < 0) {
+      part.first = std::max(part.first, place);
+    } else if (from > border) {
+      part.last = -1;
+    }
+    return part;
+  }
+
+  std::span<const Point2<double>> points_;
+  std::vector<std::int32_t> vertices_;
+  std::vector<std::uint8_t> axes_;  ///< of the border at the middle of each range that has been halved
+};
+
+class TouchingSearch {
+ public:
+  TouchingSearch(const Slidable& slidable, std::span<const Point2<double>> points)
+      : slidable_(slidable), points_(points), places_(points.size()), reaches_(points.size(), unknown) {
+    found_.at_edges.resize(points.size(), 0);
+    std::iota(places_.begin(), places_.end(), 0);
+    for (std::int32_t v = 0; v < slidable.vertex_count(); ++v) {
+      if (slidable.may_slide(v)) {
+        reaches_[index(v)] = reach(v);
+        for (const std::int32_t next : slidable.neighbours[index(v)]) {
+          // (An end that cannot slide: what is around it is not known.)
+          reaches_[index(next)] = std::min(reaches_[index(next)], reaches_[index(v)]);
+        }
+      }
+    }
+  }
+
+  TouchingLines run() {
+    find_places();
+    find_at_edges();
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr double unknown = std::numeric_limits<double>::infinity();
+
+  static std::size_t index(std::int32_t v) { return static_cast<std::size_t>(v); }
+  Point2<double> point(std::int32_t v) const { return points_[index(v)]; }
+  double squared_distance(std::int32_t v, std::int32_t w) const { return squared_length(point(v) - point(w)); }
+  bool is_held(std::int32_t v) const { return slidable_.is_free[index(v)] == 0; }
+
+  /// How near others have to be for them to touch a vertex that may slide.
+  double reach(std::int32_t v) const {
+    const auto [a, b] = slidable_.neighbours[index(v)];
+    const double on_line = std::min(squared_distance(v, a), squared_distance(v, b));
+    double height = unknown;
+    for (const ListedSide& side : slidable_.fans.around(v)) {
+      const double twice_area = cross(point(side.first) - point(v), point(side.second) - point(v));
+      height = std::min(height, twice_area * twice_area / squared_distance(side.first, side.second));
+    }
+    return std::min(1e-3 * std::sqrt(on_line), 0.1 * std::sqrt(height));
+  }
+
+  /// The reach, rounded up so that there are few different ones.
+  static double size_of(double reach) { return reach > 0 ? std::ldexp(1.0, std::ilogb(reach) + 1) : 0; }
+
+  void find_places() {
+    std::vector<double> sizes;
+    for (const double reach : reaches_) {
+      if (reach < unknown && (sizes.empty() || sizes.back() != size_of(reach))) {
+        sizes.push_back(size_of(reach));
+      }
+    }
+    std::ranges::sort(sizes);
+    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+    PointSquares squares(points_.size());
+    // Those on no line come last: they look for others, but nobody has to look for them.
+    for (const bool on_line : {true, false}) {
+      for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
+        if (is_held(v) && (reaches_[index(v)] < unknown) == on_line && !join(v, sizes, squares) && on_line) {
+          squares.add(point(v), size_of(reaches_[index(v)]), v);
+        }
+      }
+    }
+  }
+
+  /// Joins a vertex with those in its place. Returns whether one of them has its size: whoever is in its place is found
+  /// from that then.
+  bool join(std::int32_t v, std::span<const double> sizes, const PointSquares& squares) {
+    bool has_one_of_size = false;
+    const double own = reaches_[index(v)];
+    for (const double size : sizes) {
+      squares.visit_near(point(v), std::min(own, size), size, [&](std::int32_t other) {
+        const double near = std::min(own, reaches_[index(other)]);
+        if (!(squared_distance(v, other) <= near * near)) {
+          return;
+        }
+        const bool is_of_size = own < unknown && size_of(reaches_[index(other)]) == size_of(own);
+        has_one_of_size = has_one_of_size || is_of_size;
+        places_[index(v)] = std::min(places_[index(v)], places_[index(other)]);
+        found_.together.push_back({other, v});
+      });
+    }
+    return has_one_of_size;
+  }
+
+  void find_at_edges() {
+    std::vector<std::int32_t> firsts;
+    for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
+      if (is_held(v) && places_[index(v)] == v) {
+        firsts.push_back(v);
+      }
+    }
+    const VertexTree tree(points_, std::move(firsts));
+    for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
+      if (!slidable_.may_slide(v)) {
+        continue;
+      }
+      for (const std::int32_t next : slidable_.neighbours[index(v)]) {
+        if (v < next || !slidable_.may_slide(next)) {
+          find_beside(tree, v, next);
+        }
+      }
+    }
+    for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
+      found_.at_edges[index(v)] |= found_.at_edges[index(places_[index(v)])];
+    }
+  }
+
+  void find_beside(const VertexTree& tree, std::int32_t from, std::int32_t to) {
+    const double near = std::min(reaches_[index(from)], reaches_[index(to)]);
+    const Point2<double> way = point(to) - point(from);
+    const double squared = squared_length(way);
+    // (Twice as far: what the tree says of an edge is rounded.)
+    tree.visit_beside(point(from), point(to), 2 * near, [&](std::int32_t v) {
+      const Point2<double> off = point(v) - point(from);
+      const double along = off.x * way.x + off.y * way.y;
+      const double limit = std::min(near, reaches_[index(v)]) * std::sqrt(squared);
+      if (along > 0 && along < squared && std::abs(cross(off, way)) <= limit && v != places_[index(from)] &&
+          v != places_[index(to)]) {
+        found_.at_edges[index(v)] = found_.at_edges[index(from)] = found_.at_edges[index(to)] = 1;
+      }
+    });
+  }
+
+  const Slidable& slidable_;
+  std::span<const Point2<double>> points_;
+  TouchingLines found_;
+  std::vector<std::int32_t> places_;  ///< of each vertex: a vertex that is in the same place, the first as far as known
+  std::vector<double> reaches_;       ///< of each vertex, `unknown` where it is at no edge of a line that is known
+};
+
+}  // namespace
+
+TouchingLines find_touching_lines(const Slidable& slidable, std::span<const Point2<double>> points) {
+  return TouchingSearch(slidable, points).run();
+}
+
+}  // namespace trismooth
