@@ -16,6 +16,7 @@
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/mfem/mfem_geometry.h"
+#include "trismooth/mesh_io/mfem/mfem_nodes.h"
 #include "trismooth/mesh_io/mfem/mfem_sets.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -50,7 +51,7 @@ class MfemReader {
     if (!has_vertices_) {
       scanner_.fail("expected the section 'vertices', got the end of the file");
     }
-    if (highest_index_ >= static_cast<std::int64_t>(document_.point_count())) {
+    if (has_bad_index()) {
       if (highest_is_of_part_) {
         return std::nullopt;
       }
@@ -61,7 +62,7 @@ class MfemReader {
   }
 
   /// Where the coordinates are, of what was read.
-  NumberSites take_sites() { return std::move(sites_); }
+  std::vector<NumberSites> take_sites() { return std::move(sites_); }
 
  private:
   void read_version() {
@@ -99,7 +100,7 @@ class MfemReader {
     } else if (name == "vertices") {
       read_vertices();
     } else if (name == "nodes") {
-      fail_curved();
+      return !read_nodes();
     } else if (name == "vertex_parents" || name == "coarse_elements" || name == "root_state") {
       scanner_.fail("is a non-conforming mesh of MFEM; its hanging vertices must not move by themselves");
     } else if (name == "mfem_mesh_end" || name == "mfem_serial_mesh_end") {
@@ -111,12 +112,6 @@ class MfemReader {
     return false;
   }
 
-  [[noreturn]] void fail_curved() const {
-    scanner_.fail(
-        "is a curved mesh of MFEM: its places are in a grid function 'nodes', which is not smoothed; "
-        "Mesh::SetCurvature(1), then Mesh::SetNodalFESpace(nullptr), makes it one of vertices");
-  }
-
   void read_dimension() { dimension_ = static_cast<int>(scanner_.next_integer("the dimension", 1, 3)); }
 
   void read_elements(std::string_view section, bool& seen) {
@@ -124,6 +119,9 @@ class MfemReader {
       scanner_.fail("the section " + quoted(section) + " comes twice");
     }
     seen = true;
+    if (has_nodes_) {
+      scanner_.fail("expected the section " + quoted(section) + " before 'nodes', which are at its elements");
+    }
     if (dimension_ == 0) {
       scanner_.fail("expected the section 'dimension' before " + quoted(section));
     }
@@ -239,43 +237,115 @@ class MfemReader {
       scanner_.fail("the section 'vertices' comes twice");
     }
     has_vertices_ = true;
-    const auto count = static_cast<std::size_t>(scanner_.next_integer("the number of vertices", 0, most_indices));
-    const std::string_view next = scanner_.peek_token();
-    if (next == "nodes") {
-      scanner_.next_token("a section");
-      fail_curved();
-    }
-    axes_ = static_cast<std::size_t>(scanner_.next_integer("the number of coordinates of a vertex", 1, 3));
-    require_room(scanner_.path(), "vertices", count, 2 * axes_, bytes_left() + 1);
-    sites_.columns.resize(axes_);
-    shared_resize(document_.points, 3 * count, sites_.offsets, axes_ * count, workers_.workers);
-    if (count == 0 || read_plain_vertices(count)) {
+    vertex_count_ = static_cast<std::size_t>(scanner_.next_integer("the number of vertices", 0, most_indices));
+    if (scanner_.peek_token() == "nodes") {
       return;
     }
-    for (std::size_t vertex = 0; vertex < count; ++vertex) {
-      if (scanner_.at_end()) {
-        scanner_.fail("expected " + std::to_string(count) + " vertices, got " + std::to_string(vertex));
+    axes_ = static_cast<std::size_t>(scanner_.next_integer("the number of coordinates of a vertex", 1, 3));
+    require_room(scanner_.path(), "vertices", vertex_count_, 2 * axes_, bytes_left() + 1);
+    NumberSites& sites = sites_.emplace_back();
+    sites.columns.resize(axes_);
+    shared_resize(document_.points, 3 * vertex_count_, sites.offsets, axes_ * vertex_count_, workers_.workers);
+    read_places(sites, document_.points, "vertices");
+  }
+
+  /// The places as a grid function of MFEM. False, and nothing is read, where an element has a vertex that there is
+  /// not.
+  bool read_nodes() {
+    if (!has_elements_ || !has_vertices_) {
+      scanner_.fail("expected the sections 'elements' and 'vertices' before 'nodes'");
+    }
+    if (!sites_.empty()) {
+      scanner_.fail("has places twice, of its vertices and in 'nodes'; save it with MFEM, which writes one of them");
+    }
+    has_nodes_ = true;
+    if (has_bad_index()) {
+      return false;
+    }
+    expect("FiniteElementSpace");
+    expect("FiniteElementCollection:");
+    const MfemNodeSpace space = mfem_node_space(scanner_.next_token("a collection of finite elements"), scanner_);
+    expect("VDim:");
+    axes_ = static_cast<std::size_t>(scanner_.next_integer("the number of coordinates of a place", 1, 3));
+    expect("Ordering:");
+    const bool by_axis = scanner_.next_integer("an ordering", 0, 1) == 0;
+    require_room(scanner_.path(), "vertices", vertex_count_, 2 * axes_, bytes_left() + 1);
+    const MfemNodes nodes = number_mfem_nodes(document_.cells, vertex_count_, dimension_, space, scanner_);
+    require_room(scanner_.path(), "places in 'nodes'", nodes.places(), 2 * axes_, bytes_left() + 1);
+    std::vector<double> places(3 * nodes.places());
+    sites_.resize(by_axis ? axes_ : 1);
+    for (std::size_t list = 0; list < sites_.size(); ++list) {
+      NumberSites& sites = sites_[list];
+      sites.columns.resize(axes_);
+      if (by_axis) {
+        sites.columns = {{.component = static_cast<std::uint8_t>(list)}};
       }
-      for (std::size_t axis = 0; axis < axes_; ++axis) {
-        document_.points[3 * vertex + axis] = scanner_.next_double("a coordinate");
-        sites_.offsets[axes_ * vertex + axis] = scanner_.token_offset();
+      sites.vertices = nodes.points_of_places;
+      sites.offsets.resize(sites.columns.size() * nodes.places());
+      read_places(sites, places, "places in 'nodes'");
+    }
+    document_.points = nodes.points_of_places.empty() ? std::move(places) : joined(places, nodes);
+    return true;
+  }
+
+  void expect(std::string_view word) {
+    if (const std::string_view token = scanner_.next_token(quoted(word)); token != word) {
+      scanner_.fail("expected " + quoted(word) + ", got " + quoted(token));
+    }
+  }
+
+  /// The place of each point, of which several elements have one each.
+  std::vector<double> joined(const std::vector<double>& places, const MfemNodes& nodes) const {
+    std::vector<double> points(3 * nodes.points);
+    std::vector<bool> is_known(nodes.points);
+    for (std::size_t place = 0; place < nodes.places(); ++place) {
+      const auto point = static_cast<std::size_t>(nodes.points_of_places[place]);
+      const auto from = places.begin() + static_cast<std::ptrdiff_t>(3 * place);
+      const auto to = points.begin() + static_cast<std::ptrdiff_t>(3 * point);
+      if (is_known[point] && !std::equal(from, from + 3, to)) {
+        scanner_.fail_at(sites_.front().offset_of(place, 0),
+                         (point < vertex_count_ ? "vertex " + std::to_string(point) : "the middle of an edge") +
+                             " is elsewhere here than in an element before: the mesh is periodic, or torn, and what is "
+                             "one in it cannot move in two places; smooth it before Mesh::MakePeriodic");
+      }
+      std::copy(from, from + 3, to);
+      is_known[point] = true;
+    }
+    return points;
+  }
+
+  /// Rows of the numbers of `sites`, which has room for them, into `places`, three numbers each.
+  void read_places(NumberSites& sites, std::vector<double>& places, std::string_view what) {
+    if (sites.size() == 0 || read_plain_places(sites, places)) {
+      return;
+    }
+    const std::size_t columns = sites.columns.size();
+    for (std::size_t place = 0; place < sites.size(); ++place) {
+      if (scanner_.at_end()) {
+        scanner_.fail("expected " + std::to_string(sites.size()) + " " + std::string(what) + ", got " +
+                      std::to_string(place));
+      }
+      for (std::size_t column = 0; column < columns; ++column) {
+        places[3 * place + sites.columns[column].component] = scanner_.next_double("a coordinate");
+        sites.offsets[columns * place + column] = scanner_.token_offset();
       }
     }
   }
 
-  bool read_plain_vertices(std::size_t count) {
-    const auto end =
-        rows_.read(scanner_.offset(), count, axes_, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-          bool plain = true;
-          for (std::size_t vertex = first; vertex < last && plain; ++vertex) {
-            for (std::size_t axis = 0; axis < axes_; ++axis) {
-              double& coordinate = document_.points[3 * vertex + axis];
-              plain = plain && numbers.next(coordinate) && std::isfinite(coordinate);
-              sites_.offsets[axes_ * vertex + axis] = numbers.token_offset();
-            }
-          }
-          return plain;
-        });
+  bool read_plain_places(NumberSites& sites, std::vector<double>& places) {
+    const std::size_t columns = sites.columns.size();
+    const auto end = rows_.read(scanner_.offset(), sites.size(), columns,
+                                [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
+                                  bool plain = true;
+                                  for (std::size_t place = first; place < last && plain; ++place) {
+                                    for (std::size_t column = 0; column < columns; ++column) {
+                                      double& coordinate = places[3 * place + sites.columns[column].component];
+                                      plain = plain && numbers.next(coordinate) && std::isfinite(coordinate);
+                                      sites.offsets[columns * place + column] = numbers.token_offset();
+                                    }
+                                  }
+                                  return plain;
+                                });
     if (end) {
       scanner_.resume(end->last_number, end->offset);
     }
@@ -291,9 +361,11 @@ class MfemReader {
     }
   }
 
+  bool has_bad_index() const { return highest_index_ >= static_cast<std::int64_t>(vertex_count_); }
+
   [[noreturn]] void fail_index() const {
     scanner_.fail_at(highest_offset_, "vertex " + std::to_string(highest_index_) + " is out of range: the file has " +
-                                          std::to_string(document_.point_count()) + " vertices, counted from 0");
+                                          std::to_string(vertex_count_) + " vertices, counted from 0");
   }
 
   std::size_t bytes_left() const { return scanner_.text().size() - scanner_.offset(); }
@@ -302,15 +374,17 @@ class MfemReader {
   FileWorkers workers_;
   PlainRows rows_;
   MeshDocument document_;
-  NumberSites sites_;
+  std::vector<NumberSites> sites_;  ///< one list, or one an axis
   std::vector<std::int32_t> attributes_;
   std::vector<MfemSet> sets_;
   int dimension_ = 0;
+  std::size_t vertex_count_ = 0;
   std::size_t axes_ = 0;
   bool has_end_ = false;  ///< says where it ends, as from version 1.1 on
   bool has_elements_ = false;
   bool has_boundary_ = false;
   bool has_vertices_ = false;
+  bool has_nodes_ = false;
   std::int64_t highest_index_ = -1;
   std::size_t highest_offset_ = 0;
   bool highest_is_of_part_ = false;

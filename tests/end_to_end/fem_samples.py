@@ -270,7 +270,8 @@ def freefem():
     return sample
 
 
-def mfem(version):
+def mfem(version, ordering=None):
+    """With an ordering, of MFEM's numbers, the places are a grid function."""
     sample = Sample(".mesh")
     sample.add(f"MFEM mesh v{version}\n\n# of a test\ndimension\n2\n\nelements\n{len(sample.cells())}\n")
     for _, region, cell in sample.cells():
@@ -279,9 +280,19 @@ def mfem(version):
     sample.add(f"\nboundary\n{len(sample.lines)}\n")
     for line in sample.lines:
         sample.add(f"9 1 {ints(line)}\n")
-    sample.add(f"\nvertices\n{len(sample.grid.points)}\n2\n")
-    for v in sample.points():
-        sample.coordinates(v).add("\n")
+    sample.add(f"\nvertices\n{len(sample.grid.points)}\n")
+    if ordering is None:
+        sample.add("2\n")
+    else:
+        sample.add("\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P1\nVDim: 2\n"
+                   f"Ordering: {ordering}\n\n")
+    if ordering == 0:
+        for axis in range(2):
+            for v in sample.points():
+                sample.add((v, axis, ""), "\n")
+    else:
+        for v in sample.points():
+            sample.coordinates(v).add("\n")
     return sample.add("" if version == "1.0" else "\nmfem_mesh_end\n")
 
 
@@ -309,4 +320,5 @@ def every_sample():
     samples.update({"medit": medit(), "medit CR LF": medit("\r\n"), "su2": su2(), "inp": inp(),
                     "inp of parts": inp(True), "adcirc": adcirc(), "2dm": sms(), "unv": unv(), "freefem": freefem()})
     samples.update({f"mfem {version}": mfem(version) for version in ("1.0", "1.3")})
+    samples.update({f"mfem nodes {ordering}": mfem("1.0", ordering) for ordering in (0, 1)})
     return samples

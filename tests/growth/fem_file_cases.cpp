@@ -221,6 +221,25 @@ std::string mfem_attributes(int count) {
          "vertices\n5\n2\n" + rows(plate_points, &nothing_of, " ") + "mfem_mesh_end\n";
 }
 
+/// A fan of triangles whose sides have middles in a grid function.
+std::string mfem_nodes(int count) {
+  const auto half = [](const std::string& number, int more) {
+    return std::to_string((std::stoi(number) + more) / 2.0);
+  };
+  return "MFEM mesh v1.0\ndimension\n2\nelements\n" + std::to_string(count) + "\n" +
+         repeated(count,
+                  [](const auto& number) {
+                    const int i = std::stoi(number) + 1;
+                    return "1 2 0 " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
+                  }) +
+         "boundary\n0\nvertices\n" + std::to_string(count + 2) +
+         "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P2\nVDim: 2\nOrdering: 1\n0 1\n" +
+         repeated(count + 1, [](const auto& number) { return std::to_string(std::stoi(number) + 1) + " 0\n"; }) +
+         "0.5 0.5\n" + repeated(count, [&half](const auto& number) {
+           return std::to_string(std::stoi(number) + 1) + ".5 0\n" + half(number, 2) + " 0.5\n";
+         });
+}
+
 /// Groups that overlap, each with a point, and data sets of others.
 std::string unv_groups(int count) {
   const auto set = [](const std::string& number, const std::string& records) {
@@ -296,6 +315,7 @@ std::vector<GrowthCase> fem_file_cases() {
   cases.push_back(file_case("labels", 200, "msh", "mesh", &freefem_labels));
   cases.push_back(file_case("attributes and their sets", 100, "mesh", "msh", &mfem_attributes));
   cases.push_back(file_case("attributes and their sets", 100, "mesh", "vtu", &mfem_attributes));
+  cases.push_back(file_case("nodes of degree 2", 100, "mesh", "mesh", &mfem_nodes));
   cases.push_back(file_case("groups", 100, "unv", "unv", &unv_groups));
   cases.push_back(file_case("groups", 100, "unv", "msh", &unv_groups));
   cases.push_back(triangle_regions());

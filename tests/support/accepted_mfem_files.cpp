@@ -11,6 +11,14 @@ constexpr std::string_view mfem_elements = "elements\n4\n1 2 0 1 4\n1 2 1 2 4\n2
 constexpr std::string_view mfem_boundary = "boundary\n2\n3 1 0 1\n4 1 1 2\n";
 constexpr std::string_view mfem_vertices = "vertices\n5\n2\n0 0\n2 0\n2 2\n0 2\n0.75 1.25\n";
 
+/// The same, their places in a grid function.
+std::string with_nodes(std::string_view version, std::string_view collection, std::string_view places) {
+  return "MFEM mesh " + std::string(version) + "\n\ndimension\n2\n\n" + std::string(mfem_elements) + "\n" +
+         std::string(mfem_boundary) +
+         "\nvertices\n5\n\nnodes\nFiniteElementSpace\nFiniteElementCollection: " + std::string(collection) +
+         "\nVDim: 2\n" + std::string(places);
+}
+
 std::string text(std::string_view version, std::string_view end = "") {
   return "MFEM mesh " + std::string(version) + "\n\ndimension\n2\n\n" + std::string(mfem_elements) + "\n" +
          std::string(mfem_boundary) + "\n" + std::string(mfem_vertices) + std::string(end);
@@ -42,6 +50,11 @@ void add_mfem(std::vector<AcceptedFile>& files) {
       "MFEM mesh v1.0\n#\n# MFEM Geometry Types\n#\ndimension # of the mesh\n2\nelements # four\n4\n"
       "1 2 0 1 4 # one\n1 2 1 2 4\n-7 2 2 3\n 4\n2 2 3 0 4\nvertices # first x\n5\n2\n+0 -0\n2e0 0.\n"
       "20e-1 .2E1\n0.0 2.0\n\t0.75 1.25");
+  add("nodes", with_nodes("v1.0", "H1_2D_P1", "Ordering: 1\n\n0 0\n2 0\n2 2\n0 2\n0.75 1.25\n"));
+  add("nodes_by_axis", with_nodes("v1.0", "Linear", "Ordering: 0\n\n0\n2\n+2\n0\n0.75\n\n0\n0\n2\n2\n1.25\n"));
+  add("nodes_of_elements", with_nodes("v1.1", "L2_T1_2D_P1",
+                                      "Ordering: 1\n\n0 0\n2 0\n0.75 1.25\n\n2 0\n2 2\n.75 1.25\n\n2 2\n0 2\n"
+                                      "0.75 1.25\n\n0 2\n0 0\n0.75 1.25\n\nmfem_mesh_end\n"));
   add("crlf", with_line_end(text("v1.0"), "\r\n"));
   add("cr", with_line_end(text("v1.0"), "\r"));
   add("mark", "\xEF\xBB\xBF" + text("v1.0"));
