@@ -87,21 +87,35 @@ void place_merged(const PlanarMesh& mesh, std::span<const std::int32_t> moved, s
   }
 }
 
-/// Gives the vertices the third coordinate that the mesh has at their places.
-void move_heights(RunState& run, std::span<const Triangle> triangles, std::span<const std::int32_t> moved,
-                  std::span<const MeshPlace> places) {
+/// Gives the vertices the third coordinate that the mesh has at their places; what became of it, as an array.
+TransferredField move_heights(RunState& run, std::span<const Triangle> triangles, std::span<const std::int32_t> moved,
+                              std::span<const MeshPlace> places) {
   MeshDocument& document = run.document;
   std::vector<double> heights(document.point_count());
   for (std::size_t v = 0; v < heights.size(); ++v) {
     heights[v] = document.points[3 * v + 2];
   }
   const DataArray read = make_data_array("z", 1, std::move(heights));
-  const DataArray now = interpolated(read, triangles, moved, places, run.workers).array;
+  TransferredField now = interpolated(read, triangles, moved, places, run.workers);
   for (const std::int32_t vertex : moved) {
     const auto v = static_cast<std::size_t>(vertex);
-    if (now.value(v) != read.value(v)) {
-      document.points[3 * v + 2] = stored_coordinate(document, read.value(v), now.value(v));
+    if (now.array.value(v) != read.value(v)) {
+      document.points[3 * v + 2] = stored_coordinate(document, read.value(v), now.array.value(v));
     }
+  }
+  return now;
+}
+
+/// `found` vertices have a place, of which some may be beside no value.
+void report_transferred(RunState& run, const TransferredField& field, std::int64_t found) {
+  const std::int64_t kept = field.kept_vertices;
+  run.result.fields.push_back({field.array.name, found - kept});
+  if (kept > 0) {
+    run.note(
+        fmt::format("{} that moved {} as read in '{}': at {} there is no value ({}), with which none is interpolated; "
+                    "fill them in first, or keep all values as read with --fields keep",
+                    kept == 1 ? "1 vertex" : fmt::format("{} vertices", kept), kept == 1 ? "stays" : "stay",
+                    field.array.name, kept == 1 ? "a corner of its place" : "corners of their places", field.missing));
   }
 }
 
@@ -143,20 +157,13 @@ void move_fields(RunState& run, const LocalPoints& input) {
   place_merged(run.mesh, moved, places);
   const auto found = std::ranges::count_if(places, [](const MeshPlace& place) { return place.triangle >= 0; });
   if (has_heights) {
-    move_heights(run, mesh.triangles(), moved, places);
-    run.result.fields.push_back({"z", found});
+    report_transferred(run, move_heights(run, mesh.triangles(), moved, places), found);
   }
   for (const std::size_t array : run.fields) {
     DataArray& field = run.document.point_arrays[array];
     TransferredField transferred = interpolated(field, mesh.triangles(), moved, places, run.workers);
+    report_transferred(run, transferred, found);
     field = std::move(transferred.array);
-    run.result.fields.push_back({field.name, found - transferred.kept_vertices});
-    if (const std::int64_t kept = transferred.kept_vertices; kept > 0) {
-      run.note(fmt::format(
-          "{} that moved {} as read in '{}': at {} there is no value ({}), with which none is interpolated",
-          kept == 1 ? "1 vertex" : fmt::format("{} vertices", kept), kept == 1 ? "stays" : "stay", field.name,
-          kept == 1 ? "a corner of its place" : "corners of their places", transferred.missing));
-    }
   }
   run.result.timings_ms.fields += watch.milliseconds();
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -109,6 +110,18 @@ TEST_CASE("ADCIRC: only numbers of what changed are written, also depths") {
   document.point_arrays[0] = make_data_array("depth", 1, std::vector<double>{10.5, -2.5, 3, 1});
   CHECK(adcirc.written(document) ==
         replace_all(replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.5"), "4 0 1 0", "4 0 1 1"));
+}
+
+TEST_CASE("ADCIRC: a depth may be no number, which stays as it is written") {
+  for (const std::string none : {"nan", "NaN", "NAN", "-nan"}) {
+    CAPTURE(none);
+    const std::string text = replace_all(bay, "1.5 0 -2", "1.5 0 " + none);
+    MeshDocument document = adcirc.read(text);
+    CHECK(std::isnan(values_of<double>(document.point_arrays, "depth").at(1)));
+    CHECK(adcirc.written(document) == text);
+    document.points[3] = 1.75;
+    CHECK(adcirc.written(document) == replace_all(text, "1.5 0", "1.75 0"));
+  }
 }
 
 TEST_CASE("ADCIRC: what is wrong is said with its line") {

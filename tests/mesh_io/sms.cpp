@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,18 @@ TEST_CASE("2dm: nodes, elements, materials and nodestrings are read, other cards
         std::vector<NamedSet>{{"nodestring 12", {0, 1, 2}}, {"the inlet", {3, 4}}, {"nodestring 3", {0, 1}}});
   CHECK(document.notes == std::vector<std::string>{"Cards that are kept in 2dm output only: 'GM'."});
   CHECK(sms.written(document) == river);
+}
+
+TEST_CASE("2dm: an elevation may be no number, which stays as it is written") {
+  for (const std::string none : {"nan", "NaN", "NAN", "-nan"}) {
+    CAPTURE(none);
+    const std::string text = replace_all(river, "ND 2 1 0 2", "ND 2 1 0 " + none);
+    MeshDocument document = sms.read(text);
+    CHECK(std::isnan(values_of<double>(document.point_arrays, "elevation").at(1)));
+    CHECK(sms.written(document) == text);
+    document.points[3] = 1.75;
+    CHECK(sms.written(document) == replace_all(text, "ND 2 1 0", "ND 2 1.75 0"));
+  }
 }
 
 TEST_CASE("2dm: nodes along the sides of an element are corners first in a cell, and go back the same way") {

@@ -124,6 +124,67 @@ TEST_CASE("by default fields stay with their vertices, and names choose some") {
   CHECK(same_values(before.point_arrays[3], run.output().point_arrays[3]));
 }
 
+TEST_CASE("vertices beside a value that stands for none are counted, and the note names a way out, which works") {
+  Run run("m.vtk", "out.vtk");
+  MeshDocument document = sample();
+  std::vector<double> heat;
+  for (std::size_t v = 0; v < document.point_count(); ++v) {
+    heat.push_back(v % 50 == 13 ? -99999 : document.point_arrays[0].value(v));
+  }
+  document.point_arrays[0] = make_data_array("heat", 1, heat);
+  write_mesh(run.options.input, document);
+  run.options.field_arrays = {"heat"};
+  const PipelineResult result = run.run();
+  const MeshDocument after = run.output();
+  std::int64_t kept = 0;
+  for (std::size_t v = 0; v < heat.size(); ++v) {
+    const bool moved = !std::equal(&after.points[3 * v], &after.points[3 * v] + 3, &document.points[3 * v]);
+    kept += moved && after.point_arrays[0].value(v) == heat[v] ? 1 : 0;
+    CHECK((after.point_arrays[0].value(v) == -99999) == (heat[v] == -99999));
+  }
+  CHECK(kept > 10);
+  CHECK(result.fields == std::vector<InterpolatedField>{{"heat", result.smoothing->moved_vertices - kept}});
+  CHECK(
+      std::ranges::count(result.notes, std::to_string(kept) +
+                                           " vertices that moved stay as read in 'heat': at corners of their places "
+                                           "there is no value (-99999), with which none is interpolated; fill them in "
+                                           "first, or keep all values as read with --fields keep") == 1);
+  run.options.field_arrays.clear();
+  run.options.fields = Fields::keep;
+  for (const std::string& note : run.run().notes) {
+    CHECK(note.find("no value") == std::string::npos);
+  }
+  CHECK(same_values(run.output().point_arrays[0], document.point_arrays[0]));
+}
+
+TEST_CASE("a depth that is no number stays where it is, and no other depth becomes one") {
+  for (const std::string extension : {".14", ".2dm"}) {
+    INFO(extension);
+    Run run("m" + extension, "out" + extension);
+    MeshDocument document = sample();
+    std::vector<double> depth;
+    for (std::size_t v = 0; v < document.point_count(); ++v) {
+      depth.push_back(v % 50 == 13 ? std::nan("") : plane(document.points[3 * v], document.points[3 * v + 1]));
+    }
+    document.point_arrays = {make_data_array("depth", 1, depth)};
+    write_mesh(run.options.input, document);
+    const PipelineResult result = run.run();
+    CHECK(result.smoothing->moved_vertices > 300);
+    const MeshDocument before = run.input();
+    const MeshDocument after = run.output();
+    const DataArray& values = after.point_arrays.at(0);
+    for (std::size_t v = 0; v < depth.size(); ++v) {
+      CHECK(std::isnan(values.value(v)) == std::isnan(depth[v]));
+      CHECK((std::isnan(depth[v]) || values.value(v) == before.point_arrays[0].value(v) ||
+             std::abs(std::abs(values.value(v)) - std::abs(plane(after.points[3 * v], after.points[3 * v + 1]))) <
+                 1e-12));
+    }
+    CHECK(std::ranges::any_of(result.notes, [](const std::string& note) {
+      return note.find("there is no value (nan)") != std::string::npos;
+    }));
+  }
+}
+
 TEST_CASE("the result does not depend on the number of threads, nor on whether the file is converted") {
   Run run("m.vtk", "out.vtk");
   run.options.fields = Fields::interpolate;

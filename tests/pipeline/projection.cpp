@@ -94,6 +94,25 @@ TEST_CASE("z of vertices that moved is that of the surface that was read, and st
   }
 }
 
+TEST_CASE("z that stands for none is never blended, and the vertices beside it are counted as those of fields are") {
+  constexpr double none = -99999;
+  Run run([](double x, double y) { return x > 0.4 && x < 0.5 && y > 0.4 && y < 0.6 ? none : hill(x, y); });
+  const PipelineResult result = run_pipeline(run.options);
+  const std::vector<double> before = coordinates(run.input(), 2);
+  const std::vector<double> after = coordinates(run.output(), 2);
+  REQUIRE(std::ranges::count(before, none) > 0);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    CHECK((before[v] == none ? after[v] == none : after[v] > -2));
+  }
+  REQUIRE(result.fields.size() == 1);
+  const std::int64_t kept = result.smoothing->moved_vertices - result.fields[0].interpolated_vertices;
+  CHECK(kept >= std::ranges::count(before, none));
+  CHECK(std::ranges::any_of(result.notes, [kept](const std::string& note) {
+    return note.starts_with(std::to_string(kept) + " vertices that moved stay as read in 'z'") &&
+           note.ends_with("--fields keep");
+  }));
+}
+
 TEST_CASE("without the option such a file is refused, and the message names it") {
   Run run(hill);
   run.options.project.reset();
