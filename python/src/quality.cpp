@@ -1,5 +1,6 @@
 #include "trismooth/quality/quality.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,8 @@
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/repeated_triangles.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
@@ -72,6 +75,47 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
   return nb::make_tuple(std::move(report), arrays);
 }
 
+/// The triangles with the corners of one before them, as an array of shape (K, 2): the number of each and that of the
+/// first one. None where a triangle is not valid, which is found and told later.
+nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_count) {
+  using Pairs = nb::ndarray<nb::numpy, std::int32_t, nb::shape<-1, 2>>;
+  static_assert(sizeof(RepeatedTriangle) == 2 * sizeof(std::int32_t));
+  const HostArray numbers(triangles_object, "triangles");
+  const TriangleArray triangles(numbers);
+  auto found = std::make_unique<std::vector<RepeatedTriangle>>();
+  {
+    const nb::gil_scoped_release no_gil;
+    naming_arguments([&] {
+      // Copied: another thread may change the caller's while they are read.
+      std::vector<Triangle> kept;
+      const std::span<const Triangle> listed =
+          triangles.corners().triangles(static_cast<std::int64_t>(vertex_count), kept);
+      if (listed.data() != kept.data()) {
+        kept.assign(listed.begin(), listed.end());
+      }
+      const auto count = static_cast<std::int32_t>(vertex_count);
+      if (std::ranges::none_of(kept, [&](const Triangle& triangle) { return is_faulty(count, triangle); })) {
+        Workers workers(1);
+        *found = find_repeated_triangles(kept, vertex_count, workers);
+      }
+    });
+  }
+  const std::size_t count = found->size();
+  void* const first = found->data();
+  const nb::capsule owner(found.release(), [](void* memory) noexcept {
+    const std::unique_ptr<std::vector<RepeatedTriangle>> gone(static_cast<std::vector<RepeatedTriangle>*>(memory));
+  });
+  return nb::cast(Pairs(first, {count, 2}, owner));
+}
+
+/// The report with other numbers of triangles: numbers[t] in place of t.
+QualityReport renumbered(QualityReport report, const nb::object& numbers) {
+  for (WorstElement& element : report.worst) {
+    element.triangle = nb::cast<std::int64_t>(nb::int_(numbers[element.triangle]));
+  }
+  return report;
+}
+
 nb::list metrics() {
   nb::list list;
   for (const MetricInfo& metric : all_metrics()) {
@@ -97,6 +141,8 @@ nb::object vertex_mask(nb::handle array, const std::string& argument, std::size_
 void bind_quality_of_arrays(nb::module_& module) {
   module.def("quality", &quality_of_arrays, "points"_a, "triangles"_a, "threads"_a.none());
   module.def("vertex_mask", &vertex_mask, "array"_a, "argument"_a, "vertex_count"_a);
+  module.def("repeated_triangles", &repeated_triangles, "triangles"_a, "vertex_count"_a);
+  module.def("renumbered", &renumbered, "report"_a, "numbers"_a);
   module.def("metrics", &metrics, "Name, unit, meaning of each metric, and whether larger values are better.");
 }
 

@@ -7,6 +7,7 @@ from typing import Any, Dict, Optional
 from . import _arrays, _core
 from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
+from ._repeats import Repeats, find_repeats
 from ._result import Result
 from ._smooth import Progress
 
@@ -62,6 +63,7 @@ class Plan:
         constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
         self._notes = options_without_effect(options, size)
         self._triangles = triangles
+        self._repeats: Optional[Repeats] = None
         self._on_device = _arrays.device_of(triangles) is not None
         if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
             raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
@@ -75,8 +77,14 @@ class Plan:
             return _device.DevicePlan(self._triangles, n_points, constraints, options)
         if "stream" in options:
             raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
+        corners = _arrays.on_host(self._triangles, "triangles")
+        self._repeats = find_repeats(corners, n_points)
+        if self._repeats is not None:
+            corners = self._repeats.triangles()
+            constraints = self._repeats.leave_out(constraints, n_points)
+            self._notes = [*self._repeats.notes, *self._notes]
         return _core.HostPlan(
-            _arrays.on_host(self._triangles, "triangles"),
+            corners,
             n_points,
             constraints.on_host(),
             options,
@@ -89,7 +97,7 @@ class Plan:
 
     @property
     def n_triangles(self) -> int:
-        """The number of triangles."""
+        """The number of triangles, each counted once."""
         return int(self._plan.triangle_count)
 
     def smooth(
@@ -129,6 +137,8 @@ class Plan:
         numbers = _arrays.on_host(points, "points", float)
         output = _arrays.Output(points, numbers, out)
         outcome = self._plan.smooth(numbers, output.numbers, quality, progress)
+        if self._repeats is not None:
+            outcome = self._repeats.renumbered(outcome)
         return Result(outcome, output.delivered(), self._triangles, output.input_points())
 
     def __repr__(self) -> str:

@@ -8,6 +8,8 @@ import numpy as np
 
 from . import _arrays, _core
 from ._core import QualityReport
+from ._notes import warn_of
+from ._repeats import find_repeats
 
 #: The names of the metrics, as the attributes of Quality.
 METRICS: Tuple[str, ...] = tuple(name for name, *_ in _core.metrics())
@@ -75,7 +77,7 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
     points : array of float64 or float32, shape (N, 2) or (N, 3); or a mesh as for :func:`trismooth.smooth`
     triangles : array of integers, shape (M, 3) or (M, 6)
         In either direction: what the majority of a component's triangles is counts as positive. Of triangles of six
-        nodes the corners count.
+        nodes the corners count. One that is listed again has the values of the first and counts once.
     threads : int
         0: all. The result does not depend on it.
 
@@ -83,6 +85,11 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
     -------
     Quality
         One NumPy array a metric (``quality.shape``), and ``quality.summary``. Arrays on a device are copied to the host.
+
+    Warns
+    -----
+    MeshWarning
+        Of triangles that are listed again.
 
     Raises
     ------
@@ -97,7 +104,10 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
         from . import _device
 
         points, triangles = _device.to_host(points), _device.to_host(triangles)
-    report, values = _core.quality(
-        _arrays.on_host(points, "points", float), _arrays.on_host(triangles, "triangles"), threads
-    )
-    return Quality(report, values)
+    numbers, corners = _arrays.on_host(points, "points", float), _arrays.on_host(triangles, "triangles")
+    repeats = find_repeats(corners, len(numbers) if numbers.ndim == 2 else 0)
+    if repeats is None:
+        return Quality(*_core.quality(numbers, corners, threads))
+    report, values = _core.quality(numbers, repeats.triangles(), threads)
+    warn_of(repeats.notes)
+    return Quality(_core.renumbered(report, repeats.kept), [of_kept[repeats.place] for of_kept in values])

@@ -8,6 +8,7 @@ from . import _arrays, _core
 from ._constraints import Constraints
 from ._core import SweepRecord
 from ._notes import options_without_effect, warn_of
+from ._repeats import find_repeats
 from ._result import Result
 
 Progress = Callable[[SweepRecord], Any]
@@ -49,9 +50,11 @@ def smooth(
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
     triangles : array of integers, shape (M, 3) or (M, 6)
         Vertex numbers from 0, in either direction. Six are a quadratic triangle: the corners, then the middles of the
-        sides 01, 12 and 20, which follow the ends of their sides.
+        sides 01, 12 and 20, which follow the ends of their sides. One that is listed again, in whatever order, counts
+        and is smoothed once; of arrays on a CUDA device list none again, for there it is not looked for.
     regions : array of M labels, optional
-        Vertices between triangles of different labels are held. Labels of any type, texts as well. Of a mesh: the names
+        Vertices between triangles of different labels are held. Labels of any type, texts as well. A triangle that is
+        listed again with another label is of a region of its own, that of both labels. Of a mesh: the names
         of arrays or sets, or False for none; else its sets and those arrays that the program takes for regions, by
         their names or because they look like it.
     fixed : array of N bools, or of vertex numbers, optional
@@ -160,6 +163,10 @@ def smoothed(
     numbers = _arrays.on_host(points, "points", float)
     corners = _arrays.on_host(triangles, "triangles")
     output = _arrays.Output(points, numbers, out)
+    repeats = find_repeats(corners, len(numbers) if numbers.ndim == 2 else 0)
+    if repeats is not None:
+        corners = repeats.triangles()
+        constraints = repeats.leave_out(constraints, len(numbers))
     outcome = _core.smooth(
         numbers,
         corners,
@@ -169,4 +176,8 @@ def smoothed(
         progress,
         options,
     )
-    return Result(outcome, output.delivered(), triangles, output.input_points())
+    if repeats is None:
+        return Result(outcome, output.delivered(), triangles, output.input_points())
+    result = Result(repeats.renumbered(outcome), output.delivered(), triangles, output.input_points())
+    result.notes = [*repeats.notes, *result.notes]
+    return result

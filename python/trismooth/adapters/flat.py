@@ -9,6 +9,7 @@ from typing import Any, Callable, Optional
 import numpy as np
 
 from .. import _core
+from .._repeats import find_repeats
 
 
 @dataclass
@@ -221,9 +222,15 @@ def region_arrays(
         Gets what the user should know: what is held by a guess, and what is not.
     """
     arrays = [(name, array) for name, array in ((name, values(name)) for name in names) if array is not None]
-    places, sentences = _core.judge_regions(
-        triangles, vertex_count, [(name, *_judged(array)) for name, array in arrays]
-    )
+    judged = [(name, *_judged(array)) for name, array in arrays]
+    repeats = find_repeats(triangles, vertex_count)
+    if repeats is not None:
+        triangles = repeats.triangles()
+        judged = [
+            (name, components, None if labels is None else number_labels(repeats.labels(labels)[0]), are_whole)
+            for name, components, labels, are_whole in judged
+        ]
+    places, sentences = _core.judge_regions(triangles, vertex_count, judged)
     notes += sentences
     return [arrays[place][1] for place in places]
 

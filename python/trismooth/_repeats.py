@@ -1,0 +1,114 @@
+"""Triangles that are listed again, as programs do for every group that has them."""
+
+from __future__ import annotations
+
+from typing import Optional, Tuple
+
+import numpy as np
+
+from . import _arrays, _core
+from ._constraints import Constraints
+
+
+class Repeats:
+    """Those of one list of triangles. Each triangle counts and is smoothed once, as it is listed first.
+
+    Attributes
+    ----------
+    kept : ndarray of int, shape (K,)
+        The numbers of the triangles that are listed for the first time.
+    place : ndarray of int, shape (M,)
+        Of each triangle: where in ``kept`` it is, or that of which it is a copy.
+    notes : list of str
+        What the user should know, one sentence each.
+    """
+
+    def __init__(self, triangles: np.ndarray, pairs: np.ndarray) -> None:
+        self._triangles = triangles
+        self._copies, self._firsts = pairs[:, 0], pairs[:, 1]
+        is_kept = np.ones(len(triangles), dtype=bool)
+        is_kept[self._copies] = False
+        self.kept = np.flatnonzero(is_kept)
+        self.place = np.cumsum(is_kept) - 1
+        self.place[self._copies] = self.place[self._firsts]
+        count = len(pairs)
+        self.notes = [
+            f"{count} triangle{' is' if count == 1 else 's are'} listed again (the first is {self._copies[0]}, which has "
+            f"the corners of {self._firsts[0]}): {'it is' if count == 1 else 'each is'} counted and smoothed once, as it "
+            "is listed first"
+        ]
+
+    def triangles(self) -> np.ndarray:
+        """The triangles, each once."""
+        return self._triangles[self.kept]
+
+    def labels(self, labels: np.ndarray) -> Tuple[np.ndarray, int]:
+        """Labels of the triangles that are kept, and how many of these are listed with several.
+
+        Such a triangle has a label of its own, the same for all with the same labels: where groups overlap, what is in
+        both has a border with what is in one.
+        """
+        once = np.unique(labels[self.kept], return_inverse=True)[1].reshape(-1)
+        several = np.unique(self._firsts[labels[self._firsts] != labels[self._copies]])
+        if len(several) == 0:
+            return labels[self.kept], 0
+        of_several = np.isin(self._firsts, several)
+        owners = np.concatenate([several, self._firsts[of_several]])
+        numbers = np.unique(np.concatenate([labels[several], labels[self._copies[of_several]]]), return_inverse=True)[1]
+        pairs = np.unique(np.stack([owners, numbers.reshape(-1)], axis=1), axis=0)
+        bounds = np.flatnonzero(np.diff(pairs[:, 0])) + 1
+        sets: dict[bytes, int] = {}
+        found = [sets.setdefault(part.tobytes(), len(sets)) for part in np.split(pairs[:, 1], bounds)]
+        once[self.place[several]] = once.max() + 1 + np.array(found)
+        return once, len(several)
+
+    def leave_out(self, constraints: Constraints, n_points: int) -> Constraints:
+        """What the constraints are for the triangles that are kept."""
+        others = self._nodes_of_others()
+        if len(others) > 0:
+            mask = np.zeros(n_points, dtype=bool)
+            if constraints.other_cells is not None:
+                given = _arrays.on_host(constraints.other_cells, "other_cells")
+                mask |= _core.vertex_mask(given, "other_cells", n_points)
+            mask[others.ravel()] = True
+            constraints = constraints._replace(other_cells=mask)
+            self.notes.append(
+                f"{len(others)} of the triangles that are listed again {'has' if len(others) == 1 else 'have'} other "
+                "middles of sides: their vertices are held"
+            )
+        if constraints.regions is None:
+            return constraints
+        regions = _arrays.labels(constraints.regions, "regions", "triangle")
+        if regions.shape != (len(self._triangles),):
+            return constraints  # It is refused later.
+        once, several = self.labels(regions)
+        if several > 0:
+            self.notes.append(
+                f"{several} triangle{' is' if several == 1 else 's are'} listed in several regions: what these share is a "
+                "region of its own, whose border is held; list each triangle once where that is not meant"
+            )
+        return constraints._replace(regions=once)
+
+    def renumbered(self, outcome: _core.Outcome) -> _core.Outcome:
+        """What was made of the triangles that are kept, with their numbers in the whole list."""
+        if outcome.before is None or outcome.after is None:
+            return outcome
+        return outcome.with_quality(
+            _core.renumbered(outcome.before, self.kept), _core.renumbered(outcome.after, self.kept)
+        )
+
+    def _nodes_of_others(self) -> np.ndarray:
+        """The nodes of those copies that have six, not the same ones on their sides."""
+        if self._triangles.shape[1] == 3:
+            return np.empty((0, 3), dtype=np.int64)
+        rows = [self._triangles[numbers] for numbers in (self._copies, self._firsts)]
+        # The middle across from each corner, by ascending corners.
+        copies, firsts = (np.take_along_axis(row[:, [4, 5, 3]], np.argsort(row[:, :3], axis=1), axis=1) for row in rows)
+        others: np.ndarray = rows[0][(copies != firsts).any(axis=1)]
+        return others
+
+
+def find_repeats(triangles: np.ndarray, n_points: int) -> Optional[Repeats]:
+    """The triangles that have the corners of one before them; None where there are none, or no valid triangles."""
+    pairs = _core.repeated_triangles(triangles, n_points)
+    return Repeats(triangles, pairs) if len(pairs) > 0 else None
