@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <functional>
+#include <limits>
 #include <tuple>
 
 #include "trismooth/base/bulk_memory.h"
@@ -16,46 +18,60 @@ namespace {
 
 constexpr std::int64_t triangle_grain = 16384;
 
-Triangle sorted(Triangle corners) {
-  std::ranges::sort(corners);
-  return corners;
+/// The corners from the lowest to the highest, without a branch that could be mispredicted.
+Triangle ascending(const Triangle& triangle) {
+  const auto [a, b, c] = triangle;
+  const std::int32_t low = std::min(std::min(a, b), c);
+  const std::int32_t high = std::max(std::max(a, b), c);
+  return {low, a ^ b ^ c ^ low ^ high, high};
 }
-
-/// The bits of the triangles of which a vertex is the lowest corner.
-struct MetAtVertex {
-  std::uint64_t once = 0;
-  std::uint64_t again = 0;
-};
 
 /// The same for copies of a triangle.
-std::uint64_t bit_of(const Triangle& ascending) {
-  const std::uint64_t others =
-      static_cast<std::uint64_t>(ascending[1]) << 32U | static_cast<std::uint32_t>(ascending[2]);
-  return std::uint64_t{1} << (splitmix64(others) & 63U);
+std::uint64_t print_of(const Triangle& triangle, std::uint64_t seed) {
+  const auto [low, middle, high] = ascending(triangle);
+  constexpr std::uint64_t odd = 0xd6e8feb86659fd93U;
+  const std::uint64_t two = static_cast<std::uint64_t>(low) << 32U | static_cast<std::uint32_t>(middle);
+  return splitmix64(two + odd * (static_cast<std::uint64_t>(high) + seed));
 }
 
-/// The triangles that share lowest corner and bit with another one: all copies, their firsts, and few others.
-BulkVector<std::int32_t> find_suspects(std::span<const Triangle> triangles, std::size_t vertex_count,
-                                       Workers& workers) {
-  std::vector<MetAtVertex> met(vertex_count);
-  workers.for_blocks(std::ssize(triangles), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      const Triangle corners = sorted(triangles[static_cast<std::size_t>(t)]);
-      MetAtVertex& here = met[static_cast<std::size_t>(corners[0])];
-      const std::uint64_t bit = bit_of(corners);
-      if ((std::atomic_ref(here.once).fetch_or(bit, std::memory_order_relaxed) & bit) != 0) {
-        std::atomic_ref(here.again).fetch_or(bit, std::memory_order_relaxed);
+/// Bits that many threads set; each print has one.
+class SharedBits {
+ public:
+  explicit SharedBits(std::size_t bits) : words_(std::bit_ceil(std::max<std::size_t>(bits, 64)) / 64, 0) {}
+
+  /// Returns whether it was set.
+  bool set(std::uint64_t print) {
+    return (std::atomic_ref(words_[place(print)]).fetch_or(bit(print), std::memory_order_relaxed) & bit(print)) != 0;
+  }
+  bool has(std::uint64_t print) const { return (words_[place(print)] & bit(print)) != 0; }
+
+ private:
+  static std::uint64_t bit(std::uint64_t print) { return std::uint64_t{1} << (print & 63U); }
+  std::size_t place(std::uint64_t print) const { return static_cast<std::size_t>(print >> 6U) & (words_.size() - 1); }
+
+  std::vector<std::uint64_t> words_;
+};
+
+/// Those of `count` triangles that have the bit of another one: all copies with their firsts, and at most an eighth of
+/// the others. number_of(i): the number of the triangle in place i.
+template <class NumberOf>
+BulkVector<std::int32_t> with_common_bits(std::span<const Triangle> triangles, std::size_t count,
+                                          const NumberOf& number_of, std::uint64_t seed, Workers& workers) {
+  constexpr std::size_t bits_a_triangle = 8;
+  const auto print_at = [&](std::int64_t i) {
+    return print_of(triangles[static_cast<std::size_t>(number_of(i))], seed);
+  };
+  SharedBits met(bits_a_triangle * count);
+  SharedBits met_again(bits_a_triangle * count);
+  workers.for_blocks(static_cast<std::int64_t>(count), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (const std::uint64_t print = print_at(i); met.set(print)) {
+        met_again.set(print);
       }
     }
   });
   return numbers_of(
-      std::ssize(triangles),
-      [&](std::int64_t t) {
-        const Triangle corners = sorted(triangles[static_cast<std::size_t>(t)]);
-        const std::uint64_t again = met[static_cast<std::size_t>(corners[0])].again;
-        return again != 0 && (again & bit_of(corners)) != 0;
-      },
-      workers);
+      static_cast<std::int64_t>(count), [&](std::int64_t i) { return met_again.has(print_at(i)); }, workers, number_of);
 }
 
 /// A triangle that may be there more than once.
@@ -70,11 +86,15 @@ struct Suspect {
 
 }  // namespace
 
-std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, std::size_t vertex_count,
-                                                      Workers& workers) {
+std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, Workers& workers) {
+  const auto some = with_common_bits(
+      triangles, triangles.size(), [](std::int64_t i) { return static_cast<std::int32_t>(i); }, 0, workers);
+  const auto few = with_common_bits(
+      triangles, some.size(), [&](std::int64_t i) { return some[static_cast<std::size_t>(i)]; }, 1, workers);
   std::vector<Suspect> suspects;
-  for (const std::int32_t t : find_suspects(triangles, vertex_count, workers)) {
-    suspects.push_back({sorted(triangles[static_cast<std::size_t>(t)]), t});
+  suspects.reserve(few.size());
+  for (const std::int32_t t : few) {
+    suspects.push_back({ascending(triangles[static_cast<std::size_t>(t)]), t});
   }
   std::ranges::sort(suspects, std::less<>{});
   std::vector<RepeatedTriangle> repeated;
@@ -87,6 +107,12 @@ std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> 
   }
   std::ranges::sort(repeated, {}, &RepeatedTriangle::triangle);
   return repeated;
+}
+
+std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads) {
+  std::vector<Triangle> converted;
+  Workers workers(threads);
+  return find_repeated_triangles(triangles.triangles(std::numeric_limits<std::int32_t>::max(), converted), workers);
 }
 
 }  // namespace trismooth

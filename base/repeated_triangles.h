@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "trismooth/base/index_view.h"
 #include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
@@ -21,12 +21,14 @@ struct RepeatedTriangle {
 
 /// The triangles that have the three corners of one before them, in whatever order; ascending. Programs list triangles
 /// again for every group that has them. What smooths takes each for a triangle of its own: two copies look like
-/// neighbours of each other, so that a corner of the boundary may look like a vertex inside, and one of them like an
-/// inverted triangle. So leave the copies out before.
-///
-/// Corners are below `vertex_count`. Complexity: linear, and n log n in the triangles that are there more than once;
-/// allocates 16 bytes for each vertex, for a while.
-std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, std::size_t vertex_count,
-                                                      Workers& workers);
+/// neighbours of each other, so that a corner of the boundary may look like a vertex inside, and one of the two like an
+/// inverted triangle. So leave them out before. `threads`: 0 for all; the result does not depend on it. Throws
+/// MeshError for a corner that has no place in 32 bits, std::invalid_argument for a wrong number of threads.
+/// Complexity: linear, and n log n in the triangles that are there more than once; 3 to 5 bytes a triangle of memory,
+/// for a while.
+std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads = 0);
+
+/// The same with threads that are there.
+std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, Workers& workers);
 
 }  // namespace trismooth

@@ -83,7 +83,7 @@ std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::
 }
 
 void take_out_copies(PlanarMesh& mesh, Workers& workers) {
-  const auto repeated = find_repeated_triangles(mesh.triangles, mesh.points.size(), workers);
+  const auto repeated = find_repeated_triangles(mesh.triangles, workers);
   if (repeated.empty()) {
     return;
   }

@@ -15,7 +15,7 @@ RankRepeats find_rank_repeats(const RankTopology& topology, Workers& workers) {
   const mpi::Overlap& overlap = topology.overlap();
   RankRepeats found{0, std::numeric_limits<std::int64_t>::max()};
   // Who has a triangle has those of the same corners, too.
-  for (const auto& [triangle, first] : find_repeated_triangles(overlap.triangles, overlap.ids.size(), workers)) {
+  for (const auto& [triangle, first] : find_repeated_triangles(overlap.triangles, workers)) {
     found.count += topology.counts(static_cast<std::size_t>(triangle)) ? 1 : 0;
     found.lowest = std::min(found.lowest, overlap.triangle_ids[static_cast<std::size_t>(triangle)]);
   }

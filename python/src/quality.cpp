@@ -96,7 +96,7 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
       const auto count = static_cast<std::int32_t>(vertex_count);
       if (std::ranges::none_of(kept, [&](const Triangle& triangle) { return is_faulty(count, triangle); })) {
         Workers workers(1);
-        *found = find_repeated_triangles(kept, vertex_count, workers);
+        *found = find_repeated_triangles(kept, workers);
       }
     });
   }
