@@ -14,6 +14,7 @@
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
+#include "trismooth/pipeline/input/marked_points.h"
 #include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
@@ -88,10 +89,43 @@ nb::tuple judge_arrays(nb::handle triangles_object, std::size_t vertex_count, nb
   return nb::make_tuple(places, sentences);
 }
 
+/// The vertices that arrays of markers mark, and what the user should know.
+nb::tuple judge_marker_arrays(nb::handle triangles_object, std::size_t vertex_count, nb::handle arrays,
+                              nb::handle regions_object, nb::handle held_object) {
+  const HostArray numbers(triangles_object, "triangles");
+  const TriangleArray triangle_array(numbers);
+  std::vector<Triangle> kept;
+  const IndexView corners = triangle_array.corners();
+  const auto triangles =
+      naming_arguments([&] { return corners.triangles(static_cast<std::int64_t>(vertex_count), kept); });
+  const std::vector<std::int32_t> regions = integers(regions_object, "regions", triangle_array.size(), "triangle");
+  std::vector<std::uint8_t> is_held = vertex_flags(held_object, "fixed", vertex_count);
+  is_held.resize(vertex_count, 0);
+  const std::vector<std::int32_t> inside = find_regions_inside(triangles, regions, is_held);
+  nb::list vertices;
+  nb::list sentences;
+  for (const nb::handle array : arrays) {
+    const auto [name, markers, zero] = nb::cast<std::tuple<nb::object, nb::object, std::int32_t>>(array);
+    const MarkedPoints marked =
+        find_marked_points(triangles, integers(markers, "markers", vertex_count, "vertex"), zero, inside);
+    for (const std::int32_t v : marked.vertices) {
+      vertices.append(v);
+    }
+    for (const std::string& note : notes_of_marked_points(bytes_of_text(name), marked, {"fixed=False", "fixed="})) {
+      sentences.append(text_of_file(note));
+    }
+  }
+  return nb::make_tuple(vertices, sentences);
+}
+
 }  // namespace
 
 void bind_regions(nb::module_& module) {
   module.def("judge_regions", &judge_arrays, "triangles"_a, "vertex_count"_a, "arrays"_a);
+  module.def("judge_markers", &judge_marker_arrays, "triangles"_a, "vertex_count"_a, "arrays"_a, "regions"_a.none(),
+             "held"_a.none());
+  module.def(
+      "is_marker_name", [](nb::handle name) { return is_marker_name(bytes_of_text(name)); }, "name"_a);
   module.def(
       "is_region_name", [](nb::handle name) { return is_region_name(bytes_of_text(name)); }, "name"_a);
   module.def(

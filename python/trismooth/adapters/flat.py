@@ -245,6 +245,48 @@ def _judged(values: np.ndarray) -> tuple[int, Optional[np.ndarray], bool]:
     return 1, number_labels(values), is_whole
 
 
+def marked_points(
+    names: Iterable[str],
+    values: Callable[[str], Optional[np.ndarray]],
+    flat: FlatMesh,
+    held: Optional[np.ndarray],
+) -> Optional[np.ndarray]:
+    """Return the mask of the vertices inside that arrays of markers mark, as the program judges them, or None.
+
+    An array counts by its name (``medit:ref``, ``triangle:marker``, ``vertex_markers``, ...) if it has whole numbers,
+    one a point. See ``pipeline/input/marked_points.h``.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Names of the point arrays.
+    values : callable
+        Returns the values of the points in the array of a name, of shape (N,) or (N, components).
+    flat : FlatMesh
+        The mesh, with its regions. Its notes get what the user should know.
+    held : ndarray of bool, shape (N,), optional
+        Vertices of lines and other cells.
+    """
+    arrays = []
+    for name in filter(_core.is_marker_name, names):
+        array = values(name)
+        if array is not None and array.ndim == 1 and array.dtype.kind in "iu":
+            zero = np.flatnonzero(np.unique(array) == 0)
+            arrays.append((name, number_labels(array), int(zero[0]) if zero.size > 0 else -1))
+    if not arrays:
+        return None
+    count = len(flat.points)
+    vertices, sentences = _core.judge_markers(flat.triangles, count, arrays, flat.regions, held)
+    flat.notes += sentences
+    return vertices_of([vertices], count)
+
+
+def any_mask(masks: Iterable[Optional[np.ndarray]]) -> Optional[np.ndarray]:
+    """Return the mask of what is in any of the masks; None if there are none."""
+    given = [mask for mask in masks if mask is not None]
+    return np.asarray(np.any(given, axis=0)) if given else None
+
+
 def side_names(names: Iterable[str]) -> list[str]:
     """Return the names of those cell arrays that mark named boundaries by sides, as scikit-fem writes them."""
     return [name for name in names if _core.is_side_name(name)]

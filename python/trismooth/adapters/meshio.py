@@ -9,11 +9,13 @@ import numpy as np
 
 from .flat import (
     FlatMesh,
+    any_mask,
     choose_fixed,
     choose_regions,
     combine_labels,
     float_points,
     labels_of_sets,
+    marked_points,
     marked_sides,
     no_such_name,
     one_value_each,
@@ -46,7 +48,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         as the program judges it, and all cell sets. A name or names: of cell data or cell sets. An array: a label for
         each triangle, or for each cell of all blocks in their order.
     fixed : None, False, str, list of str or array_like
-        None: the point data ``fixed``, if there are such; with ``lines`` points of Gmsh's geometry as well. A name or
+        None: the point data ``fixed``, if there are such, and vertices inside that point data of markers mark
+        (``medit:ref``, ...), as the program judges it; with ``lines`` points of Gmsh's geometry as well. A name or
         names: of point data, where vertices are held whose value is not zero, or of point sets. An array: a mask, or
         vertex numbers.
     lines : bool
@@ -94,7 +97,7 @@ class _Flattener:
                 side_tags,
             )
         notes: list[str] = []
-        return FlatMesh(
+        flat = FlatMesh(
             float_points(mesh.points),
             triangles,
             regions=choose_regions(
@@ -106,13 +109,17 @@ class _Flattener:
                 ),
                 cell_count=int(self._first_cell[-1]),
             ),
-            fixed=choose_fixed(fixed, count, default=lambda: self._default_fixed(lines), named=self._named_fixed),
             other_cells=vertices_of(of_others if lines else [*of_others, sides], count),
             lines=all_lines,
             line_tags=line_tags,
             links=self._links() if lines else None,
             notes=notes,
         )
+        on_lines = vertices_of([*of_others, sides if all_lines is None else all_lines], count)
+        flat.fixed = choose_fixed(
+            fixed, count, default=lambda: self._default_fixed(flat, on_lines, lines), named=self._named_fixed
+        )
+        return flat
 
     def _line_tags(self, blocks: list[int], regions: Any) -> Optional[np.ndarray]:
         """A number for each line: they differ where cell data that give regions or cell sets do."""
@@ -175,13 +182,15 @@ class _Flattener:
             return labels_of_sets([self._members(name, blocks)], self._cell_count(blocks))
         raise no_such_name("regions", name, "cell data or cell set", [*self._mesh.cell_data, *self._set_names()])
 
-    def _default_fixed(self, lines: bool) -> Optional[np.ndarray]:
-        named = self._named_fixed("fixed") if "fixed" in self._mesh.point_data else None
-        on_points = self._on_points_of_geometry() if lines else None
-        if named is None or on_points is None:
-            return on_points if named is None else named
-        either: np.ndarray = np.logical_or(named, on_points)
-        return either
+    def _default_fixed(self, flat: FlatMesh, on_lines: Optional[np.ndarray], lines: bool) -> Optional[np.ndarray]:
+        data = self._mesh.point_data
+        return any_mask(
+            [
+                self._named_fixed("fixed") if "fixed" in data else None,
+                self._on_points_of_geometry() if lines else None,
+                marked_points(data, lambda name: np.asarray(data[name]), flat, on_lines),
+            ]
+        )
 
     def _on_points_of_geometry(self) -> Optional[np.ndarray]:
         """Nodes that a file of Gmsh says are points of its geometry. It says nothing if none is of a surface."""

@@ -17,9 +17,11 @@ import numpy as np
 
 from .flat import (
     FlatMesh,
+    any_mask,
     choose_fixed,
     choose_regions,
     float_points,
+    marked_points,
     marked_sides,
     no_such_name,
     one_value_each,
@@ -52,8 +54,9 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         None: the cell arrays that give regions by their names (``material``, ``region_id``, ...) or look like it, as
         the program judges it. A name or names: of cell arrays. An array: a label for each triangle or for each cell.
     fixed : None, False, str, list of str or array_like
-        None: the point array ``fixed``, if there is one. A name or names: of point arrays; vertices are held where they
-        are not zero. An array: a mask, or vertex numbers.
+        None: the point array ``fixed``, if there is one, and vertices inside that point arrays of markers mark
+        (``medit:ref``, ``vertex_markers``, ...), as the program judges it. A name or names: of point arrays; vertices
+        are held where they are not zero. An array: a mask, or vertex numbers.
     lines : bool
         Whether lines and polylines are lines for vertices to slide on. They differ where cell arrays that give regions
         do.
@@ -87,7 +90,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     sides, side_tags = marked_sides(marks, cells.triangles)
     tags = tags_of_lines(_names(cell_data), regions, of_lines) if len(cells.lines) > 0 else None
     all_lines, line_tags = with_sides(cells.lines, tags, sides, side_tags) if lines else (cells.lines, tags)
-    return FlatMesh(
+    flat = FlatMesh(
         points,
         cells.triangles,
         regions=choose_regions(
@@ -97,17 +100,24 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
             cell_of_triangle=cells.of_triangle,
             cell_count=mesh.GetNumberOfCells(),
         ),
-        fixed=choose_fixed(
-            fixed,
-            count,
-            default=lambda: named_fixed("fixed") if "fixed" in _names(point_data) else None,
-            named=named_fixed,
-        ),
         other_cells=vertices_of(cells.other_nodes if lines else [*cells.other_nodes, sides], count),
         lines=all_lines,
         line_tags=line_tags,
         notes=notes,
     )
+
+    def default_fixed() -> Optional[np.ndarray]:
+        names = _names(point_data)
+        on_lines = vertices_of([*cells.other_nodes, sides, all_lines], count)
+        return any_mask(
+            [
+                named_fixed("fixed") if "fixed" in names else None,
+                marked_points(names, lambda name: _values(point_data, name), flat, on_lines),
+            ]
+        )
+
+    flat.fixed = choose_fixed(fixed, count, default=default_fixed, named=named_fixed)
+    return flat
 
 
 def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
