@@ -135,6 +135,12 @@ std::vector<std::int64_t> read_vertex_numbers(const std::filesystem::path& path,
 /// The same of a mesh whose vertices 32 bits can number.
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
 
+/// The vertices with these labels: the numbers that the document's own file gives its points. Throws
+/// std::invalid_argument, which begins with `argument`, for a label that no point has, and where the file gives none.
+/// Complexity: n log n in the vertices where labels do not count on.
+std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> labels, const MeshDocument& document,
+                                             const std::string& argument);
+
 /// The vertices whose labels a text file names: the numbers that the document's own file gives its points. Throws
 /// std::invalid_argument where that gives none, ReadError for a label that no point has, and for what is no number.
 /// Complexity: n log n in the vertices where labels do not count on.

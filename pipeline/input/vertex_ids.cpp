@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -30,30 +31,67 @@ std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std
   return {numbers.begin(), numbers.end()};
 }
 
-std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document) {
-  if (!document.first_point_label) {
-    throw std::invalid_argument("'--fixed-labels': a file of " + std::string(title_of(document.format)) +
-                                " gives its points no numbers of its own; --fixed-ids takes their rows, which count "
-                                "from 0");
-  }
-  const std::int64_t first = *document.first_point_label;
-  const PointIds labels(document.point_labels);
-  const auto find = [&](std::int64_t label) -> std::optional<std::int32_t> {
-    if (!document.point_labels.empty()) {
-      return labels.find(label);
+namespace {
+
+/// Finds points by their labels.
+class LabelledPoints {
+ public:
+  /// Throws std::invalid_argument where the document's file gives none; `argument` asks for them, and `rows` takes
+  /// rows.
+  LabelledPoints(const MeshDocument& document, const std::string& argument, const std::string& rows)
+      : document_(document), ids_(document.point_labels) {
+    if (!document.first_point_label) {
+      throw std::invalid_argument(argument + ": a file of " + std::string(title_of(document.format)) +
+                                  " gives its points no numbers of its own; " + rows +
+                                  " takes their rows, which count from 0");
     }
-    const std::uint64_t place = static_cast<std::uint64_t>(label) - static_cast<std::uint64_t>(first);
-    return place < document.point_count() ? std::optional(static_cast<std::int32_t>(place)) : std::nullopt;
-  };
+  }
+
+  std::optional<std::int32_t> find(std::int64_t label) const {
+    if (!document_.point_labels.empty()) {
+      return ids_.find(label);
+    }
+    const std::uint64_t place =
+        static_cast<std::uint64_t>(label) - static_cast<std::uint64_t>(*document_.first_point_label);
+    return place < document_.point_count() ? std::optional(static_cast<std::int32_t>(place)) : std::nullopt;
+  }
+
+  static std::string unknown(std::int64_t label) {
+    return "names the vertex " + std::to_string(label) + ", and no point of the mesh has that label";
+  }
+
+ private:
+  const MeshDocument& document_;
+  PointIds ids_;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> labels, const MeshDocument& document,
+                                             const std::string& argument) {
+  const LabelledPoints points(document, argument, "fixed");
+  std::vector<std::int32_t> vertices;
+  for (const std::int64_t label : labels) {
+    const std::optional<std::int32_t> vertex = points.find(label);
+    if (!vertex) {
+      throw std::invalid_argument(argument + ": " + LabelledPoints::unknown(label));
+    }
+    vertices.push_back(*vertex);
+  }
+  return vertices;
+}
+
+std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document) {
+  const LabelledPoints points(document, "'--fixed-labels'", "--fixed-ids");
   const FileBytes bytes = read_file_bytes(path);
   TextScanner scanner(bytes, path, TextScanner::Comments::hash);
   std::vector<std::int32_t> ids;
   while (!scanner.at_end()) {
     const std::int64_t label = scanner.next_integer("the label of a vertex", std::numeric_limits<std::int64_t>::min(),
                                                     std::numeric_limits<std::int64_t>::max());
-    const std::optional<std::int32_t> vertex = find(label);
+    const std::optional<std::int32_t> vertex = points.find(label);
     if (!vertex) {
-      throw ReadError(path, "names the vertex " + std::to_string(label) + ", and no point of the mesh has that label");
+      throw ReadError(path, LabelledPoints::unknown(label));
     }
     ids.push_back(*vertex);
   }

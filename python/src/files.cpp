@@ -1,10 +1,12 @@
 #include "trismooth/python/files.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +22,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/cli/command_line.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/report/json_report.h"
 #include "trismooth/python/errors.h"
@@ -273,6 +276,12 @@ class FileMesh {
           if (flags[v] != 0) {
             options.fixed_vertices.push_back(static_cast<std::int32_t>(v));
           }
+        }
+      } else if (name == "fixed_labels") {
+        if (!value.is_none()) {
+          const auto labels = nb::cast<std::vector<std::int64_t>>(value);
+          std::ranges::copy(vertices_of_labels(labels, document_, "fixed_labels"),
+                            std::back_inserter(options.fixed_vertices));
         }
       } else if (name == "size") {
         options.size_array = text_or_none(value, "size");

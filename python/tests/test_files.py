@@ -147,6 +147,42 @@ def test_constraints_by_name_and_number(msh):
     assert moved(regions="none").sum() > moved().sum() == moved(regions=["gmsh:physical"]).sum()
 
 
+@pytest.mark.parametrize("label", [lambda i: i + 1, lambda i: 2**62 + 5 * i - i % 3, lambda i: 900 - i])
+def test_vertices_are_held_by_the_numbers_that_the_file_gives_them(label, tmp_path):
+    side = 9
+    dice = np.random.default_rng(3)
+    points = [(x + s * (0 < x < side - 1 and 0 < y < side - 1), y, i) for i, (x, y, s) in
+              enumerate((i % side, i // side, dice.uniform(-0.3, 0.3)) for i in range(side**2))]
+    corners = [a for a in range(side * (side - 1)) if a % side < side - 1]
+    cells = [c for a in corners for c in ((a, a + 1, a + side + 1), (a, a + side + 1, a + side))]
+    path = tmp_path / "labelled.inp"
+    path.write_text("*NODE\n" + "".join(f"{label(i)}, {x}, {y}, 0.\n" for x, y, i in points) +
+                    "*ELEMENT, TYPE=CPS3\n" + "".join(f"{n + 1}, " + ", ".join(str(label(v)) for v in c) + "\n"
+                                                      for n, c in enumerate(cells)))  # fmt: skip
+    held = [20, 40, 41, 60]
+
+    def moved(**options):
+        mesh = trismooth.read(path)
+        before = mesh.points
+        mesh.smooth(method="mean-ratio", **options)
+        return np.any(mesh.points != before, axis=1)
+
+    assert moved()[held].all()
+    for labels in ([label(i) for i in held], np.array([label(i) for i in held], np.uint64)):
+        assert not moved(fixed_labels=labels)[held].any()
+        np.testing.assert_array_equal(moved(fixed_labels=labels), moved(fixed=held))
+    np.testing.assert_array_equal(moved(fixed_labels=[]), moved())
+    with pytest.raises(ValueError, match="^fixed_labels: names the vertex 77777, and no point"):
+        moved(fixed_labels=[77777])
+    with pytest.raises(TypeError, match="^fixed_labels: expected whole numbers"):
+        moved(fixed_labels=[1.0])
+    with pytest.raises(ValueError, match="^fixed_labels: 9223372036854775808 is beyond"):
+        moved(fixed_labels=np.array([2**63], np.uint64))
+    trismooth.read(path).write(tmp_path / "unlabelled.off")
+    with pytest.raises(ValueError, match="^fixed_labels: a file of OFF gives its points no numbers .* fixed takes"):
+        trismooth.read(tmp_path / "unlabelled.off").smooth(fixed_labels=[1])
+
+
 def test_what_does_not_fit_is_an_exception_and_leaves_the_mesh(msh):
     mesh = trismooth.read(msh)
     before = mesh.points

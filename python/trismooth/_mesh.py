@@ -119,6 +119,7 @@ class Mesh:
         *,
         regions: Union[None, str, Sequence[str]] = None,
         fixed: Any = None,
+        fixed_labels: Any = None,
         fixed_array: Optional[str] = None,
         fixed_sets: Union[None, str, Sequence[str]] = None,
         size: Optional[str] = None,
@@ -139,7 +140,9 @@ class Mesh:
         regions : str or list of str, optional
             Cell arrays that give regions; "none": none do. Default: those that look like it.
         fixed : array of N bools, or of vertex numbers, optional
-            Vertices to hold.
+            Vertices to hold. Numbers are rows of the file, from 0.
+        fixed_labels : array of int, optional
+            Vertices to hold, by the numbers that the file itself gives them: node tags of MSH, nodes of Abaqus, ...
         fixed_array : str, optional
             The point array whose nonzero values hold vertices. Default: "fixed", where there is one.
         fixed_sets : str or list of str, optional
@@ -168,7 +171,7 @@ class Mesh:
         -----
         MeshWarning
             Of all that the result's notes, warnings and losses say: option ``--region-array`` of the program is
-            ``regions`` here, ``--fixed-set`` is ``fixed_sets``, and so on.
+            ``regions`` here, ``--fixed-set`` is ``fixed_sets``, ``--fixed-ids`` is ``fixed``, and so on.
 
         Raises
         ------
@@ -182,6 +185,7 @@ class Mesh:
         held = {
             "regions": regions,
             "fixed": None if fixed is None else _arrays.on_host(fixed, "fixed"),
+            "fixed_labels": None if fixed_labels is None else _labels(fixed_labels),
             "fixed_array": fixed_array,
             "fixed_sets": fixed_sets,
             "size": size,
@@ -225,6 +229,16 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<trismooth.Mesh: {self.path!r}, {len(self.points)} points, {len(self.cell_types)} cells>"
+
+
+def _labels(labels: Any) -> List[int]:
+    array = _arrays.on_host(labels, "fixed_labels")
+    if array.ndim != 1 or (array.size > 0 and array.dtype.kind not in "iu"):
+        raise TypeError(f"fixed_labels: expected whole numbers in one dimension, not {array.dtype} of shape {array.shape}")
+    if array.dtype.kind == "u" and array.size > 0 and array.max() > np.iinfo(np.int64).max:
+        raise ValueError(f"fixed_labels: {array.max()} is beyond 64 bits with a sign")
+    numbers: List[int] = array.astype(np.int64).tolist()
+    return numbers
 
 
 def read(path: Path, *, format: Optional[str] = None, threads: int = 0) -> Mesh:
