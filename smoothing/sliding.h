@@ -57,7 +57,9 @@ struct Sliding {
   /// they are; so do linked vertices that are on none.
   ArrayView<std::int32_t> links{};
   /// Vertices of several chains that lie in the same place without being one, as on the two faces of a crack, slide as
-  /// if linked. Else they stay where they are.
+  /// if linked. Else they stay where they are. Those within a thousandth of the shortest edge of their chains count as
+  /// in the same place; on splines they stay all the same. Vertices that are as near to an edge of another chain, and
+  /// the ends of such edges, stay in any case.
   bool coincident = false;
 
   /// Throws std::invalid_argument for an angle or a deviation that is none.

@@ -227,6 +227,8 @@ Json sliding_json(const std::optional<SlidingResult>& sliding) {
           {"slid", sliding->slid},
           {"largest_deviation", number_json(sliding->largest_deviation)},
           {"relative_deviation", number_json(sliding->relative_deviation)},
+          {"in_same_place", sliding->in_same_place},
+          {"at_edges", sliding->at_edges},
           {"given_up", sliding->given_up}};
 }
 

@@ -133,6 +133,9 @@ void smooth_mesh(RunState& run) {
   note_growth_bound(run, before);
   if (smoothing.sliding) {
     compare_areas(run, before);
+    if (std::string note = note_of_touching_lines(*smoothing.sliding, run.options.slide); !note.empty()) {
+      run.note(std::move(note));
+    }
   }
   PipelineTimings& timings = run.result.timings_ms;
   timings.topology += smoothing.timings.prepare;

@@ -116,6 +116,24 @@ std::string warning_of_layers(const LayersResult& layers) {
                    layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
 }
 
+std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked) {
+  std::vector<std::string> held;
+  if (sliding.in_same_place > 0) {
+    held.push_back(fmt::format("{} where others are, within a thousandth of an edge", sliding.in_same_place));
+  }
+  if (sliding.at_edges > 0) {
+    held.push_back(fmt::format("{} within edges of others or at their ends", sliding.at_edges));
+  }
+  if (held.empty()) {
+    return {};
+  }
+  const bool may_slide_together = sliding.in_same_place > 0 && !asked.coincident;
+  return fmt::format(
+      "lines touch without sharing vertices, so these do not slide: {}; {}--merge DISTANCE, without --slide, joins "
+      "vertices that nearly coincide",
+      fmt::join(held, ", "), may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
+}
+
 void warn_before_smoothing(RunState& run) {
   warn_of_precision(run);
   warn_of_options_without_effect(run);

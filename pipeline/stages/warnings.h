@@ -11,6 +11,8 @@ struct LayersResult;
 struct PipelineOptions;
 struct PrecisionLoss;
 struct RunState;
+struct Sliding;
+struct SlidingResult;
 struct SmoothingOptions;
 struct SmoothingResult;
 
@@ -28,6 +30,9 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
 std::string warning_of_layers(const LayersResult& layers);
+
+/// What does not slide since lines touch without sharing vertices, with the way out; empty where there is nothing.
+std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked);
 
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_dropped_annotations(std::span<const std::string> names);

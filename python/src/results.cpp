@@ -146,14 +146,18 @@ void bind_sliding(nb::module_& module) {
               "The largest distance between the old lines and the new ones, in the unit of the points.")
       .def_ro("relative_deviation", &SlidingResult::relative_deviation,
               "The largest one as a part of the length of the edge nearby: what `deviation` bounds.")
+      .def_ro("in_same_place", &SlidingResult::in_same_place,
+              "Vertices that would slide but for others in the same place, or within a thousandth of an edge of it.")
+      .def_ro("at_edges", &SlidingResult::at_edges,
+              "Likewise: that lie within an edge of another line, and the ends of these edges.")
       .def_ro("given_up", &SlidingResult::given_up,
               "So many vertices would have gone back for it that all was smoothed once more without sliding.")
       .def("__repr__", [](const SlidingResult& sliding) {
         std::ostringstream text;
         text << "SlidingResult(lines=" << sliding.chains << ", vertices=" << sliding.vertices
              << ", slid=" << sliding.slid << ", largest_deviation=" << sliding.largest_deviation
-             << ", relative_deviation=" << sliding.relative_deviation
-             << ", given_up=" << (sliding.given_up ? "True" : "False") << ")";
+             << ", relative_deviation=" << sliding.relative_deviation << ", in_same_place=" << sliding.in_same_place
+             << ", at_edges=" << sliding.at_edges << ", given_up=" << (sliding.given_up ? "True" : "False") << ")";
         return text.str();
       });
 }

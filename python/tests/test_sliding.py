@@ -151,6 +151,26 @@ def test_vertices_in_the_same_place_slide_together_where_that_is_wanted():
     np.testing.assert_array_equal(new[column], new[twin[column]])
 
 
+@pytest.mark.parametrize("gap", [0, 1e-10])
+def test_parts_that_touch_stay_together_and_a_warning_says_so(gap):
+    points, triangles, regions, x, _ = uneven_grid()
+    column = np.flatnonzero(x == 6)
+    twin = np.arange(len(points))
+    twin[column] = len(points) + np.arange(len(column))
+    triangles = np.where((regions == 1)[:, None], twin[triangles], triangles)
+    points = np.concatenate([points, points[column] + [gap, 0]])
+    with pytest.warns(trismooth.MeshWarning, match="lines touch without sharing vertices.*slide_coincident=True"):
+        stay = trismooth.smooth(points, triangles, slide="straight")
+    np.testing.assert_array_equal(stay.points[column], points[column])
+    np.testing.assert_array_equal(stay.points[twin[column]], points[twin[column]])
+    assert any("lines touch" in note for note in stay.notes)
+    assert (stay.sliding.in_same_place, stay.sliding.at_edges) == (2 * (len(column) - 2), 0)
+    together = trismooth.smooth(points, triangles, slide="straight", slide_coincident=True)
+    assert not together.notes and together.sliding.in_same_place == 0
+    assert (together.points[column] != points[column]).any()
+    np.testing.assert_array_equal(together.points[column, 1], together.points[twin[column], 1])
+
+
 def test_what_is_fixed_does_not_slide():
     points, triangles, regions, x, y = uneven_grid()
     bottom = np.flatnonzero(y == 0)
@@ -263,7 +283,7 @@ def test_a_file_tells_of_sliding_and_areas(msh):
     path, *_ = msh
     result = trismooth.read(path).smooth(slide="straight")
     told = result.report["smoothing"]["sliding"]
-    for name in ("lines", "vertices", "slid", "largest_deviation", "relative_deviation", "given_up"):
+    for name in ("lines", "vertices", "slid", "largest_deviation", "relative_deviation", "in_same_place", "at_edges", "given_up"):
         assert told[name] == getattr(result.sliding, name)
     assert [a["after"] for a in result.report["areas"]] == pytest.approx([a["before"] for a in result.report["areas"]], rel=1e-12)
     assert result.report["options"]["slide"] == "straight"

@@ -46,6 +46,22 @@ def layers_notes(outcome: _core.Outcome) -> List[str]:
     return notes
 
 
+def touching_lines_note(outcome: _core.Outcome) -> List[str]:
+    """What to say of vertices that do not slide since lines touch without sharing vertices: a sentence, or none."""
+    sliding = outcome.sliding
+    held = []
+    if sliding is not None and sliding.in_same_place > 0:
+        held.append(f"{sliding.in_same_place:,} where others are, within a thousandth of an edge")
+    if sliding is not None and sliding.at_edges > 0:
+        held.append(f"{sliding.at_edges:,} within edges of others or at their ends")
+    if not held:
+        return []
+    return [
+        f"lines touch without sharing vertices, so these do not slide: {', '.join(held)}; triangles of both sides may name "
+        "the same vertices, and slide_coincident=True has those that nearly coincide slide together, unless on splines"
+    ]
+
+
 def free_moved(result: Result) -> int:
     """How many of the free vertices moved: those that slid are none of them."""
     return result.moved - (0 if result.sliding is None else result.sliding.slid)
@@ -104,7 +120,11 @@ class Result:
         self.input_points = input_points
         self.mesh: Any = None
         self._outcome = outcome
-        self.notes: List[str] = [*layers_notes(outcome), *invalid_triangles_note(outcome)]
+        self.notes: List[str] = [
+            *layers_notes(outcome),
+            *touching_lines_note(outcome),
+            *invalid_triangles_note(outcome),
+        ]
 
     def _quality(self, report: Optional[QualityReport]) -> QualityReport:
         if report is None:

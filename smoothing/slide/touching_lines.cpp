@@ -12,16 +12,22 @@ namespace trismooth {
 
 namespace {
 
-double coordinate(Point2<double> point, int axis) {
-  return axis == 0 ? point.x : point.y;
-}
-
 /// A part of an edge: what lies between `first` and `last`, 0 and 1 being its ends.
 struct EdgePart {
   double first = 0;
   double last = 1;
 
   bool is_empty() const { return !(first <= last); }
+  /// Takes away what does not have from + way * place <= border.
+  void cut(double from, double way, double border) {
+    if (way > 0) {
+      last = std::min(last, (border - from) / way);
+    } else if (way < 0) {
+      first = std::max(first, (border - from) / way);
+    } else if (from > border) {
+      last = -1;
+    }
+  }
 };
 
 /// Vertices, halved by where they are again and again, for those beside an edge to be found.
@@ -29,14 +35,18 @@ class VertexTree {
  public:
   /// `points` outlive it.
   VertexTree(std::span<const Point2<double>> points, std::vector<std::int32_t> vertices)
-      : points_(points), vertices_(std::move(vertices)), axes_(vertices_.size()) {
-    halve(0, vertices_.size());
+      : points_(points), vertices_(std::move(vertices)) {
+    if (!vertices_.empty()) {
+      add_box(0, vertices_.size());
+    }
   }
 
   /// Calls visit(vertex) for all that are no farther from the edge than `distance`, and for some others.
   template <class Visit>
   void visit_beside(Point2<double> from, Point2<double> to, double distance, const Visit& visit) const {
-    walk(0, vertices_.size(), {from, to - from, distance}, {}, visit);
+    if (!boxes_.empty()) {
+      walk(0, 0, vertices_.size(), {from, to - from, distance}, visit);
+    }
   }
 
  private:
@@ -47,34 +57,52 @@ class VertexTree {
     Point2<double> way;
     double distance;
   };
+  /// Around vertices. The box of their first half comes next, if there are more than few.
+  struct Box {
+    Point2<double> low;
+    Point2<double> high;
+    std::size_t second_half;
 
-  Point2<double> point(std::size_t i) const { return points_[static_cast<std::size_t>(vertices_[i])]; }
+    bool meets(const Edge& edge) const {
+      EdgePart part;
+      part.cut(edge.from.x, edge.way.x, high.x + edge.distance);
+      part.cut(-edge.from.x, -edge.way.x, edge.distance - low.x);
+      part.cut(edge.from.y, edge.way.y, high.y + edge.distance);
+      part.cut(-edge.from.y, -edge.way.y, edge.distance - low.y);
+      return !part.is_empty();
+    }
+  };
 
-  void halve(std::size_t begin, std::size_t end) {
+  Point2<double> point(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
+  static std::size_t middle(std::size_t begin, std::size_t end) { return begin + (end - begin) / 2; }
+
+  void add_box(std::size_t begin, std::size_t end) {
+    Point2<double> low = point(vertices_[begin]);
+    Point2<double> high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point2<double> here = point(vertices_[i]);
+      low = {std::min(low.x, here.x), std::min(low.y, here.y)};
+      high = {std::max(high.x, here.x), std::max(high.y, here.y)};
+    }
+    const std::size_t number = boxes_.size();
+    boxes_.push_back({low, high, 0});
     if (end - begin <= few) {
       return;
     }
-    Point2<double> low = point(begin);
-    Point2<double> high = low;
-    for (std::size_t i = begin; i < end; ++i) {
-      low = {std::min(low.x, point(i).x), std::min(low.y, point(i).y)};
-      high = {std::max(high.x, point(i).x), std::max(high.y, point(i).y)};
-    }
-    const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
-    const std::size_t middle = begin + (end - begin) / 2;
     const auto at = [this](std::size_t i) { return vertices_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {
-      return coordinate(points_[static_cast<std::size_t>(a)], axis) <
-             coordinate(points_[static_cast<std::size_t>(b)], axis);
+    const bool is_wide = high.x - low.x >= high.y - low.y;
+    std::nth_element(at(begin), at(middle(begin, end)), at(end), [&](std::int32_t a, std::int32_t b) {
+      return is_wide ? point(a).x < point(b).x : point(a).y < point(b).y;
     });
-    axes_[middle] = static_cast<std::uint8_t>(axis);
-    halve(begin, middle);
-    halve(middle + 1, end);
+    add_box(begin, middle(begin, end));
+    boxes_[number].second_half = boxes_.size();
+    add_box(middle(begin, end), end);
   }
 
   template <class Visit>
-  void walk(std::size_t begin, std::size_t end, const Edge& edge, EdgePart part, const Visit& visit) const {
-    if (part.is_empty()) {
+  void walk(std::size_t number, std::size_t begin, std::size_t end, const Edge& edge, const Visit& visit) const {
+    const Box& box = boxes_[number];
+    if (!box.meets(edge)) {
       return;
     }
     if (end - begin <= few) {
@@ -82,32 +110,13 @@ class VertexTree {
                     vertices_.begin() + static_cast<std::ptrdiff_t>(end), visit);
       return;
     }
-    const std::size_t middle = begin + (end - begin) / 2;
-    const int axis = axes_[middle];
-    const double from = coordinate(edge.from, axis);
-    const double way = coordinate(edge.way, axis);
-    const double border = coordinate(point(middle), axis);
-    visit(vertices_[middle]);
-    walk(begin, middle, edge, part_below(part, from, way, border + edge.distance), visit);
-    walk(middle + 1, end, edge, part_below(part, -from, -way, edge.distance - border), visit);
-  }
-
-  /// What of the part has from + way * place <= border.
-  static EdgePart part_below(EdgePart part, double from, double way, double border) {
-    const double place = (border - from) / way;
-    if (way > 0) {
-      part.last = std::min(part.last, place);
-    } else if (way < 0) {
-      part.first = std::max(part.first, place);
-    } else if (from > border) {
-      part.last = -1;
-    }
-    return part;
+    walk(number + 1, begin, middle(begin, end), edge, visit);
+    walk(box.second_half, middle(begin, end), end, edge, visit);
   }
 
   std::span<const Point2<double>> points_;
   std::vector<std::int32_t> vertices_;
-  std::vector<std::uint8_t> axes_;  ///< of the border at the middle of each range that has been halved
+  std::vector<Box> boxes_;
 };
 
 class TouchingSearch {
@@ -145,12 +154,12 @@ class TouchingSearch {
   double reach(std::int32_t v) const {
     const auto [a, b] = slidable_.neighbours[index(v)];
     const double on_line = std::min(squared_distance(v, a), squared_distance(v, b));
-    double height = unknown;
+    double height = unknown;  // in its triangles
     for (const ListedSide& side : slidable_.fans.around(v)) {
       const double twice_area = cross(point(side.first) - point(v), point(side.second) - point(v));
-      height = std::min(height, twice_area * twice_area / squared_distance(side.first, side.second));
+      height = std::min(height, std::abs(twice_area) / std::sqrt(squared_distance(side.first, side.second)));
     }
-    return std::min(1e-3 * std::sqrt(on_line), 0.1 * std::sqrt(height));
+    return std::min(1e-3 * std::sqrt(on_line), 0.1 * height);
   }
 
   /// The reach, rounded up so that there are few different ones.

@@ -42,7 +42,8 @@ std::string difference_of_sliding(const Run& found, const Run& expected) {
   const SlidingResult& there = *expected.result.sliding;
   const bool same = here.given_up == there.given_up && here.chains == there.chains && here.vertices == there.vertices &&
                     here.slid == there.slid && here.largest_deviation == there.largest_deviation &&
-                    here.relative_deviation == there.relative_deviation;
+                    here.relative_deviation == there.relative_deviation && here.in_same_place == there.in_same_place &&
+                    here.at_edges == there.at_edges;
   return same ? std::string()
               : fmt::format("{} of {} slid by {} ({}), not {} of {} by {} ({})", here.slid, here.vertices,
                             here.largest_deviation, here.relative_deviation, there.slid, there.vertices,
@@ -57,6 +58,13 @@ RandomMesh annulus(std::int32_t around, std::int32_t rings, std::uint64_t seed) 
   for (std::int32_t t = 0; t < std::ssize(mesh.mesh.triangles); ++t) {
     mesh.regions.push_back(t < half ? 1 : 2);
   }
+  return mesh;
+}
+
+/// Two squares side by side whose vertices on the common side nearly coincide.
+RandomMesh two_squares(std::int32_t side, double gap) {
+  RandomMesh mesh;
+  mesh.mesh = sliding_meshes::TwoSquares(side, gap).mesh;
   return mesh;
 }
 
@@ -125,6 +133,27 @@ TEST_CASE("meshes for the patches and for the whole grid slide to the same bits,
     round.slide.deviation = 1e-2;
     round.slide.curve = index % 3 == 0 ? SlideCurve::spline : SlideCurve::polyline;
     require_cpu_bits(round, options);
+  }
+}
+
+TEST_CASE("sides that nearly coincide stay or slide as one on the device as on the CPU, and are counted") {
+  for (const bool coincident : {false, true}) {
+    RandomMesh mesh = two_squares(60, 1e-10);
+    mesh.slide.along = Slide::curves;
+    mesh.slide.coincident = coincident;
+    require_cpu_bits(mesh, {});
+    // Where nothing else slides, either.
+    mesh.fixed.assign(mesh.mesh.points.size(), 0);
+    for (std::size_t v = 0; v < mesh.fixed.size(); ++v) {
+      const double x = mesh.mesh.points[v].x;
+      mesh.fixed[v] = x < 0.9 || x > 1.1 ? 1 : 0;
+    }
+    SmoothingOptions options;
+    const Run expected = run(mesh, options);
+    options.backend = &cuda::backend();
+    const Run found = run(mesh, options);
+    CHECK((found.result.sliding->in_same_place > 0) == !coincident);
+    CHECK(difference_of_sliding(found, expected).empty());
   }
 }
 

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,21 +17,28 @@ namespace {
 
 using test_meshes::Mesh;
 
-void smooth_once(const Mesh& mesh, std::vector<double> xy, std::span<const std::int32_t> indices) {
+void smooth_once(const Mesh& mesh, std::vector<double> xy, std::span<const std::int32_t> indices,
+                 const trismooth::Sliding& slide) {
   trismooth::SmoothingOptions options;
   options.threads = 1;
   options.max_sweeps = 2;
   // A region a triangle for some of them: there are borders everywhere.
   std::vector<std::int32_t> regions(mesh.triangles.size(), 0);
   regions.back() = 1;
-  trismooth::smooth(trismooth::xy_points(xy), indices, {.regions = regions}, options);
+  trismooth::smooth(trismooth::xy_points(xy), indices, {.regions = regions, .slide = slide}, options);
 }
 
-GrowthCase flat(std::string name, int size, Mesh (*make)(int)) {
-  return {"flat arrays: " + std::move(name), size, [make](int count, const ScratchFolder&) {
+GrowthCase flat(std::string name, int size, Mesh (*make)(int), const trismooth::Sliding& slide = {}) {
+  return {"flat arrays: " + std::move(name), size, [make, slide](int count, const ScratchFolder&) {
             const auto mesh = std::make_shared<Mesh>(make(count));
-            return [mesh, xy = mesh->xy(), indices = mesh->indices()] { smooth_once(*mesh, xy, indices); };
+            return
+                [mesh, xy = mesh->xy(), indices = mesh->indices(), slide] { smooth_once(*mesh, xy, indices, slide); };
           }};
+}
+
+/// With vertices that slide, at whatever corner.
+GrowthCase sliding(std::string name, int size, Mesh (*make)(int)) {
+  return flat(std::move(name), size, make, {.along = trismooth::Slide::curves, .corner_angle = 180});
 }
 
 /// A strip whose triangles are listed from both ends: trees of triangles meet at their leaves.
@@ -55,6 +64,35 @@ Mesh islands(int count) {
     const std::int32_t first = mesh.vertex_count();
     mesh.points.insert(mesh.points.end(), {{3.0 * i, 0}, {3.0 * i + 1, 0}, {3.0 * i, 1}});
     mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// Triangles around one place where each has a vertex of its own, all a little apart.
+Mesh apart_at_one_place(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const auto place = [&](double radius, double part) {
+      const double angle = 2 * std::numbers::pi * (i + part) / count;
+      mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+      return mesh.vertex_count() - 1;
+    };
+    const std::int32_t first = place(1e-9, 0.5);
+    mesh.triangles.push_back({first, place(1, 0.1), place(1, 0.9)});
+  }
+  return mesh;
+}
+
+/// Long edges side by side across the axes, the closer the more there are.
+Mesh slanting_bars(int count) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t first = mesh.vertex_count();
+    for (const double along : {0.0, 0.9, 1.1, 2.0}) {
+      const double across = (i + (along > 0 && along < 2 ? 0.6 * (along - 0.5) : 0.3)) / count;
+      mesh.points.push_back({along - across, along + across});
+    }
+    mesh.triangles.insert(mesh.triangles.end(), {{first, first + 1, first + 2}, {first + 1, first + 3, first + 2}});
   }
   return mesh;
 }
@@ -95,6 +133,9 @@ std::vector<GrowthCase> flat_array_cases() {
       flat("a strip listed from both ends", 500, &strip_from_both_ends),
       flat("a strip listed backwards", 500, &reversed_strip),
       flat("many components", 500, &islands),
+      sliding("lines that slide, of many components", 500, &islands),
+      sliding("lines that slide and touch at one place", 500, &apart_at_one_place),
+      sliding("lines that slide, of long edges side by side", 500, &slanting_bars),
       rounds_of_the_guard(),
   };
 }

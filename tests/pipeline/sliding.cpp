@@ -236,6 +236,67 @@ TEST_CASE("without --slide lines of a file hold their vertices") {
   }
 }
 
+TEST_CASE("the same mesh slides to the same bits, whoever builds the program") {
+  using namespace sliding_test;
+  const ScratchFolder folder;
+  PipelineOptions options;
+  options.slide.along = Slide::straight;
+  CHECK(smoothed(folder, options).result.coordinates_hash == 0xb1472465162469a6U);
+  MeshDocument bent = trismooth::read_mesh(folder / "square.msh");
+  for (std::size_t v = 0; v < bent.point_count(); ++v) {
+    bent.points[3 * v + 1] += 0.25 * bent.points[3 * v] * bent.points[3 * v];
+  }
+  options.slide.along = Slide::curves;
+  options.slide.deviation = 0.05;
+  options.slide.coincident = true;
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  CHECK(trismooth::smooth_document(bent, options).coordinates_hash == 0x19e79cad00fb9affU);
+}
+
+TEST_CASE("parts that touch without sharing vertices stay together, and a note says so") {
+  using namespace sliding_test;
+  // Two squares side by side, one of them with twice as many vertices on the common side as the other.
+  MeshDocument document;
+  const auto add_square = [&](double left, int rows) {
+    const auto first = static_cast<std::int32_t>(document.points.size() / 3);
+    for (int j = 0; j <= rows; ++j) {
+      for (int i = 0; i <= 6; ++i) {
+        const bool is_uneven = j > 0 && j < rows && j % 2 == 1;
+        const double along = i + (i > 0 && i < 6 ? 0.2 * ((5 * i + 3 * j) % 7 - 3) / 3 : 0);
+        document.points.insert(document.points.end(), {left + along / 6, (j + (is_uneven ? 0.3 : 0)) / rows, 0});
+      }
+    }
+    for (std::int32_t j = 0; j < rows; ++j) {
+      for (std::int32_t i = 0; i < 6; ++i) {
+        const std::int32_t a = first + 7 * j + i;
+        document.cells.append(trismooth::cell_type::triangle, std::vector{a, a + 1, a + 8});
+        document.cells.append(trismooth::cell_type::triangle, std::vector{a, a + 8, a + 7});
+      }
+    }
+    return first;
+  };
+  add_square(0, 6);
+  const std::int32_t second = add_square(1 + 1e-10, 12);
+  const std::vector<double> before = document.points;
+  PipelineOptions options;
+  options.slide.along = Slide::straight;
+  options.smoothing.method = trismooth::Method::mean_ratio;
+  const PipelineResult result = trismooth::smooth_document(document, options);
+  REQUIRE(result.smoothing->sliding);
+  CHECK(result.smoothing->sliding->slid > 0);
+  CHECK(result.smoothing->sliding->in_same_place + result.smoothing->sliding->at_edges == 5 + 11);
+  CHECK(std::ranges::count_if(result.notes, [](const std::string& note) {
+          return note.starts_with("lines touch without sharing vertices");
+        }) == 1);
+  const auto stays = [&](std::int32_t v) {
+    return std::equal(before.begin() + 3 * v, before.begin() + 3 * v + 3, document.points.begin() + 3 * v);
+  };
+  for (std::int32_t j = 0; j <= 12; ++j) {
+    CHECK(stays(second + 7 * j));
+    CHECK((j > 6 || stays(7 * j + 6)));
+  }
+}
+
 TEST_CASE("sliding on a map of the sphere is wrong usage") {
   using namespace sliding_test;
   const ScratchFolder folder;

@@ -25,28 +25,6 @@ namespace {
 
 constexpr std::int32_t side = 12;
 
-/// Two squares, one on the right of the other, whose vertices on the common side are within `gap` of each other along
-/// both axes, and do not overlap.
-struct TwoSquares {
-  Mesh mesh = uneven_square(side, 0.35, 3);
-  std::int32_t second;
-
-  explicit TwoSquares(double gap) : second(add(mesh, uneven_square(side, 0.35, 4))) {
-    test_meshes::Random random(5);
-    for (std::int32_t v = second; v < mesh.vertex_count(); ++v) {
-      mesh.points[v].x += 1;
-    }
-    for (std::int32_t j = 0; j < side; ++j) {
-      mesh.points[right_of(j)] = mesh.points[left_of(j)];
-      mesh.points[right_of(j)].x += random.between(0, gap);
-      mesh.points[right_of(j)].y += random.between(-gap, gap);
-    }
-  }
-
-  std::int32_t left_of(std::int32_t j) const { return j * side + side - 1; }
-  std::int32_t right_of(std::int32_t j) const { return second + j * side; }
-};
-
 Constraints sliding(Slide along, double deviation = 1e-3) {
   Constraints constraints;
   constraints.slide.along = along;
@@ -117,7 +95,7 @@ struct TwoRings {
 
 TEST_CASE("sides that nearly coincide stay, as those that do, and are counted") {
   for (const double gap : {0.0, 1e-10, 1e-6}) {
-    const TwoSquares two(gap);
+    const TwoSquares two(side, gap);
     for (const Slide along : {Slide::straight, Slide::curves}) {
       const Smoothed found = smoothed(two.mesh, sliding(along));
       CAPTURE(gap, to_string(along));
@@ -135,7 +113,7 @@ TEST_CASE("sides that nearly coincide stay, as those that do, and are counted") 
 
 TEST_CASE("sides that nearly coincide slide as one if asked to, as far apart as they were") {
   for (const double gap : {1e-10, 1e-6}) {
-    const TwoSquares two(gap);
+    const TwoSquares two(side, gap);
     double widest = 0;
     for (std::int32_t j = 0; j < side; ++j) {
       widest = std::max(widest, std::hypot(two.mesh.points[two.right_of(j)].x - two.mesh.points[two.left_of(j)].x,
@@ -166,7 +144,7 @@ TEST_CASE("sides that nearly coincide slide as one if asked to, as far apart as 
 
 TEST_CASE("sides that nearly coincide stay where splines would bring them farther apart") {
   for (const double gap : {0.0, 1e-10}) {
-    const TwoSquares two(gap);
+    const TwoSquares two(side, gap);
     Constraints constraints = sliding(Slide::curves);
     constraints.slide.coincident = true;
     constraints.slide.curve = SlideCurve::spline;

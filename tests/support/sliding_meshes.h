@@ -70,6 +70,30 @@ inline std::int32_t add(Mesh& mesh, const Mesh& other) {
   return first;
 }
 
+/// Two uneven squares, one on the right of the other, whose vertices on the common side are within `gap` of each other
+/// along both axes, and do not overlap.
+struct TwoSquares {
+  std::int32_t side;
+  Mesh mesh;
+  std::int32_t second;
+
+  TwoSquares(std::int32_t side_of_both, double gap)
+      : side(side_of_both), mesh(uneven_square(side, 0.35, 3)), second(add(mesh, uneven_square(side, 0.35, 4))) {
+    test_meshes::Random random(5);
+    for (std::int32_t v = second; v < mesh.vertex_count(); ++v) {
+      mesh.points[v].x += 1;
+    }
+    for (std::int32_t j = 0; j < side; ++j) {
+      mesh.points[right_of(j)] = mesh.points[left_of(j)];
+      mesh.points[right_of(j)].x += random.between(0, gap);
+      mesh.points[right_of(j)].y += random.between(-gap, gap);
+    }
+  }
+
+  std::int32_t left_of(std::int32_t j) const { return j * side + side - 1; }
+  std::int32_t right_of(std::int32_t j) const { return second + j * side; }
+};
+
 struct Smoothed {
   std::vector<double> xy;
   trismooth::SmoothingResult result;
