@@ -131,7 +131,8 @@ std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& 
   return fmt::format(
       "lines touch without sharing vertices, so these do not slide: {}; {}--merge DISTANCE, without --slide, joins "
       "vertices that nearly coincide",
-      fmt::join(held, ", "), may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
+      fmt::join(held, ", "),
+      may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
 }
 
 void warn_before_smoothing(RunState& run) {

@@ -12,24 +12,6 @@ namespace trismooth {
 
 namespace {
 
-/// A part of an edge: what lies between `first` and `last`, 0 and 1 being its ends.
-struct EdgePart {
-  double first = 0;
-  double last = 1;
-
-  bool is_empty() const { return !(first <= last); }
-  /// Takes away what does not have from + way * place <= border.
-  void cut(double from, double way, double border) {
-    if (way > 0) {
-      last = std::min(last, (border - from) / way);
-    } else if (way < 0) {
-      first = std::max(first, (border - from) / way);
-    } else if (from > border) {
-      last = -1;
-    }
-  }
-};
-
 /// Vertices, halved by where they are again and again, for those beside an edge to be found.
 class VertexTree {
  public:
@@ -44,17 +26,27 @@ class VertexTree {
   /// Calls visit(vertex) for all that are no farther from the edge than `distance`, and for some others.
   template <class Visit>
   void visit_beside(Point2<double> from, Point2<double> to, double distance, const Visit& visit) const {
-    if (!boxes_.empty()) {
-      walk(0, 0, vertices_.size(), {from, to - from, distance}, visit);
+    if (boxes_.empty()) {
+      return;
     }
+    const Point2<double> way = to - from;
+    const Edge edge{from,
+                    {1 / way.x, 1 / way.y},
+                    {std::min(from.x, to.x) - distance, std::min(from.y, to.y) - distance},
+                    {std::max(from.x, to.x) + distance, std::max(from.y, to.y) + distance},
+                    distance};
+    walk(0, 0, vertices_.size(), edge, visit);
   }
 
  private:
   static constexpr std::size_t few = 8;
 
+  /// What is near an edge: within a box, and beside the line.
   struct Edge {
     Point2<double> from;
-    Point2<double> way;
+    Point2<double> inverse_way;
+    Point2<double> low;
+    Point2<double> high;
     double distance;
   };
   /// Around vertices. The box of their first half comes next, if there are more than few.
@@ -64,12 +56,26 @@ class VertexTree {
     std::size_t second_half;
 
     bool meets(const Edge& edge) const {
-      EdgePart part;
-      part.cut(edge.from.x, edge.way.x, high.x + edge.distance);
-      part.cut(-edge.from.x, -edge.way.x, edge.distance - low.x);
-      part.cut(edge.from.y, edge.way.y, high.y + edge.distance);
-      part.cut(-edge.from.y, -edge.way.y, edge.distance - low.y);
-      return !part.is_empty();
+      if (low.x > edge.high.x || high.x < edge.low.x || low.y > edge.high.y || high.y < edge.low.y) {
+        return false;
+      }
+      // A short edge is hardly ever in the box that is around it, and not beside it.
+      if (edge.high.x - edge.low.x <= high.x - low.x && edge.high.y - edge.low.y <= high.y - low.y) {
+        return true;
+      }
+      // The parts of the edge, from 0 to 1, that are as far along each axis as the box.
+      double first = 0;
+      double last = 1;
+      const auto cut = [&](double inverse_way, double to_low, double to_high) {
+        if (std::isfinite(inverse_way)) {
+          const auto [begin, end] = std::minmax({to_low * inverse_way, to_high * inverse_way});
+          first = std::max(first, begin);
+          last = std::min(last, end);
+        }
+      };
+      cut(edge.inverse_way.x, low.x - edge.distance - edge.from.x, high.x + edge.distance - edge.from.x);
+      cut(edge.inverse_way.y, low.y - edge.distance - edge.from.y, high.y + edge.distance - edge.from.y);
+      return first <= last;
     }
   };
 
@@ -162,24 +168,25 @@ class TouchingSearch {
     return std::min(1e-3 * std::sqrt(on_line), 0.1 * height);
   }
 
-  /// The reach, rounded up so that there are few different ones.
-  static double size_of(double reach) { return reach > 0 ? std::ldexp(1.0, std::ilogb(reach) + 1) : 0; }
-
   void find_places() {
+    // Reaches, rounded up to powers of 4, so that few differ.
+    sizes_.assign(points_.size(), unknown);
     std::vector<double> sizes;
-    for (const double reach : reaches_) {
-      if (reach < unknown && (sizes.empty() || sizes.back() != size_of(reach))) {
-        sizes.push_back(size_of(reach));
+    for (std::size_t v = 0; v < sizes_.size(); ++v) {
+      if (reaches_[v] < unknown) {
+        sizes_[v] = reaches_[v] > 0 ? std::ldexp(1.0, 2 * (std::ilogb(reaches_[v]) / 2 + 1)) : 0;
+        if (std::ranges::find(sizes, sizes_[v]) == sizes.end()) {
+          sizes.push_back(sizes_[v]);
+        }
       }
     }
     std::ranges::sort(sizes);
-    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
     PointSquares squares(points_.size());
     // Those on no line come last: they look for others, but nobody has to look for them.
     for (const bool on_line : {true, false}) {
       for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
         if (is_held(v) && (reaches_[index(v)] < unknown) == on_line && !join(v, sizes, squares) && on_line) {
-          squares.add(point(v), size_of(reaches_[index(v)]), v);
+          squares.add(point(v), sizes_[index(v)], v);
         }
       }
     }
@@ -196,8 +203,7 @@ class TouchingSearch {
         if (!(squared_distance(v, other) <= near * near)) {
           return;
         }
-        const bool is_of_size = own < unknown && size_of(reaches_[index(other)]) == size_of(own);
-        has_one_of_size = has_one_of_size || is_of_size;
+        has_one_of_size = has_one_of_size || sizes_[index(other)] == sizes_[index(v)];
         places_[index(v)] = std::min(places_[index(v)], places_[index(other)]);
         found_.together.push_back({other, v});
       });
@@ -248,6 +254,7 @@ class TouchingSearch {
   std::span<const Point2<double>> points_;
   TouchingLines found_;
   std::vector<std::int32_t> places_;  ///< of each vertex: a vertex that is in the same place, the first as far as known
+  std::vector<double> sizes_;         ///< of the squares that each is in
   std::vector<double> reaches_;       ///< of each vertex, `unknown` where it is at no edge of a line that is known
 };
 
