@@ -14,6 +14,7 @@
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/straight_cells.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
@@ -108,6 +109,10 @@ bool holds_strips(FileFormat format) {
   return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
 }
 
+bool holds_cells_of_any_order(FileFormat format) {
+  return format == FileFormat::vtk || format == FileFormat::vtu;
+}
+
 bool holds_curved_cells(FileFormat format) {
   switch (format) {
     case FileFormat::off:
@@ -147,17 +152,22 @@ std::string describe_straight(const MeshDocument& document, const MeshDocument& 
          (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
 }
 
-/// The document as the target can hold it, where it cannot hold strips or curved cells that the document has; what
-/// changes thereby is added to `losses`.
+/// The document as the target can hold it, where it cannot hold strips, curved cells or cells of any order that the
+/// document has; what changes thereby is added to `losses`.
 std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat target, std::vector<std::string>& losses) {
   std::optional<MeshDocument> changed;
-  if (!holds_strips(target) && has_strips(document)) {
-    changed = with_strips_as_triangles(document);
-    losses.push_back(describe_strips(document, *changed, target));
+  const auto now = [&]() -> const MeshDocument& { return changed ? *changed : document; };
+  if (!holds_cells_of_any_order(target) && has_cells_of_any_order(document)) {
+    changed = with_fixed_orders(document);
   }
-  if (const MeshDocument& now = changed ? *changed : document; !holds_curved_cells(target) && has_curved_cells(now)) {
-    MeshDocument straight = with_straight_cells(now);
-    losses.push_back(describe_straight(now, straight, target));
+  if (!holds_strips(target) && has_strips(now())) {
+    MeshDocument expanded = with_strips_as_triangles(now());
+    losses.push_back(describe_strips(now(), expanded, target));
+    changed = std::move(expanded);
+  }
+  if (!holds_curved_cells(target) && has_curved_cells(now())) {
+    MeshDocument straight = with_straight_cells(now());
+    losses.push_back(describe_straight(now(), straight, target));
     changed = std::move(straight);
   }
   return changed;

@@ -9,6 +9,7 @@
 
 #include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
 
@@ -20,11 +21,11 @@ constexpr std::int64_t cell_grain = 8192;
 
 bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return vertices.size() == 3 &&
-         (type == cell_type::triangle || type == cell_type::polygon || type == cell_type::lagrange_triangle);
+         (type == cell_type::polygon || type_of_fixed_order(type, vertices.size()) == cell_type::triangle);
 }
 
 bool is_quadratic(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  return vertices.size() == 6 && (type == cell_type::quadratic_triangle || type == cell_type::lagrange_triangle);
+  return vertices.size() == 6 && type_of_fixed_order(type, vertices.size()) == cell_type::quadratic_triangle;
 }
 
 bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {

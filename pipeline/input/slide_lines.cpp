@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
@@ -51,7 +52,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh
       if (has_triangles[c] != 0) {
         continue;
       }
-      if (is_straight_line(cells.types[c]) && cells[c].size() >= 2) {
+      if (is_straight_line(type_of_fixed_order(cells.types[c], cells[c].size())) && cells[c].size() >= 2) {
         line_cells.push_back(static_cast<std::int32_t>(c));
         continue;
       }

@@ -19,6 +19,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/cli/command_line.h"
@@ -182,13 +183,13 @@ class FileMesh {
     });
   }
 
-  /// The cells of that type: (M, nodes), and their places among all cells.
+  /// The cells of that type, and VTK's Lagrange cells that are the same: (M, nodes).
   nb::object cells(std::uint8_t type, std::size_t nodes) {
     return with_document([&](MeshDocument& document) {
       std::vector<std::int32_t> numbers;
       for (std::size_t c = 0; c < document.cells.size(); ++c) {
         const auto vertices = document.cells[c];
-        if (document.cells.types[c] == type && vertices.size() == nodes) {
+        if (vertices.size() == nodes && type_of_fixed_order(document.cells.types[c], nodes) == type) {
           numbers.insert(numbers.end(), vertices.begin(), vertices.end());
         }
       }

@@ -250,6 +250,19 @@ def test_quadratic_triangles() -> None:
     assert smallest_jacobian(new.points, q.triangles) > 0
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_lagrange_triangles_are_those_of_their_order(order: int) -> None:
+    q = quadratic_grid()
+    nodes = q.triangles if order == 2 else q.triangles[:, :3]
+    points = np.column_stack([q.points, np.zeros(len(q.points))])
+    cells = np.insert(nodes, 0, nodes.shape[1], axis=1).ravel()
+    kinds = (pv.CellType.LAGRANGE_TRIANGLE, {1: pv.CellType.TRIANGLE, 2: pv.CellType.QUADRATIC_TRIANGLE}[order])
+    lagrange, ordinary = (smooth(pv.UnstructuredGrid(cells, np.full(len(nodes), k), points)).mesh for k in kinds)
+    assert same_bits(np.asarray(lagrange.points), np.asarray(ordinary.points)).all()
+    assert not np.array_equal(lagrange.points, points)
+    assert set(lagrange.celltypes) == {pv.CellType.LAGRANGE_TRIANGLE}
+
+
 def test_triangles_of_both_kinds() -> None:
     q = quadratic_grid()
     left = q.grid.regions == 1

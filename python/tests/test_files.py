@@ -97,6 +97,35 @@ def test_what_was_read_is_there(msh):
     assert "130 points" in repr(mesh) and "in.msh" in repr(mesh)
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_lagrange_triangles_of_vtk_are_triangles(order, tmp_path):
+    points, corners = grid(6, 5)
+    both = {tuple(sorted(side)) for a, b, c in corners.tolist() for side in ((a, b), (b, c), (c, a))}
+    middles = {side: len(points) + i for i, side in enumerate(sorted(both))}
+    points = np.concatenate([points, points[np.array(sorted(both))].mean(axis=1)]) if order == 2 else points
+    cells = [
+        [*t, *(middles[tuple(sorted((t[i], t[(i + 1) % 3])))] for i in range(3) if order == 2)]
+        for t in corners.tolist()
+    ]
+    rows = [f"{len(cell)} {' '.join(map(str, cell))}\n" for cell in cells]
+    text = f"# vtk DataFile Version 4.2\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(points)} double\n"
+    text += "".join(f"{x!r} {y!r} 0\n" for x, y in points.tolist())
+    text += f"CELLS {len(cells)} {sum(map(len, cells)) + len(cells)}\n{''.join(rows)}CELL_TYPES {len(cells)}\n"
+    found = []
+    for kind in (69, {1: 5, 2: 22}[order]):
+        (tmp_path / "in.vtk").write_text(text + f"{kind}\n" * len(cells))
+        mesh = trismooth.read(tmp_path / "in.vtk")
+        assert set(mesh.cell_types) == {kind}
+        np.testing.assert_array_equal(mesh.triangles if order == 1 else mesh.quadratic_triangles, cells)
+        result = mesh.smooth()
+        assert result.moved > 0 and np.array_equal(result.triangles, cells)
+        mesh.write(tmp_path / "out.vtk")
+        assert (tmp_path / "out.vtk").read_text().endswith(f"\n{kind}\n")
+        assert mesh.write(tmp_path / "out.msh") == []
+        found.append((mesh.points, (tmp_path / "out.msh").read_bytes()))
+    assert np.array_equal(found[0][0], found[1][0]) and found[0][1] == found[1][1]
+
+
 def test_the_quality_is_that_of_the_arrays(msh):
     mesh = trismooth.read(msh)
     expected = trismooth.quality(mesh.points, mesh.triangles).summary

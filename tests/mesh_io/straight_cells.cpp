@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
@@ -90,4 +91,53 @@ TEST_CASE("formats that hold straight cells only get the triangles of a curved m
     const MeshDocument read = text.read(text.written(square()));
     CHECK(std::count(read.cells.types.begin(), read.cells.types.end(), cell_type::quadratic_triangle) == 2);
   }
+}
+
+TEST_CASE("VTK's Lagrange cells of order 1 and 2 are written to other formats as the ordinary ones that they are") {
+  struct Pair {
+    std::uint8_t ordinary;
+    std::uint8_t lagrange;
+    std::vector<std::int32_t> vertices;
+  };
+  MeshDocument ordinary;
+  MeshDocument lagrange;
+  for (int point = 0; point < 16; ++point) {
+    ordinary.points.insert(ordinary.points.end(), {point % 4 + 0.5, point / 4 - 0.25, 0});
+  }
+  lagrange.points = ordinary.points;
+  for (const Pair& cell : {Pair{cell_type::triangle, cell_type::lagrange_triangle, {0, 1, 4}},
+                           {cell_type::quad, cell_type::lagrange_quad, {1, 2, 6, 5}},
+                           {cell_type::quadratic_triangle, cell_type::lagrange_triangle, {4, 6, 12, 5, 9, 8}},
+                           {cell_type::biquadratic_quad, cell_type::lagrange_quad, {5, 7, 15, 13, 6, 11, 14, 9, 10}},
+                           {cell_type::line, cell_type::lagrange_curve, {0, 1}},
+                           {cell_type::quadratic_edge, cell_type::lagrange_curve, {4, 6, 5}}}) {
+    ordinary.cells.append(cell.ordinary, cell.vertices);
+    lagrange.cells.append(cell.lagrange, cell.vertices);
+  }
+  for (const FileFormat format :
+       {FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl, FileFormat::msh, FileFormat::medit,
+        FileFormat::su2, FileFormat::inp, FileFormat::adcirc, FileFormat::sms, FileFormat::freefem, FileFormat::mfem,
+        FileFormat::nastran, FileFormat::unv}) {
+    CAPTURE(title_of(format));
+    ordinary.format = lagrange.format = format;
+    const TextFormat text{std::string(extensions_of(format).front())};
+    CHECK(text.written(lagrange) == text.written(ordinary));
+    CHECK(what_is_lost(lagrange, format) == what_is_lost(ordinary, format));
+  }
+  // VTK's own formats have them.
+  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu}) {
+    if (is_available(format)) {
+      const TextFormat text{std::string(extensions_of(format).front())};
+      CHECK(text.read(text.written(lagrange)).cells.types == lagrange.cells.types);
+    }
+  }
+}
+
+TEST_CASE("Lagrange cells of higher order are no others") {
+  MeshDocument document;
+  document.points.resize(48);
+  document.cells.append(cell_type::lagrange_triangle, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  document.cells.append(cell_type::lagrange_curve, std::vector<std::int32_t>{0, 1, 3, 4});
+  CHECK_FALSE(has_cells_of_any_order(document));
+  CHECK(with_fixed_orders(document).cells.types == document.cells.types);
 }

@@ -7,6 +7,7 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/slide_lines.h"
 
 #include "catch.h"
 #include "mesh_io/byte_files.h"
@@ -51,6 +52,18 @@ TEST_CASE("VTK's Lagrange triangles of order 1 and 2 are triangles of three and 
   CHECK(listed(mesh) == std::vector<Triangle>{{0, 2, 12}, {0, 12, 10}, {2, 4, 14}});
   CHECK(mesh.other_cells == 0);
   REQUIRE(mesh.quadratics.size() == 1);
+}
+
+TEST_CASE("VTK's Lagrange curves of order 1 are lines that vertices may slide on, those of higher order are none") {
+  const MeshDocument document = document_of({{cell_type::triangle, {0, 2, 12}},
+                                             {cell_type::triangle, {0, 12, 10}},
+                                             {cell_type::lagrange_curve, {0, 2}},
+                                             {cell_type::lagrange_curve, {12, 10, 11}}});
+  const PlanarMesh mesh = planar_mesh(document, "mesh.vtu");
+  const trismooth::SlideLines found = find_slide_lines(document, mesh, {});
+  CHECK(found.lines == std::vector<std::int32_t>{0, 2});
+  CHECK(found.in_other_cell[2] == 0);
+  CHECK(found.in_other_cell[10] == 1);
 }
 
 TEST_CASE("triangles of more nodes are not taken for triangles, and named") {

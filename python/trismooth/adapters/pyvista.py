@@ -40,6 +40,7 @@ _LINES = (3, 4)  # lines and polylines
 _TRIANGLE = 5
 _TRIANGLE_STRIP = 6
 _QUADRATIC_TRIANGLE = 22
+_LAGRANGE_TRIANGLE = 69  # of any order: of three nodes it is a triangle, of six a quadratic one
 
 
 def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
@@ -224,11 +225,14 @@ def _cells_of_poly_data(mesh: Any, with_lines: bool) -> _Cells:
 def _cells_of_grid(mesh: Any, with_lines: bool) -> _Cells:
     cells = _cell_array(mesh.GetCells())
     types = _cell_types(mesh)
-    linear, quadratic, strips = (
-        np.flatnonzero(types == kind) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE, _TRIANGLE_STRIP)
+    sizes = cells.ends - cells.begins
+    linear, quadratic = (
+        np.flatnonzero((types == kind) | ((types == _LAGRANGE_TRIANGLE) & (sizes == nodes)))
+        for kind, nodes in ((_TRIANGLE, 3), (_QUADRATIC_TRIANGLE, 6))
     )
+    strips = np.flatnonzero(types == _TRIANGLE_STRIP)
     of_strips, strip_of = _triangles_of_strips(cells, strips)
-    chosen_lines = np.flatnonzero(with_lines & np.isin(types, _LINES) & (cells.ends - cells.begins >= 2))
+    chosen_lines = np.flatnonzero(with_lines & np.isin(types, _LINES) & (sizes >= 2))
     edges, line_of = cells.edges_of(chosen_lines)
     if triangle_width(len(linear) + len(of_strips), len(quadratic)) == 6:
         others = cells.nodes_of_others(np.concatenate([quadratic, chosen_lines]))
