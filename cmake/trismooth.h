@@ -8,6 +8,7 @@
 
 // The component base comes with the others: points, arrays as views, errors.
 #include "trismooth/base/hold.h"
+#include "trismooth/base/repeated_triangles.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
