@@ -63,6 +63,23 @@ std::string vtk_unused_points(int count) {
          repeated(count, [](const auto& number) { return "a" + number + " 1 4 int\n0 0 1 1\n"; });
 }
 
+/// A fan of triangles of which every four are in two of many groups, and listed for each of them.
+std::string vtk_overlapping_groups(int count) {
+  const auto number = [](const std::string& text, int more) { return std::to_string(std::stoi(text) + more); };
+  const auto triangles = [&] {
+    return repeated(count, [&](const auto& i) { return "3 0 " + number(i, 1) + " " + number(i, 2) + "\n"; });
+  };
+  const auto groups = [&](int more) {
+    return repeated(count, [&](const auto& i) { return std::to_string(std::stoi(i) / 4 + more) + "\n"; });
+  };
+  const std::string cells = std::to_string(2 * count);
+  return std::string(vtk_begin) + "POINTS " + std::to_string(count + 2) + " double\n0 1 0\n" +
+         repeated(count + 1, [](const auto& i) { return i + " 0 0\n"; }) + "CELLS " + cells + " " +
+         std::to_string(8 * count) + "\n" + triangles() + triangles() + "CELL_TYPES " + cells + "\n" +
+         repeated(2 * count, [](const auto&) { return "5\n"; }) + "CELL_DATA " + cells +
+         "\nSCALARS material int 1\nLOOKUP_TABLE default\n" + groups(0) + groups(1);
+}
+
 std::string vtk_fields(int count, const std::string& name) {
   return vtk_head() + "FIELD F " + std::to_string(count) + "\n" + repeated(count, [&](const auto& number) {
            return (name.empty() ? "a" + number : name) + " 1 5 int\n0 0 0 0 0\n";
@@ -260,6 +277,7 @@ std::vector<GrowthCase> file_cases() {
                                 file_case("points of one slot", 100, "stl", "off", &stl_of_one_slot),
                                 file_case("solids", 100, "stl", "vtu", &stl_solids),
                                 file_case("groups and materials", 100, "obj", "vtu", &obj_groups),
+                                told_of("groups that overlap", 300, "vtk", &vtk_overlapping_groups),
                                 file_case("properties", 100, "ply", "ply", &ply_properties),
                                 file_case("properties", 100, "ply", "vtu", &ply_properties),
                                 file_case("lists", 100, "ply", "vtu", &ply_lists),
