@@ -1,4 +1,4 @@
-"""Vertices that the user holds by the numbers that the file itself gives them."""
+"""Vertices that are held by numbers: the user's, which the file itself gives them, and markers."""
 
 import os
 import re
@@ -109,6 +109,45 @@ class Labels(tool.ToolTest):
         for name, is_said in (("in.msh", True), ("plate.off", False)):
             outcome = self.run_tool("smooth", name, "out.off", "--fixed-ids", "rows.txt")
             self.assertEqual("--fixed-labels" in outcome.err, is_said, outcome)
+
+    def write_marked(self, extension, marker):
+        """The plate as a file in[extension], of one region, whose point i has marker(i)."""
+        points = self.grid.points
+        corners = [" ".join(str(v + 1) for v in cell) for _, cell in self.grid.cells]
+        triangles = "".join(f"{corner} 3\n" for corner in corners)
+        if extension == ".node":
+            self.write("in.ele", f"{len(corners)} 3 0\n" +
+                       "".join(f"{i + 1} {corner}\n" for i, corner in enumerate(corners)))
+            text = f"{len(points)} 2 0 1\n" + "".join(f"{i + 1} {x} {y} {marker(i)}\n"
+                                                     for i, (x, y, _) in enumerate(points))
+        else:
+            rows = "".join(f"{x} {y} {marker(i)}\n" for i, (x, y, _) in enumerate(points))
+            text = (f"MeshVersionFormatted 2\nDimension 2\nVertices {len(points)}\n{rows}" +
+                    f"Triangles {len(corners)}\n{triangles}End\n" if extension == ".mesh" else
+                    f"{len(points)} {len(corners)} 0\n{rows}{triangles}")
+        self.write("in" + extension, text)
+
+    def test_markers_inside_hold_their_vertices(self):
+        """A segment and an electrode: what others are smoothed to is as if these had been named."""
+        segment, electrode = {4 * 9 + x for x in range(1, 8)}, 2 * 9 + 5
+        on_boundary = {i for i, (x, y, _) in enumerate(self.grid.points) if x in (0, 8) or y in (0, 8)}
+        inside = set(range(81)) - on_boundary
+        self.write("rows.txt", " ".join(map(str, sorted({*segment, electrode}))))
+        self.run_tool("smooth", "plate.off", "named.off", "--method", "mean-ratio", "--fixed-ids", "rows.txt")
+        self.run_tool("smooth", "plate.off", "free.off", "--method", "mean-ratio")
+        marker = lambda i: 7 if i == electrode else 2 if i in segment else 1 if i in on_boundary else 0
+        for extension, array in ((".node", "triangle:marker"), (".mesh", "medit:ref"), (".msh", "freefem:label")):
+            with self.subTest(extension):
+                self.write_marked(extension, marker)
+                arguments = ("smooth", "in" + extension, "out.off", "--method", "mean-ratio")
+                said = f"8 vertices inside, which '{array}' marks otherwise than what surrounds them: held fixed; "
+                self.assertIn(said + "--fixed-set none frees them", self.run_tool(*arguments).err)
+                self.assertEqual(self.moved("out.off"), inside - segment - {electrode})
+                self.assertEqual(self.read("out.off"), self.read("named.off"))
+                sets = self.report(*arguments)["input"]["point_sets"]
+                self.assertEqual([(found["name"], found["vertices"]) for found in sets], [(array, 8)])
+                self.assertNotIn("marks", self.run_tool(*arguments, "--fixed-set", "none").err)
+                self.assertEqual(self.read("out.off"), self.read("free.off"))
 
 
 if __name__ == "__main__":
