@@ -67,7 +67,9 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
     const auto& a = found.sliding;
     const auto& b = expected.sliding;
     wrong += a ? differ("chains", a->chains, b->chains) + differ("may slide", a->vertices, b->vertices) +
-                     differ("slid", a->slid, b->slid) + differ("given up", a->given_up, b->given_up)
+                     differ("in the same place", a->in_same_place, b->in_same_place) +
+                     differ("at edges", a->at_edges, b->at_edges) + differ("slid", a->slid, b->slid) +
+                     differ("given up", a->given_up, b->given_up)
                : "no word of sliding";
   }
   for (const auto& reverted : found.reverted) {
