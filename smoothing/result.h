@@ -87,8 +87,8 @@ struct SlidingResult {
   std::int64_t slid = 0;          ///< that did
   double largest_deviation = 0;   ///< between the old lines and the new ones, in the units of the coordinates
   double relative_deviation = 0;  ///< the largest, as a part of the length of the edge nearby: see Sliding::deviation
-  /// Vertices that would slide but for others that lie in the same place, or within a thousandth of an edge of it: see
-  /// Sliding::coincident.
+  /// Vertices that would slide but for others that lie in the same place, or within a thousandth of an edge of it, and
+  /// with which they do not slide as one: see Sliding::coincident.
   std::int64_t in_same_place = 0;
   /// Likewise: that lie within an edge of another line without being its ends, and the ends of these edges.
   std::int64_t at_edges = 0;

@@ -66,9 +66,14 @@ class RunFinder {
       }
       members_ = NumberLists(0, slidable_.vertex_count(), members);
     }
+    std::vector<std::uint8_t> would_slide = slides_;
     do {
       find_runs();
     } while (!match_runs());
+    for (const auto& [a, b] : together_) {
+      count_unless_matched(a, would_slide);
+      count_unless_matched(b, would_slide);
+    }
     ChainRuns found;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       if (first_of_run_[r] == static_cast<std::int32_t>(r)) {
@@ -124,6 +129,7 @@ class RunFinder {
       // (The same part of an edge of two splines that differ may be farther apart than their vertices.)
       if (slidable_.coincident && (slidable_.curve == SlideCurve::polyline || point(a) == point(b))) {
         groups_.join(a, b);
+        together_.push_back({a, b});
       } else {
         hold(a, held_.in_same_place);
         hold(b, held_.in_same_place);
@@ -134,6 +140,12 @@ class RunFinder {
         hold(v, held_.at_edges);
       }
     }
+  }
+
+  /// Counts a vertex in the place of another that does not slide for that, once.
+  void count_unless_matched(std::int32_t v, std::vector<std::uint8_t>& would_slide) {
+    const bool would = std::exchange(would_slide[static_cast<std::size_t>(v)], std::uint8_t{0}) != 0;
+    held_.in_same_place += would && !slides(v) ? 1 : 0;
   }
 
   void find_runs() {
@@ -300,6 +312,7 @@ class RunFinder {
   double sharpest_cosine_;  ///< of the turns that are no corners
   std::vector<std::uint8_t> slides_;
   HeldTouching held_;
+  std::vector<std::array<std::int32_t, 2>> together_;  ///< joined since they are in the same place
   VertexGroups groups_;
   NumberLists members_;  ///< of each group, where there are any
   std::vector<ChainRun> runs_;

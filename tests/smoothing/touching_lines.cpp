@@ -142,6 +142,19 @@ TEST_CASE("sides that nearly coincide slide as one if asked to, as far apart as 
   }
 }
 
+TEST_CASE("sides that were to slide together and cannot are counted") {
+  // One vertex of a side is held by name, and with it the one in its place.
+  TwoSquares two(side, 1e-10);
+  Constraints constraints = sliding(Slide::curves);
+  constraints.slide.coincident = true;
+  const std::vector<std::int32_t> held{two.left_of(5)};
+  constraints.fixed_ids = held;
+  const Smoothed found = smoothed(two.mesh, constraints);
+  CHECK(is_at(found, two.mesh, two.right_of(5)));
+  CHECK(found.result.sliding->in_same_place == 1);
+  CHECK(found.result.sliding->at_edges == 0);
+}
+
 TEST_CASE("sides that nearly coincide stay where splines would bring them farther apart") {
   for (const double gap : {0.0, 1e-10}) {
     const TwoSquares two(side, gap);
