@@ -44,7 +44,7 @@ void measure_rings(Session& session, const RandomMesh& mesh) {
     });
     const double layers = milliseconds_of([&] {
       std::vector<std::int32_t> held;
-      topology->hold_layers(points.data(), Layers::automatic, held);
+      topology->hold_layers(points.data(), Layers::automatic, false, held);
       context.synchronize();
     });
     const double build = milliseconds_of([&] {

@@ -188,8 +188,9 @@ class Plan::Implementation {
 
   void find_layers(const Point2<double>* local) {
     std::vector<std::int32_t> held;
-    layers_ = topology_.hold_layers(local, options_.used_layers(), held);
-    if (!held.empty() && slide_.along != Slide::off) {
+    const bool slides = slide_.along != Slide::off;
+    layers_ = topology_.hold_layers(local, options_.used_layers(), slides, held);
+    if (!held.empty() && slides) {
       slidable_.wait();
       hold_otherwise(near_, held);
       slidable_ = find_meanwhile(near_, slide_);

@@ -134,7 +134,8 @@ void OverlapSmoother::count_free() {
 }
 
 void OverlapSmoother::find_layers(std::span<const Point2<double>> local, std::span<const std::uint8_t> reversed) {
-  layers_ = hold_layers(overlap_, local, reversed, options_.used_layers(), fixed_, *communicator_, *workers_);
+  layers_ = hold_layers(overlap_, local, reversed, options_.used_layers(), slide_.along != Slide::off, fixed_,
+                        *communicator_, *workers_);
   count_free();
   communicator_->on_all([&] {
     if (is_gathered_) {

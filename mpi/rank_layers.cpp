@@ -80,8 +80,8 @@ Findings shared_findings(const Overlap& overlap, std::span<const FlatTriangle> c
 }  // namespace
 
 LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,
-                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
-                         const Communicator& ranks, Workers& workers) {
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers) {
   if (layers == Layers::smooth) {
     return {};
   }
@@ -95,14 +95,16 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
   }
   found = shared_findings(overlap, candidates.after(layers_choices, workers), layers, layers_least, ranks, workers);
   std::int64_t own_kept = 0;
+  std::int64_t own_on_lines = 0;
   for (std::size_t v = 0; v < fixed.size(); ++v) {
-    if (fixed[v] == 0 && std::ranges::binary_search(found.kept, overlap.ids[v])) {
-      fixed[v] = hold::named;
-      own_kept += overlap.is_own(static_cast<std::int32_t>(v)) ? 1 : 0;
+    if (moves_in_layer(fixed[v], slides) && std::ranges::binary_search(found.kept, overlap.ids[v])) {
+      (fixed[v] == 0 ? own_kept : own_on_lines) += overlap.is_own(static_cast<std::int32_t>(v)) ? 1 : 0;
+      fixed[v] |= hold::named;
     }
   }
   LayersResult result = found.result.front();
   result.kept = ranks.sum(own_kept);
+  result.kept_on_lines = ranks.sum(own_on_lines);
   return result;
 }
 

@@ -23,7 +23,7 @@ class Communicator;
 /// the overlap, ghosts too. Collective. The flat triangles that may be in a layer go to rank 0, which looks at them: 64
 /// bytes each, and few in a mesh without layers.
 LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,
-                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
-                         const Communicator& ranks, Workers& workers);
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers);
 
 }  // namespace trismooth::mpi

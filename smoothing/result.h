@@ -100,8 +100,9 @@ struct SlidingResult {
 /// What was found of triangles that are flat in one direction, at least four times as long as high: see Layers. The
 /// aspect of a triangle is the root of the ratio of the eigenvalues of its edge tensor; infinite without area.
 struct LayersResult {
-  std::int64_t kept = 0;   ///< vertices that are held for that and for nothing else
-  double kept_aspect = 0;  ///< the largest aspect of the triangles around them; 0: there is none
+  std::int64_t kept = 0;           ///< vertices that are held for that and for nothing else
+  std::int64_t kept_on_lines = 0;  ///< where vertices slide: those on boundaries and interfaces that do not for that
+  double kept_aspect = 0;          ///< the largest aspect of the triangles around them; 0: there is none
   std::int64_t left = 0;  ///< vertices inside of stretches that are flat in one direction and are smoothed all the same
   double left_aspect = 0;  ///< the largest aspect of their triangles; 0: there is none
 };

@@ -119,8 +119,8 @@ class SmoothingPlan::Implementation {
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_.fixed), points);
     Orientation orientation = orient(connectivity_.components(), triangles_, local.points, workers_);
     if (!std::exchange(has_found_layers_, true)) {
-      mesh_.layers =
-          hold_layers(local.points, triangles_, orientation.reversed, options_.used_layers(), mesh_.fixed, workers_);
+      mesh_.layers = hold_layers(local.points, triangles_, orientation.reversed, options_.used_layers(),
+                                 slide_ && slide_->constraints().slide.along != Slide::off, mesh_.fixed, workers_);
       if (slide_) {
         mesh_.slidable = find_slidable(triangles_, mesh_.fixed, slide_->constraints(), workers_);
         slide_.reset();

@@ -4,6 +4,7 @@
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/constraints.h"
 #include "trismooth/cuda/topology/vertex_fan.h"
+#include "trismooth/smoothing/layers/layers.h"
 
 namespace trismooth::cuda {
 
@@ -89,15 +90,16 @@ struct HoldNamed {
   }
 };
 
-struct HoldFree {
+struct HoldOfLayers {
   const std::int32_t* vertices;
+  bool slides;
   std::uint8_t* fixed;
-  std::uint8_t* was_free;
+  std::uint8_t* before;
 
   TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t i) const {
     std::uint8_t& reasons = fixed[vertices[i]];
-    was_free[i] = reasons == 0 ? 1 : 0;
-    reasons = reasons == 0 ? hold::named : reasons;
+    before[i] = reasons;
+    reasons |= moves_in_layer(reasons, slides) ? hold::named : 0;
   }
 };
 
@@ -115,13 +117,14 @@ void determine_constraints(Context& context, const TriangleList& triangles, cons
   }
 }
 
-std::vector<std::uint8_t> hold_free_vertices(Context& context, const std::vector<std::int32_t>& vertices,
-                                             std::uint8_t* fixed) {
+std::vector<std::uint8_t> hold_of_layers(Context& context, const std::vector<std::int32_t>& vertices, bool slides,
+                                         std::uint8_t* fixed) {
   const DeviceBuffer<std::int32_t> numbers(context, vertices);
-  DeviceBuffer<std::uint8_t> was_free(context, vertices.size());
-  for_each(context, static_cast<std::uint32_t>(vertices.size()), HoldFree{numbers.data(), fixed, was_free.data()});
+  DeviceBuffer<std::uint8_t> before(context, vertices.size());
+  for_each(context, static_cast<std::uint32_t>(vertices.size()),
+           HoldOfLayers{numbers.data(), slides, fixed, before.data()});
   std::vector<std::uint8_t> found(vertices.size());
-  was_free.download(found);
+  before.download(found);
   return found;
 }
 

@@ -20,9 +20,9 @@ void determine_constraints(Context& context, const TriangleList& triangles, cons
                            const DeviceConstraints& constraints, const ParityForest& forest, std::uint8_t* fixed,
                            Findings* findings);
 
-/// Holds those of these vertices that are free, as if the user named them. Each is there once. Answers one byte for
-/// each: whether it was free. Waits for the device.
-std::vector<std::uint8_t> hold_free_vertices(Context& context, const std::vector<std::int32_t>& vertices,
-                                             std::uint8_t* fixed);
+/// Holds those of these vertices that move (see moves_in_layer()), as if the user named them. Each is there once.
+/// Answers one byte for each: what held it before. Waits for the device.
+std::vector<std::uint8_t> hold_of_layers(Context& context, const std::vector<std::int32_t>& vertices, bool slides,
+                                         std::uint8_t* fixed);
 
 }  // namespace trismooth::cuda

@@ -67,7 +67,8 @@ NearLines DeviceTopology::near_lines(const std::int32_t* regions) const {
   return cuda::near_lines(*context_, triangles_, vertex_count(), fixed_.data(), regions);
 }
 
-LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers layers, std::vector<std::int32_t>& held) {
+LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers layers, bool slides,
+                                         std::vector<std::int32_t>& held) {
   held.clear();
   if (layers == Layers::smooth) {
     return {};
@@ -76,15 +77,16 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   Workers workers(0);
   LayerSearch found =
       search_layers([&](int choices) { return candidates.after(choices); }, vertex_count(), layers, workers);
+  found.result.kept = 0;
   if (!found.kept.empty()) {
-    const std::vector<std::uint8_t> was_free = hold_free_vertices(*context_, found.kept, fixed_.data());
-    for (std::size_t i = 0; i < was_free.size(); ++i) {
-      if (was_free[i] != 0) {
+    const std::vector<std::uint8_t> reasons = hold_of_layers(*context_, found.kept, slides, fixed_.data());
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+      if (moves_in_layer(reasons[i], slides)) {
+        ++(reasons[i] == 0 ? found.result.kept : found.result.kept_on_lines);
         held.push_back(found.kept[i]);
       }
     }
   }
-  found.result.kept = std::ssize(held);
   return found.result;
 }
 

@@ -39,8 +39,8 @@ class DeviceTopology {
   NearLines near_lines(const std::int32_t* regions) const;
 
   /// trismooth::hold_layers() at these coordinates, which are on the device, in the orientation found last. `held`: the
-  /// vertices that it holds.
-  LayersResult hold_layers(const Point2<double>* points, Layers layers, std::vector<std::int32_t>& held);
+  /// vertices that it marks.
+  LayersResult hold_layers(const Point2<double>* points, Layers layers, bool slides, std::vector<std::int32_t>& held);
 
   /// Orients the components by these coordinates, which are on the device and in the local frame. Returns whether the
   /// orientation is another than that of the last call, or this is the first.

@@ -58,7 +58,7 @@ MeshRings find_rings_on_device(std::span<const Point2<double>> points, std::span
 
   MeshRings found;
   std::vector<std::int32_t> held;
-  found.layers = topology.hold_layers(device_points.data(), layers, held);
+  found.layers = topology.hold_layers(device_points.data(), layers, constraints.slide.along != Slide::off, held);
   found.rings = copied_to_host(context, topology.rings());
   found.fixed = download(context, topology.fixed(), points.size());
   found.reversed = download(context, topology.reversed(), triangles.size());

@@ -68,7 +68,8 @@ MeshRings read_rings(const Halfedges& halfedges, std::span<const Point2<double>>
   if (!constraints.regions.empty()) {
     hold_interfaces(halfedges, constraints.regions, found.fixed, workers);
   }
-  found.layers = hold_layers(local, triangles, orientation.reversed, layers, found.fixed, workers);
+  found.layers = hold_layers(local, triangles, orientation.reversed, layers, constraints.slide.along != Slide::off,
+                             found.fixed, workers);
   found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   // A component that the halfedges run through clockwise is read the other way round.
   std::vector<std::uint8_t> clockwise(triangles.size());

@@ -65,15 +65,15 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   show("writing");
   WrittenAside written = write_mesh_aside(settings.output, document_of(mesh), {}, FileOptions{1, settings.format});
   line.reset();
-  if (settings.quiet) {
-    return ExitCode::done;
+  bool has_reader = true;
+  if (!settings.quiet) {
+    std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
+    const std::string text =
+        labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
+                                                mesh.triangles.size(), settings.seed)) +
+        labelled_line("written:", shown_output(settings.output).string());
+    has_reader = print_before_files(results, text);
   }
-  std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
-  const std::string text =
-      labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
-                                              mesh.triangles.size(), settings.seed)) +
-      labelled_line("written:", shown_output(settings.output).string());
-  const bool has_reader = print_before_files(results, text);
   written.commit();
   if (!has_reader) {
     end_without_reader();

@@ -262,7 +262,7 @@ class PieceRun {
     frame_ = topology_->frame_of(points, held_);
     local_ = entered(frame_, points).points;
     reversed_ = topology_->reversed(local_, workers_);
-    layers_ = mpi::hold_layers(topology_->overlap(), local_, reversed_, options_.smoothing.used_layers(), held_,
+    layers_ = mpi::hold_layers(topology_->overlap(), local_, reversed_, options_.smoothing.used_layers(), false, held_,
                                *ranks_, workers_);
     summarise();
   }

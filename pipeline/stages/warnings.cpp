@@ -97,12 +97,14 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
 }
 
 std::string note_of_layers(const LayersResult& layers) {
-  return layers.kept == 0 ? std::string()
-                          : fmt::format(
-                                "{} {} of layers that are flat on purpose (aspect {:.3g} at most) and {} held; "
-                                "--layers smooth moves {}",
-                                layers.kept, layers.kept == 1 ? "vertex is" : "vertices are", layers.kept_aspect,
-                                layers.kept == 1 ? "is" : "are", layers.kept == 1 ? "it" : "them");
+  const std::int64_t held = layers.kept + layers.kept_on_lines;
+  return held == 0 ? std::string()
+                   : fmt::format(
+                         "{} {} of layers that are flat on purpose (aspect {:.3g} at most) and {} held{}; "
+                         "--layers smooth moves {}",
+                         held, held == 1 ? "vertex is" : "vertices are", layers.kept_aspect, held == 1 ? "is" : "are",
+                         layers.kept_on_lines > 0 ? fmt::format(", {} of which would slide", layers.kept_on_lines) : "",
+                         held == 1 ? "it" : "them");
 }
 
 std::string warning_of_layers(const LayersResult& layers) {

@@ -61,6 +61,7 @@ nb::dict layers_of(const Outcome& outcome) {
   const LayersResult& layers = outcome.smoothing.layers;
   nb::dict found;
   found["kept"] = layers.kept;
+  found["kept_on_lines"] = layers.kept_on_lines;
   found["kept_aspect"] = layers.kept_aspect;
   found["left"] = layers.left;
   found["left_aspect"] = layers.left_aspect;

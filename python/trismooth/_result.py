@@ -32,10 +32,12 @@ def layers_notes(outcome: _core.Outcome) -> List[str]:
     """What to say of triangles that are flat in one direction."""
     layers = outcome.layers
     notes = []
-    if layers["kept"] > 0:
+    held = layers["kept"] + layers["kept_on_lines"]
+    if held > 0:
+        sliding = f", {layers['kept_on_lines']:,} of which would slide" if layers["kept_on_lines"] > 0 else ""
         notes.append(
             f"vertices of layers that are flat on purpose (aspect {layers['kept_aspect']:.3g} at most) are held: "
-            f"{layers['kept']:,}; layers='smooth' moves them"
+            f"{held:,}{sliding}; layers='smooth' moves them"
         )
     if layers["left"] > 0:
         notes.append(
@@ -192,9 +194,9 @@ class Result:
 
     @property
     def layers(self) -> Dict[str, float]:
-        """What was found of triangles that are flat in one direction: how many vertices are held for it (kept) and are
-        smoothed though they are inside of such stretches (left), with the largest aspects of their triangles
-        (kept_aspect, left_aspect; 0: none). See ``layers=``."""
+        """What was found of triangles that are flat in one direction: how many vertices are held for it and would be
+        free (kept) or slide (kept_on_lines) else, and how many are smoothed though they are inside of such stretches
+        (left), with the largest aspects of their triangles (kept_aspect, left_aspect; 0: none). See ``layers=``."""
         return self._outcome.layers
 
     @property

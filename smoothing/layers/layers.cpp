@@ -256,8 +256,8 @@ LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& c
 }
 
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
-                         Workers& workers) {
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, Workers& workers) {
   if (layers == Layers::smooth) {
     return {};
   }
@@ -267,9 +267,9 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   found.result.kept = 0;
   for (const std::int32_t v : found.kept) {
     std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
-    if (reasons == 0) {
-      reasons = hold::named;
-      ++found.result.kept;
+    if (moves_in_layer(reasons, slides)) {
+      ++(reasons == 0 ? found.result.kept : found.result.kept_on_lines);
+      reasons |= hold::named;
     }
   }
   return found.result;

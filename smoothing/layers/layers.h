@@ -11,6 +11,7 @@
 #include "trismooth/smoothing/layers/flat_triangle.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth {
 
@@ -32,7 +33,7 @@ class Workers;
 
 /// The triangles of the smallest stretch that counts. Among 600,000 triangles of random points the largest clean one
 /// has 9, and each further triangle is four times rarer.
-inline constexpr std::int64_t layers_least = 20;
+inline constexpr std::int64_t layers_least = 18;
 /// Of the smallest one for which the search goes on: at its ends a stretch loses some by each further choice.
 inline constexpr std::int64_t layers_least_seen = 12;
 /// The flat triangles at each corner of a candidate.
@@ -79,11 +80,17 @@ LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t
 LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates_after,
                           std::int32_t vertex_count, Layers layers, Workers& workers);
 
-/// All of it, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and was free. Of what it
-/// returns `kept` counts these vertices alone. With Layers::smooth it does nothing. `points`: one for each vertex, in
-/// the local frame.
+/// Whether a vertex that is to be kept, and is held for these reasons so far, has to be held as hold::named as well: as
+/// it is free or, where vertices slide, may do so.
+constexpr TRISMOOTH_HOST_DEVICE bool moves_in_layer(std::uint8_t reasons, bool slides) {
+  return reasons == 0 || (slides && is_held_by_lines(reasons));
+}
+
+/// All of it, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and moves_in_layer().
+/// `slides`: whether vertices on lines may slide. Of what it returns `kept` counts those that were free, and
+/// `kept_on_lines` the others. With Layers::smooth it does nothing. `points`: one for each vertex, in the local frame.
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
-                         std::span<const std::uint8_t> reversed, Layers layers, std::span<std::uint8_t> fixed,
-                         Workers& workers);
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, Workers& workers);
 
 }  // namespace trismooth

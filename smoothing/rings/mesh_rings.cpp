@@ -24,7 +24,8 @@ MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<cons
   Orientation orientation = orient(connectivity.components(), triangles, points, workers);
   MeshRings found;
   found.fixed = connectivity.fixed_vertices(triangles, constraints, workers);
-  found.layers = hold_layers(points, triangles, orientation.reversed, layers, found.fixed, workers);
+  found.layers = hold_layers(points, triangles, orientation.reversed, layers, constraints.slide.along != Slide::off,
+                             found.fixed, workers);
   found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
   found.reversed = std::move(orientation.reversed);
   found.components = connectivity.components().components;

@@ -26,13 +26,14 @@ TEST_CASE("a generated mesh has as many vertices as asked for and can be smoothe
   CHECK(folder.size() == 1);
 }
 
-TEST_CASE("with --quiet nothing is printed, as elsewhere") {
+TEST_CASE("with --quiet nothing is printed, as elsewhere, and the mesh is written") {
   const ScratchFolder folder;
   for (const char* const quiet : {"-q", "--quiet"}) {
     const Outcome made = call({"generate", (folder / "mesh.off").string(), "--vertices", "50", quiet});
     CHECK(made.code == 0);
     CHECK(made.out.empty());
     CHECK(made.err.empty());
+    CHECK(std::filesystem::remove(folder / "mesh.off"));
   }
 }
 

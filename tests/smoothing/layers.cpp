@@ -42,7 +42,7 @@ std::vector<std::uint8_t> held(const Mesh& mesh, Layers layers, LayersResult& re
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
   const auto local = trismooth::entered(trismooth::local_frame_of_cells(mesh.points, fixed), mesh.points);
   const auto found = trismooth::find_mesh_rings(local.points, mesh.triangles, {}, workers);
-  result = trismooth::hold_layers(local.points, mesh.triangles, found.reversed, layers, fixed, workers);
+  result = trismooth::hold_layers(local.points, mesh.triangles, found.reversed, layers, false, fixed, workers);
   return fixed;
 }
 
@@ -89,6 +89,38 @@ TEST_CASE("a layer of one row, as thin insulation has it, is kept") {
   for (std::size_t v = 1; v < 39; ++v) {
     CHECK(fixed[v] == trismooth::hold::named);
     CHECK(fixed[v + 40] == trismooth::hold::named);
+  }
+}
+
+TEST_CASE("where vertices slide along walls, the ends and the foot of a layer keep their places as all of it") {
+  const std::int32_t columns = 40;
+  const std::vector<double> heights = growing(0.01, 1.3, 20);
+  for (const trismooth::Slide along : {trismooth::Slide::straight, trismooth::Slide::curves}) {
+    Mesh mesh = layered(columns, heights);
+    const Mesh before = mesh;
+    trismooth::Constraints constraints;
+    constraints.slide.along = along;
+    SmoothingOptions options;
+    options.method = Method::mean_ratio;
+    const auto slid = [&] {
+      std::vector<double> xy = before.xy();
+      const auto result = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), constraints, options);
+      for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        mesh.points[v] = {xy[2 * v], xy[2 * v + 1]};
+      }
+      return result;
+    };
+    const auto of_layer = static_cast<std::ptrdiff_t>(columns) * (std::ssize(heights) + 1);
+    const SmoothingResult result = slid();
+    CHECK(std::equal(mesh.points.begin(), mesh.points.begin() + of_layer, before.points.begin()));
+    CHECK(result.sliding->slid > 0);
+    // The wall, and both ends; at a corner of the domain nothing slides.
+    CHECK(result.layers.kept_on_lines >= columns - 2 + 2 * (std::ssize(heights) - 1));
+    CHECK(result.layers.kept == (columns - 2) * std::ssize(heights));
+
+    options.layers = Layers::smooth;
+    CHECK(slid().layers.kept_on_lines == 0);
+    CHECK_FALSE(std::equal(mesh.points.begin(), mesh.points.begin() + of_layer, before.points.begin()));
   }
 }
 
