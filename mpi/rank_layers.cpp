@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/hold.h"
@@ -23,7 +24,10 @@ struct SentCandidate {
 
 /// What rank 0 has found.
 struct Findings {
+  bool finds_any() const { return !kept.empty() || !left.empty(); }
+
   std::vector<std::int64_t> kept;  ///< ids, ascending
+  std::vector<std::int64_t> left;  ///< likewise
   std::vector<LayersResult> result;
 };
 
@@ -47,8 +51,10 @@ Findings search(const ByRank<SentCandidate>& by_rank, Layers layers, std::int64_
   }
   const LayerSearch found = search_layers(flat, static_cast<std::int32_t>(ids.size()), layers, least, workers);
   Findings findings;
-  for (const std::int32_t place : found.kept) {
-    findings.kept.push_back(ids[static_cast<std::size_t>(place)]);
+  for (const auto& [places, found_ids] : {std::pair(&found.kept, &findings.kept), {&found.left, &findings.left}}) {
+    for (const std::int32_t place : *places) {
+      found_ids->push_back(ids[static_cast<std::size_t>(place)]);
+    }
   }
   findings.result = {found.result};
   return findings;
@@ -73,7 +79,19 @@ Findings shared_findings(const Overlap& overlap, std::span<const FlatTriangle> c
     }
   });
   ranks.broadcast(found.kept);
+  ranks.broadcast(found.left);
   ranks.broadcast(found.result);
+  return found;
+}
+
+/// The vertices of the overlap with these ids, both ascending.
+std::vector<std::int32_t> vertices_here(const Overlap& overlap, std::span<const std::int64_t> ids) {
+  std::vector<std::int32_t> found;
+  for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
+    if (std::ranges::binary_search(ids, overlap.ids[static_cast<std::size_t>(v)])) {
+      found.push_back(v);
+    }
+  }
   return found;
 }
 
@@ -90,19 +108,27 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
                                    [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
   Findings found = shared_findings(overlap, candidates.after(layers_first_choices, workers), layers, layers_least_seen,
                                    ranks, workers);
-  if (found.kept.empty() && found.result.front().left == 0) {
+  if (!found.finds_any()) {
     return {};
   }
   found = shared_findings(overlap, candidates.after(layers_choices, workers), layers, layers_least, ranks, workers);
   std::int64_t own_kept = 0;
   std::int64_t own_on_lines = 0;
-  for (std::size_t v = 0; v < fixed.size(); ++v) {
-    if (moves_in_layer(fixed[v], slides) && std::ranges::binary_search(found.kept, overlap.ids[v])) {
+  std::vector<std::int32_t> kept = vertices_here(overlap, found.kept);
+  add_ends(candidates.after(0, workers), kept);
+  for (const std::int32_t v : kept) {
+    if (moves_in_layer(fixed[v], slides)) {
       (fixed[v] == 0 ? own_kept : own_on_lines) += overlap.is_own(static_cast<std::int32_t>(v)) ? 1 : 0;
       fixed[v] |= hold::named;
     }
   }
+  ghosts.update(fixed);  // not all of what is around them is here
+  std::int64_t own_left = 0;
+  for (const std::int32_t v : vertices_here(overlap, found.left)) {
+    own_left += overlap.is_own(v) && fixed[v] == 0 ? 1 : 0;
+  }
   LayersResult result = found.result.front();
+  result.left = ranks.sum(own_left);
   result.kept = ranks.sum(own_kept);
   result.kept_on_lines = ranks.sum(own_on_lines);
   return result;

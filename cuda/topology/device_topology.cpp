@@ -1,5 +1,6 @@
 #include "trismooth/cuda/topology/device_topology.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
+#include "trismooth/cuda/slide/held_points.h"
 #include "trismooth/cuda/topology/flat_triangles.h"
 #include "trismooth/cuda/topology/near_lines.h"
 #include "trismooth/cuda/topology/ring_building.h"
@@ -77,7 +79,6 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   Workers workers(0);
   LayerSearch found =
       search_layers([&](int choices) { return candidates.after(choices); }, vertex_count(), layers, workers);
-  found.result.kept = 0;
   if (!found.kept.empty()) {
     const std::vector<std::uint8_t> reasons = hold_of_layers(*context_, found.kept, slides, fixed_.data());
     for (std::size_t i = 0; i < reasons.size(); ++i) {
@@ -86,6 +87,10 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
         held.push_back(found.kept[i]);
       }
     }
+  }
+  if (!found.left.empty()) {
+    const DeviceBuffer<std::int32_t> left(*context_, found.left);
+    found.result.left = std::ranges::count(gather_bytes(*context_, fixed_.data(), left), 0);
   }
   return found.result;
 }

@@ -41,12 +41,19 @@ std::vector<std::int32_t> list_flat(const TriangleView& view, Workers& workers) 
   return all;
 }
 
+/// Sorts them, each once.
+void make_set(std::vector<std::int32_t>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 /// One connected stretch of flat triangles, as far as has been counted.
 struct Stretch {
   std::int64_t triangles = 0;
   std::int64_t moderate = 0;
   std::int64_t obtuse = 0;
-  std::int64_t inside = 0;  ///< vertices all around which it goes
+  std::int64_t inside = 0;   ///< vertices all around which it goes
+  std::int64_t in_fans = 0;  ///< triangles at a vertex with more than 6 flat ones
   double smallest_quotient = 1;
 
   void add(const FlatTriangle& flat) {
@@ -56,8 +63,10 @@ struct Stretch {
     smallest_quotient = std::min(smallest_quotient, flat.quotient);
   }
   bool is_clean() const { return 2 * moderate > triangles && 10 * obtuse < triangles; }
-  /// Whether it is as wide as it is long. (Chains of slivers along the hull of random points are not.)
+  /// Whether it is told of: where it is wide, or a band of even width. Chains of slivers along the hull of random
+  /// points are neither: they run from fan to fan.
   bool is_wide() const { return 8 * inside >= triangles; }
+  bool is_band() const { return 20 * in_fans < triangles; }
 };
 
 /// The corners of candidates. Where these are few, in numbers of their own, and `vertex_count` becomes theirs: what is
@@ -70,8 +79,7 @@ std::vector<Triangle> corners_of(std::span<const FlatTriangle> candidates, std::
     for (const Triangle& corners : triangles) {
       used.insert(used.end(), corners.begin(), corners.end());
     }
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    make_set(used);
     for (Triangle& corners : triangles) {
       for (std::int32_t& v : corners) {
         v = static_cast<std::int32_t>(std::ranges::lower_bound(used, v) - used.begin());
@@ -95,13 +103,15 @@ class Stretches {
     for (std::size_t t = 0; t < candidates_.size(); ++t) {
       stretches_[roots_[t]].add(candidates_[t]);
     }
-    count_inside(vertex_count);
+    look_around(vertex_count);
   }
 
   const Stretch& of(std::size_t triangle) const { return stretches_[roots_[triangle]]; }
   bool counts(const Stretch& stretch) const { return stretch.triangles >= least_; }
-  /// The vertices inside of all wide stretches that count and are not clean.
-  std::int64_t inside_of_wide() const { return inside_of_wide_; }
+  /// Whether the stretch of the triangle goes all around a corner of it.
+  bool goes_around(std::size_t triangle, int corner) const {
+    return excess_[static_cast<std::size_t>(triangles_[triangle][static_cast<std::size_t>(corner)])] == 0;
+  }
 
  private:
   void join(std::int32_t vertex_count, Workers& workers) {
@@ -132,27 +142,28 @@ class Stretches {
   }
 
   /// A stretch goes all around a vertex where it has as many sides as triangles there.
-  void count_inside(std::int32_t vertex_count) {
-    std::vector<std::int32_t> excess(static_cast<std::size_t>(vertex_count), 0);
+  void look_around(std::int32_t vertex_count) {
+    excess_.assign(static_cast<std::size_t>(vertex_count), 0);
     std::vector<std::int32_t> some(static_cast<std::size_t>(vertex_count), -1);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       for (const std::int32_t v : triangles_[t]) {
-        ++excess[static_cast<std::size_t>(v)];
+        ++excess_[static_cast<std::size_t>(v)];
         some[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(roots_[t]);
       }
     }
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto is_in_fan = [this](std::int32_t v) { return excess_[static_cast<std::size_t>(v)] > 6; };
+      stretches_[roots_[t]].in_fans += std::ranges::any_of(triangles_[t], is_in_fan) ? 1 : 0;
+    }
     for (const std::int32_t h : sides_) {
       const Triangle& corners = triangles_[static_cast<std::size_t>(h / 3)];
-      --excess[static_cast<std::size_t>(corners[h % 3])];
-      --excess[static_cast<std::size_t>(corners[(h + 1) % 3])];
+      --excess_[static_cast<std::size_t>(corners[h % 3])];
+      --excess_[static_cast<std::size_t>(corners[(h + 1) % 3])];
     }
-    for (std::size_t v = 0; v < excess.size(); ++v) {
-      if (some[v] >= 0 && excess[v] == 0) {
+    for (std::size_t v = 0; v < excess_.size(); ++v) {
+      if (some[v] >= 0 && excess_[v] == 0) {
         ++stretches_[static_cast<std::size_t>(some[v])].inside;
       }
-    }
-    for (const Stretch& stretch : stretches_) {
-      inside_of_wide_ += counts(stretch) && !stretch.is_clean() && stretch.is_wide() ? stretch.inside : 0;
     }
   }
 
@@ -160,9 +171,9 @@ class Stretches {
   std::vector<Triangle> triangles_;  ///< their corners
   std::int64_t least_;
   std::vector<std::uint32_t> roots_;
-  std::vector<Stretch> stretches_;   ///< one a candidate; of those that are no root nothing is counted
-  std::vector<std::int32_t> sides_;  ///< between coherent candidates, by the halfedge of the first
-  std::int64_t inside_of_wide_ = 0;
+  std::vector<Stretch> stretches_;    ///< one a candidate; of those that are no root nothing is counted
+  std::vector<std::int32_t> sides_;   ///< between coherent candidates, by the halfedge of the first
+  std::vector<std::int32_t> excess_;  ///< per vertex: its triangles less the sides between coherent ones
 };
 
 }  // namespace
@@ -171,8 +182,9 @@ LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::sp
                                  std::span<const std::uint8_t> reversed, Workers& workers,
                                  const std::function<void(std::span<std::uint32_t>)>& complete)
     : view_{points, triangles, reversed} {
-  std::vector<std::int32_t> left = list_flat(view_, workers);
-  for (std::vector<std::int32_t>& chosen : chosen_) {
+  left_[0] = list_flat(view_, workers);
+  for (std::size_t choice = 1; choice < left_.size(); ++choice) {
+    std::vector<std::int32_t> left = left_[choice - 1];
     if (!complete && std::ssize(left) < layers_least_seen) {
       return;
     }
@@ -192,16 +204,16 @@ LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::sp
       return !std::ranges::all_of(triangles[static_cast<std::size_t>(t)],
                                   [&](std::int32_t v) { return at[static_cast<std::size_t>(v)] >= layers_crowd; });
     });
-    chosen = left;
+    left_[choice] = std::move(left);
   }
 }
 
 std::vector<FlatTriangle> LayerCandidates::after(int choices, Workers& workers) const {
-  const std::vector<std::int32_t>& chosen = chosen_[static_cast<std::size_t>(choices - 1)];
-  std::vector<FlatTriangle> candidates(chosen.size());
-  workers.for_blocks(std::ssize(chosen), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+  const std::vector<std::int32_t>& left = left_[static_cast<std::size_t>(choices)];
+  std::vector<FlatTriangle> candidates(left.size());
+  workers.for_blocks(std::ssize(left), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(chosen[i]));
+      const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(left[i]));
       const auto [a, b, c] = corners;
       candidates[i] =
           described_flat(corners, view_.points[static_cast<std::size_t>(a)], view_.points[static_cast<std::size_t>(b)],
@@ -222,27 +234,43 @@ LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t
   double left_quotient = 1;
   for (std::size_t t = 0; t < candidates.size(); ++t) {
     const Stretch& stretch = stretches.of(t);
-    if (!stretches.counts(stretch) || !(stretch.is_clean() || stretch.is_wide())) {
+    if (!stretches.counts(stretch)) {
       continue;
     }
+    const Triangle& corners = candidates[t].corners;
     if (stretch.is_clean() || layers == Layers::keep) {
-      found.kept.insert(found.kept.end(), candidates[t].corners.begin(), candidates[t].corners.end());
+      found.kept.insert(found.kept.end(), corners.begin(), corners.end());
       kept_quotient = std::min(kept_quotient, stretch.smallest_quotient);
-    } else {
+    } else if (stretch.is_wide() || stretch.is_band()) {
+      for (int i = 0; i < 3; ++i) {
+        if (!stretch.is_wide() || stretches.goes_around(t, i)) {
+          found.left.push_back(corners[static_cast<std::size_t>(i)]);
+        }
+      }
       left_quotient = std::min(left_quotient, stretch.smallest_quotient);
     }
   }
-  std::ranges::sort(found.kept);
-  found.kept.erase(std::unique(found.kept.begin(), found.kept.end()), found.kept.end());
-  found.result.kept = std::ssize(found.kept);
+  make_set(found.kept);
+  make_set(found.left);
   if (!found.kept.empty()) {
     found.result.kept_aspect = aspect_of(kept_quotient);
   }
-  if (left_quotient < 1) {
-    found.result.left = stretches.inside_of_wide();
+  if (!found.left.empty()) {
     found.result.left_aspect = aspect_of(left_quotient);
   }
   return found;
+}
+
+void add_ends(std::span<const FlatTriangle> flat, std::vector<std::int32_t>& kept) {
+  std::vector<std::int32_t> ends;
+  for (const FlatTriangle& triangle : flat) {
+    const auto is_kept = [&kept](std::int32_t v) { return std::ranges::binary_search(kept, v); };
+    if (std::ranges::count_if(triangle.corners, is_kept) == 2) {
+      ends.push_back(*std::ranges::find_if_not(triangle.corners, is_kept));
+    }
+  }
+  kept.insert(kept.end(), ends.begin(), ends.end());
+  make_set(kept);
 }
 
 LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates_after,
@@ -252,7 +280,11 @@ LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& c
   if (!look.finds_any()) {
     return {};
   }
-  return search_layers(candidates_after(layers_choices), vertex_count, layers, layers_least, workers);
+  LayerSearch found = search_layers(candidates_after(layers_choices), vertex_count, layers, layers_least, workers);
+  if (!found.kept.empty()) {
+    add_ends(candidates_after(0), found.kept);
+  }
+  return found;
 }
 
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
@@ -264,7 +296,6 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   const LayerCandidates candidates(points, triangles, reversed, workers);
   LayerSearch found = search_layers([&](int choices) { return candidates.after(choices, workers); },
                                     static_cast<std::int32_t>(points.size()), layers, workers);
-  found.result.kept = 0;
   for (const std::int32_t v : found.kept) {
     std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
     if (moves_in_layer(reasons, slides)) {
@@ -272,6 +303,8 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
       reasons |= hold::named;
     }
   }
+  found.result.left =
+      std::ranges::count_if(found.left, [fixed](std::int32_t v) { return fixed[static_cast<std::size_t>(v)] == 0; });
   return found.result;
 }
 

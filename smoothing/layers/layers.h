@@ -44,10 +44,11 @@ inline constexpr int layers_choices = 1;
 
 /// What the search says of vertices, whatever else holds them.
 struct LayerSearch {
-  bool finds_any() const { return !kept.empty() || result.left > 0; }
+  bool finds_any() const { return !kept.empty() || !left.empty(); }
 
   std::vector<std::int32_t> kept;  ///< of stretches that are to be kept, ascending
-  LayersResult result;             ///< of which `kept` is their number
+  std::vector<std::int32_t> left;  ///< of those that are to be told of, ascending: inside, where they are wide
+  LayersResult result;             ///< its numbers of vertices are for whoever knows what else holds these
 };
 
 /// The flat triangles of a mesh, and which of them are left after each choice.
@@ -61,13 +62,13 @@ class LayerCandidates {
                   std::span<const std::uint8_t> reversed, Workers& workers,
                   const std::function<void(std::span<std::uint32_t>)>& complete = {});
 
-  /// Those left after so many choices, 1 to layers_first_choices, in the order of `triangles`. Complexity: linear in
-  /// their number.
+  /// Those left after so many choices, 0 (all flat ones) to layers_first_choices, in the order of `triangles`.
+  /// Complexity: linear in their number.
   std::vector<FlatTriangle> after(int choices, Workers& workers) const;
 
  private:
   TriangleView view_;
-  std::array<std::vector<std::int32_t>, layers_first_choices> chosen_;  ///< by each choice
+  std::array<std::vector<std::int32_t>, layers_first_choices + 1> left_;  ///< after so many choices
 };
 
 /// Looks for stretches of `least` triangles among candidates, in any order; their corners are below `vertex_count`. Not
@@ -76,7 +77,12 @@ class LayerCandidates {
 LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t vertex_count, Layers layers,
                           std::int64_t least, Workers& workers);
 
-/// The first look, and the search where it goes on. `candidates_after(choices)` lists them.
+/// Adds to what is kept, ascending, the third corners of flat triangles that have two corners there: those at the ends
+/// of a stretch, which are no candidates. Complexity: n log n in what is kept, and linear in `flat`.
+void add_ends(std::span<const FlatTriangle> flat, std::vector<std::int32_t>& kept);
+
+/// The first look, and the search where it goes on, with the ends of what is to be kept. `candidates_after(choices)`
+/// lists them.
 LayerSearch search_layers(const std::function<std::vector<FlatTriangle>(int)>& candidates_after,
                           std::int32_t vertex_count, Layers layers, Workers& workers);
 

@@ -218,6 +218,7 @@ TEST_CASE("layers are held by the device as by the CPU, whoever finds the topolo
           const auto layers = trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), constraints, options).layers;
           CHECK(xy == expected);
           CHECK(layers.kept == by_cpu.kept);
+          CHECK(layers.kept_on_lines == by_cpu.kept_on_lines);
           CHECK(layers.kept_aspect == by_cpu.kept_aspect);
           CHECK(layers.left == by_cpu.left);
           CHECK(layers.left_aspect == by_cpu.left_aspect);

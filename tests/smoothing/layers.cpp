@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -135,6 +136,42 @@ TEST_CASE("a layer that is distorted is smoothed, counted, and held where that i
   CHECK(result.kept > 100);
   CHECK(result.left == 0);
   CHECK(std::ranges::count(kept, 0) == mesh.vertex_count() - result.kept);
+}
+
+TEST_CASE(
+    "a thin gap one triangle across, whose sides have their vertices staggered, is told of, and held where asked for") {
+  constexpr std::int32_t columns = 40;
+  const std::vector<double> heights = {0, 1, 2, 3, 3.1, 4, 5, 6};
+  Mesh mesh;
+  for (std::size_t row = 0; row < heights.size(); ++row) {
+    for (std::int32_t i = 0; i < columns; ++i) {
+      mesh.points.push_back({i + (row < 4 ? 0 : 0.5), heights[row]});
+    }
+  }
+  for (std::int32_t row = 0; row + 1 < std::ssize(heights); ++row) {
+    for (std::int32_t i = 0; i + 1 < columns; ++i) {
+      const std::int32_t a = row * columns + i;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, a + 1, a + columns}, {a + 1, a + columns + 1, a + columns}});
+    }
+  }
+  LayersResult result;
+  held(mesh, Layers::automatic, result);
+  CHECK(result.kept == 0);
+  // Both sides of the gap but for its ends, which lie on the boundary.
+  CHECK(result.left >= 2 * (columns - 3));
+  const std::vector<std::uint8_t> kept = held(mesh, Layers::keep, result);
+  CHECK(result.left == 0);
+  CHECK(std::count(kept.begin() + 3 * columns, kept.begin() + 5 * columns, 0) == 0);
+}
+
+TEST_CASE("what nothing moves is not told of as smoothed") {
+  Mesh mesh = layered(60, std::vector<double>(8, 0.05), 0.45);
+  trismooth::Constraints constraints;
+  std::vector<std::int32_t> all(static_cast<std::size_t>(mesh.vertex_count()));
+  std::iota(all.begin(), all.end(), 0);
+  constraints.fixed_ids = all;
+  std::vector<double> xy = mesh.xy();
+  CHECK(trismooth::smooth(trismooth::xy_points(xy), mesh.indices(), constraints, {}).layers.left == 0);
 }
 
 TEST_CASE("meshes without layers are smoothed to the same bits with and without the search") {

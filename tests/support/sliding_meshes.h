@@ -106,6 +106,7 @@ inline Smoothed smoothed(const Mesh& mesh, const trismooth::Constraints& constra
   Smoothed found{mesh.xy(), {}};
   trismooth::SmoothingOptions options;
   options.method = method;
+  options.layers = trismooth::Layers::smooth;  // annuli of many sectors are flat all over
   found.result = trismooth::smooth(trismooth::xy_points(found.xy), mesh.indices(), constraints, options);
   return found;
 }
