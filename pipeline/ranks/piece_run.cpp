@@ -494,6 +494,9 @@ class PieceRun {
     result_.smoothing->degenerate = result_.after->degenerate;
     result_.regions_after = quality_->regions(local);
     result_.size_change = quality_->size_change(local_, frame_, local, frame, workers_.count());
+    for (std::string& warning : warnings_of_invalid(result_)) {
+      say_warning(std::move(warning));
+    }
   }
 
   Stopwatch watch_;

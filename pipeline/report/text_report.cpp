@@ -180,21 +180,16 @@ std::string fields_line(const PipelineResult& result) {
                                                      counted(vertices, "vertex that moved", "vertices that moved")));
 }
 
+/// (Of those that remain a warning tells.)
 std::string inverted_line(const PipelineResult& result) {
   const std::int64_t before = result.before.inverted;
-  const std::int64_t now = result.after ? result.after->inverted : before;
-  if (now == 0) {
-    return result.after && before > 0 ? fmt::format("No inverted triangles remain ({} before).\n", before)
-                                      : std::string{};
+  if (before == 0) {
+    return {};
   }
   if (!result.after) {
-    return fmt::format("{} inverted.\n", counted(now, "triangle is", "triangles are"));
+    return fmt::format("{} inverted.\n", counted(before, "triangle is", "triangles are"));
   }
-  const bool is_untangled = result.smoothing && result.smoothing->untangling;
-  return wrapped(
-      fmt::format("{} ({} before){}.", counted(now, "inverted triangle remains", "inverted triangles remain"), before,
-                  is_untangled ? "" : "; --untangle on mends what can be mended"),
-      "", "");
+  return result.after->inverted == 0 ? fmt::format("No inverted triangles remain ({} before).\n", before) : "";
 }
 
 std::string quadratic_lines(const PipelineResult& result) {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
@@ -59,6 +62,9 @@ void check_after(RunState& run) {
   run.result.smoothing->degenerate = run.result.after->degenerate;
   run.result.regions_after = quality_of_regions(run);
   run.result.quadratic_after = quality_of_quadratics(run);
+  for (std::string& warning : warnings_of_invalid(run.result)) {
+    run.warn(std::move(warning));
+  }
 }
 
 }  // namespace trismooth

@@ -118,6 +118,25 @@ std::string warning_of_layers(const LayersResult& layers) {
                    layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
 }
 
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
+  std::vector<std::string> warnings;
+  if (result.after && result.after->inverted > 0) {
+    const bool is_untangled = result.smoothing && result.smoothing->untangling;
+    warnings.push_back(fmt::format("{} inverted triangle{} ({} before){}", result.after->inverted,
+                                   result.after->inverted == 1 ? " remains" : "s remain", result.before.inverted,
+                                   is_untangled ? "; what held vertices fold nothing mends: let some of them go"
+                                                : "; --untangle on mends what can be mended"));
+  }
+  if (result.quadratic_after && result.quadratic_after->invalid > 0) {
+    const QuadraticQuality& after = *result.quadratic_after;
+    warnings.push_back(fmt::format(
+        "{} of {} triangles of six nodes {} not valid ({} before); middles nearer to the middles of their sides make "
+        "them so",
+        after.invalid, after.elements, after.invalid == 1 ? "is" : "are", result.quadratic_before->invalid));
+  }
+  return warnings;
+}
+
 std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked) {
   std::vector<std::string> held;
   if (sliding.in_same_place > 0) {

@@ -3,12 +3,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trismooth {
 
 struct CoarseBoundary;
 struct LayersResult;
 struct PipelineOptions;
+struct PipelineResult;
 struct PrecisionLoss;
 struct RunState;
 struct Sliding;
@@ -30,6 +32,10 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
 std::string warning_of_layers(const LayersResult& layers);
+
+/// What is to be said of a result in which triangles are inverted, or triangles of six nodes not valid, with the way
+/// out.
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
 
 /// What does not slide since lines touch without sharing vertices, with the way out; empty where there is nothing.
 std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked);
