@@ -41,7 +41,7 @@ TransferredField interpolated_as(const DataArray& array, std::span<const Triangl
           return static_cast<double>(read[static_cast<std::size_t>(vertex) * array.components + component]);
         };
         const std::array<double, 3> corners{value_at(triangle[0]), value_at(triangle[1]), value_at(triangle[2])};
-        if (missing.has_any(corners, place.weights)) {
+        if (missing.has_any(component, corners, place.weights)) {
           keeps = true;
           continue;
         }

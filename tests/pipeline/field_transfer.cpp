@@ -75,7 +75,10 @@ TEST_CASE("values that stand for none are never blended: a vertex beside one kee
   trismooth::Workers workers(2);
   for (const double none : {-99999.0, -9999.0, -999.0, 99999.0, 1e20, 1e30, -1e30, 9.969209968386869e36,
                             std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                            static_cast<double>(std::numeric_limits<float>::max())}) {
+                            static_cast<double>(std::numeric_limits<float>::max()),
+                            // Surfer, ESRI and NetCDF with fewer digits, LAS, and 1e20 of float32 read as float64.
+                            1.70141e38, 1.701410009187828e38, -3.40282e38, -3.4028235e38, -3.4e38, 9.96921e36,
+                            2.14748e9, -999.25, -9999.25, 1.0000000200408773e20}) {
     CAPTURE(none);
     // Vertex 0 has none and is of the first triangle alone.
     const std::vector<double> read{none, 4, 8, 16};
@@ -103,11 +106,39 @@ TEST_CASE("numbers that only look like none are numbers: those that others stand
   };
   for (const Case& c :
        {Case{{-9999, -9500, 0, -12000}, -9749.5}, Case{{999, 1, 5, 7}, 500}, Case{{-999, -950, 0, 3}, -974.5},
-        Case{{-9999, -9999, -9999, -9999}, -9999}, Case{{1e30, 2e30, 5e30, 1.05e30}, 1.5e30}}) {
+        Case{{-9999, -9999, -9999, -9999}, -9999}, Case{{1e30, 2e30, 5e30, 1.05e30}, 1.5e30},
+        // Pressures of 1 bar beside none.
+        Case{{1e5, 0, 0, 0}, 5e4}, Case{{999.25, 0, 1, 3}, 499.625}}) {
     CAPTURE(c.values);
     const DataArray field = trismooth::make_data_array("field", 1, std::vector<double>(c.values));
     const auto result = interpolated(field, triangles, vertices, places, workers);
     CHECK(result.kept_vertices == 0);
     CHECK(result.array.value(0) == Approx(c.expected).epsilon(1e-14));
   }
+}
+
+TEST_CASE("each component is judged alone: a depth of none beside large discharges is none") {
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const std::vector<std::int32_t> vertices{0};
+  const std::vector<MeshPlace> places{{0, {0.5, 0.5, 0}}};
+  trismooth::Workers workers(1);
+  const DataArray field =
+      trismooth::make_data_array("flow", 2, std::vector<double>{-22500, -9999, 22500, 4, 100, 5, 0, 6});
+  const auto result = interpolated(field, triangles, vertices, places, workers);
+  CHECK(result.array.as<double>()[0] == 0);
+  CHECK(result.array.as<double>()[1] == -9999);
+  CHECK(result.kept_vertices == 1);
+  CHECK(result.missing == "-9999");
+}
+
+TEST_CASE("values that stand for none are named as the array holds them, each once") {
+  trismooth::Workers workers(1);
+  const auto missing_in = [&workers](DataArray field) { return interpolated(field, {}, {}, {}, workers).missing; };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  CHECK(missing_in(trismooth::make_data_array("d", 1, std::vector<double>{1, infinity, 2})) == "inf");
+  CHECK(missing_in(trismooth::make_data_array("d", 1, std::vector<double>{1, -infinity, -999.25})) == "-999.25, -inf");
+  CHECK(missing_in(trismooth::make_data_array("d", 2, std::vector<double>{1, -9999, -9999, 2, std::nan(""), 3})) ==
+        "-9999, nan");
+  CHECK(missing_in(trismooth::make_data_array("d", 1, std::vector<float>{1, 99999.9F, -3.40282e38F})) ==
+        "-3.40282e+38, 99999.9");
 }
