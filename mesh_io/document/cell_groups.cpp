@@ -57,7 +57,41 @@ std::vector<std::int64_t> values_of(const DataArray& array) {
   });
 }
 
+/// Where groups overlap, an array of one value for a cell has some cells of each, and a set has them all.
+void find_whole_sets(const MeshDocument& document, CellGroups& found) {
+  if (document.cell_sets.empty() || found.groups.empty()) {
+    return;
+  }
+  std::vector<std::size_t> sizes(found.groups.size());
+  for (const std::int32_t group : found.of_cell) {
+    sizes[static_cast<std::size_t>(std::max(group, 0))] += group < 0 ? 0 : 1;
+  }
+  std::vector<std::int32_t> last_set(document.cells.size(), -1);
+  for (std::size_t i = 0; i < document.cell_sets.size(); ++i) {
+    const NamedSet& set = document.cell_sets[i];
+    const auto number = static_cast<std::int32_t>(i);
+    std::map<std::int32_t, std::size_t> counts;  // of cells of each group
+    for (const std::int32_t member : set.members) {
+      const auto cell = static_cast<std::size_t>(member);
+      if (found.of_cell[cell] >= 0 && std::exchange(last_set[cell], number) != number) {
+        ++counts[found.of_cell[cell]];
+      }
+    }
+    for (const auto& [place, count] : counts) {
+      CellGroup& group = found.groups[static_cast<std::size_t>(place)];
+      const bool is_alike = set.name == (group.name.empty() ? name_of_unnamed_group(group.number) : group.name);
+      if (is_alike && group.whole_set < 0 && count == sizes[static_cast<std::size_t>(place)]) {
+        group.whole_set = number;
+      }
+    }
+  }
+}
+
 }  // namespace
+
+std::string name_of_unnamed_group(std::int64_t number) {
+  return "physical " + std::to_string(number);
+}
 
 CellGroups find_cell_groups(const MeshDocument& document) {
   const DataArray* const array = group_array(document);
@@ -100,6 +134,7 @@ CellGroups find_cell_groups(const MeshDocument& document) {
     }
     found.of_cell[cell] = place;
   }
+  find_whole_sets(document, found);
   return found;
 }
 

@@ -43,40 +43,48 @@ std::string group_name(const CellGroups& groups, const CellGroup& group) {
   return group.name.empty() ? groups.array + "_" + std::to_string(group.number) : group.name;
 }
 
-/// Groups of cells, and sets of these, become element sets; sets of points and groups of vertex cells node sets.
+/// Adds the cells as an element set, and vertex cells among them as a node set.
+void add_set(const CellList& cells, const std::string& name, const std::vector<std::int32_t>& members,
+             WrittenInpSets& sets) {
+  WrittenInpSet of_cells;
+  WrittenInpSet of_points;
+  for (const std::int32_t member : members) {
+    const auto cell = static_cast<std::size_t>(member);
+    if (is_point_cell(cells.types[cell])) {
+      of_points.members.insert(of_points.members.end(), cells[cell].begin(), cells[cell].end());
+    } else if (!inp_type_of_cell(cells.types[cell]).empty()) {
+      of_cells.members.push_back(member);
+    }
+  }
+  if (!of_cells.members.empty()) {
+    of_cells.name = sets.cell_names.claim(name);
+    sets.of_cells.push_back(std::move(of_cells));
+  }
+  if (!of_points.members.empty()) {
+    of_points.name = sets.point_names.claim(name);
+    sets.of_points.push_back(std::move(of_points));
+  }
+}
+
+/// Groups of cells, and sets of these, become element sets; sets of points and groups of vertex cells node sets. An
+/// element may be in several: a group that a set has whole is that set.
 WrittenInpSets written_sets(const MeshDocument& document) {
   WrittenInpSets sets;
   const CellGroups groups = find_cell_groups(document);
   sets.array = groups.array;
-  std::vector<WrittenInpSet*> of_group(groups.groups.size());
-  sets.of_cells.reserve(groups.groups.size() + document.cell_sets.size());
-  sets.of_points.reserve(groups.groups.size() + document.point_sets.size());
-  for (std::size_t i = 0; i < groups.groups.size(); ++i) {
-    const bool of_points = groups.groups[i].dimension == 0;
-    auto& list = of_points ? sets.of_points : sets.of_cells;
-    InpSetNames& taken = of_points ? sets.point_names : sets.cell_names;
-    list.push_back({taken.claim(group_name(groups, groups.groups[i])), {}});
-    of_group[i] = &list.back();
-  }
+  std::vector<std::vector<std::int32_t>> members(groups.groups.size());
   for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
-    const std::int32_t group = groups.of_cell[cell];
-    if (group < 0) {
-      continue;
+    if (groups.of_cell[cell] >= 0) {
+      members[static_cast<std::size_t>(groups.of_cell[cell])].push_back(static_cast<std::int32_t>(cell));
     }
-    std::vector<std::int32_t>& members = of_group[static_cast<std::size_t>(group)]->members;
-    if (groups.groups[static_cast<std::size_t>(group)].dimension == 0) {
-      const auto vertices = document.cells[cell];
-      members.insert(members.end(), vertices.begin(), vertices.end());
-    } else if (!inp_type_of_cell(document.cells.types[cell]).empty()) {
-      members.push_back(static_cast<std::int32_t>(cell));
+  }
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (groups.groups[i].whole_set < 0) {
+      add_set(document.cells, group_name(groups, groups.groups[i]), members[i], sets);
     }
   }
   for (const NamedSet& set : document.cell_sets) {
-    WrittenInpSet& written = sets.of_cells.emplace_back();
-    written.name = sets.cell_names.claim(set.name);
-    std::ranges::copy_if(set.members, std::back_inserter(written.members), [&](std::int32_t cell) {
-      return !inp_type_of_cell(document.cells.types[static_cast<std::size_t>(cell)]).empty();
-    });
+    add_set(document.cells, set.name, set.members, sets);
   }
   for (const NamedSet& set : document.point_sets) {
     sets.of_points.push_back({sets.point_names.claim(set.name), set.members});
@@ -158,13 +166,19 @@ void write_inp(const std::filesystem::path& path, const MeshDocument& document, 
   writer.close();
 }
 
-/// Of vertex cells those are written that are in a group: as a node set.
+/// Of vertex cells those are written that are in a group or a set: as a node set.
 CellList cells_to_tell_of(const MeshDocument& document, const CellGroups& groups) {
   CellList cells;
+  std::vector<bool> is_in_set(document.cells.size());
+  for (const NamedSet& set : document.cell_sets) {
+    for (const std::int32_t cell : set.members) {
+      is_in_set[static_cast<std::size_t>(cell)] = true;
+    }
+  }
   for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
     const std::uint8_t type = document.cells.types[cell];
     if (inp_type_of_cell(type).empty() &&
-        !(is_point_cell(type) && !groups.of_cell.empty() && groups.of_cell[cell] >= 0)) {
+        !(is_point_cell(type) && (is_in_set[cell] || (!groups.of_cell.empty() && groups.of_cell[cell] >= 0)))) {
       cells.append(type, {});
     }
   }
@@ -181,15 +195,19 @@ std::vector<std::string> lost_in_inp(const MeshDocument& document) {
   std::ranges::copy_if(document.cell_arrays, std::back_inserter(arrays.cell_arrays),
                        [&sets](const DataArray& array) { return array.name != sets.array; });
   std::ranges::move(describe_lost_arrays("Abaqus", arrays), std::back_inserter(sentences));
-  std::string renamed;
-  for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {
-    for (const std::string& name : taken->changed()) {
-      renamed.append(renamed.empty() ? "" : ", ").append(name);
+  const auto tell_of = [&](std::string_view rule, const std::vector<std::string>& (InpSetNames::*names)() const) {
+    std::string all;
+    for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {
+      for (const std::string& name : (taken->*names)()) {
+        all.append(all.empty() ? "" : ", ").append(name);
+      }
     }
-  }
-  if (!renamed.empty()) {
-    sentences.push_back("Abaqus holds names of letters, digits, _ and - only: changed are " + renamed);
-  }
+    if (!all.empty()) {
+      sentences.push_back("Abaqus holds " + std::string(rule) + ": changed are " + all);
+    }
+  };
+  tell_of("names of up to 60 letters, digits, _ and -, a letter first", &InpSetNames::rewritten);
+  tell_of("each name once, whatever the case of its letters", &InpSetNames::repeated);
   return sentences;
 }
 

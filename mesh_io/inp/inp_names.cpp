@@ -28,7 +28,7 @@ std::string InpSetNames::claim(std::string_view wanted) {
   // What was added to the key to make it another one is added to the name.
   std::string name = allowed + taken_.claim(key).substr(key.size());
   if (name != wanted) {
-    changed_.push_back(std::string(wanted) + " (as " + name + ")");
+    (allowed == wanted ? repeated_ : rewritten_).push_back(std::string(wanted) + " (as " + name + ")");
   }
   return name;
 }

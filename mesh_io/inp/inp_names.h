@@ -15,12 +15,16 @@ class InpSetNames {
   /// A name like `wanted`. Remembers which were changed.
   std::string claim(std::string_view wanted);
 
-  /// "copper part (as copper_part)": names that are not as they were wanted.
-  const std::vector<std::string>& changed() const { return changed_; }
+  /// "copper part (as copper_part)": names that have what is not allowed.
+  const std::vector<std::string>& rewritten() const { return rewritten_; }
+
+  /// "all (as all_1)": names that are allowed and that another set had.
+  const std::vector<std::string>& repeated() const { return repeated_; }
 
  private:
   FreeNames taken_;
-  std::vector<std::string> changed_;
+  std::vector<std::string> rewritten_;
+  std::vector<std::string> repeated_;
 };
 
 }  // namespace trismooth

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -45,31 +47,63 @@ std::vector<std::size_t> sets_of_keyword_lines(const InpModel& model) {
   return regions;
 }
 
-/// Sets that share no element with another, but for those of all elements.
+/// The members of the set, ascending, each once.
+std::vector<std::int32_t> distinct_members(const InpSet& set) {
+  std::vector<std::int32_t> members = set.members;
+  std::ranges::sort(members);
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  return members;
+}
+
+/// The smaller sets last, and of those alike the first.
+std::vector<std::size_t> by_falling_size(const InpModel& model, const std::vector<std::size_t>& sets) {
+  std::vector<std::pair<std::size_t, std::size_t>> sizes;
+  for (const std::size_t set : sets) {
+    sizes.emplace_back(distinct_members(model.element_sets[set]).size(), set);
+  }
+  std::ranges::sort(sizes, std::greater());
+  std::vector<std::size_t> falling;
+  std::ranges::transform(sizes, std::back_inserter(falling), [](const auto& size) { return size.second; });
+  return falling;
+}
+
+/// Sets of which each two share no element or one is part of the other, but for those of all elements. Programs write
+/// `all` beside the regions that it is made of.
 std::vector<std::size_t> separate_sets(const InpModel& model) {
   const std::size_t cells = model.element_count();
-  std::vector<std::int32_t> last(cells, -1);  // the set that a cell was met in last
-  std::vector<bool> is_shared(cells, false);
   std::vector<std::size_t> candidates;
   for (std::size_t set = 0; set < model.element_sets.size(); ++set) {
-    std::vector<std::int32_t> sorted = model.element_sets[set].members;
-    std::ranges::sort(sorted);
-    const auto distinct = static_cast<std::size_t>(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+    const std::size_t distinct = distinct_members(model.element_sets[set]).size();
     if (distinct > 0 && (distinct < cells || model.element_sets.size() == 1)) {
       candidates.push_back(set);
     }
   }
-  for (const std::size_t set : candidates) {
-    for (const std::int32_t member : model.element_sets[set].members) {
-      const auto cell = static_cast<std::size_t>(member);
-      is_shared[cell] = is_shared[cell] || (last[cell] >= 0 && last[cell] != static_cast<std::int32_t>(set));
-      last[cell] = static_cast<std::int32_t>(set);
+  constexpr auto nothing = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> largest(cells, nothing);            // of the sets so far that have the cell
+  std::vector<std::size_t> counts(model.element_sets.size());  // of the cells whose largest set it is
+  std::vector<bool> is_cut(model.element_sets.size());
+  const std::vector<std::size_t> falling = by_falling_size(model, candidates);
+  for (auto set = falling.rbegin(); set != falling.rend(); ++set) {
+    const std::vector<std::int32_t> members = distinct_members(model.element_sets[*set]);
+    std::vector<std::size_t> met;
+    for (const std::int32_t member : members) {
+      std::size_t& other = largest[static_cast<std::size_t>(member)];
+      if (other != nothing) {
+        met.push_back(other);
+        --counts[other];
+      }
+      other = *set;
     }
+    for (const std::size_t other : met) {
+      // Some of its cells are outside of the larger one.
+      if (counts[other] > 0) {
+        is_cut[other] = true;
+        is_cut[*set] = true;
+      }
+    }
+    counts[*set] = members.size();
   }
-  std::erase_if(candidates, [&](std::size_t set) {
-    return std::ranges::any_of(model.element_sets[set].members,
-                               [&](std::int32_t cell) { return is_shared[static_cast<std::size_t>(cell)]; });
-  });
+  std::erase_if(candidates, [&is_cut](std::size_t set) { return is_cut[set]; });
   return candidates;
 }
 
@@ -96,11 +130,20 @@ void add_inp_sets(const InpModel& model, MeshDocument& document) {
   std::vector<bool> is_region(model.element_sets.size(), false);
   if (!regions.empty()) {
     std::vector<std::int32_t> values(document.cells.size(), 0);
+    std::vector<std::int32_t> values_of_sets(model.element_sets.size());
     for (std::size_t region = 0; region < regions.size(); ++region) {
-      is_region[regions[region]] = true;
-      for (const std::int32_t cell : model.element_sets[regions[region]].members) {
-        values[static_cast<std::size_t>(cell)] = static_cast<std::int32_t>(region) + 1;
+      values_of_sets[regions[region]] = static_cast<std::int32_t>(region) + 1;
+    }
+    // Where sets overlap, an element is of the smallest.
+    for (const std::size_t set : by_falling_size(model, regions)) {
+      for (const std::int32_t cell : model.element_sets[set].members) {
+        values[static_cast<std::size_t>(cell)] = values_of_sets[set];
       }
+    }
+    for (const std::size_t set : regions) {
+      is_region[set] = std::ranges::all_of(model.element_sets[set].members, [&](std::int32_t cell) {
+        return values[static_cast<std::size_t>(cell)] == values_of_sets[set];
+      });
     }
     std::map<std::pair<int, std::int32_t>, bool> used;
     for (std::size_t cell = 0; cell < values.size(); ++cell) {

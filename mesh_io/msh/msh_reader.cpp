@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/document/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_data.h"
@@ -328,7 +329,7 @@ class MshReader {
       std::ranges::sort(members);
       members.erase(std::unique(members.begin(), members.end()), members.end());
       document_.cell_sets.push_back(
-          {name == value_names_.end() ? "physical " + std::to_string(group.second) : name->name, std::move(members)});
+          {name == value_names_.end() ? name_of_unnamed_group(group.second) : name->name, std::move(members)});
     }
   }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -47,7 +48,7 @@ struct WrittenGroup {
   std::string name = {};
   std::vector<std::int32_t> points = {};
   std::vector<std::int32_t> elements = {};  ///< places among those that are written
-  bool is_apart = false;                    ///< no other group that is apart has its elements
+  std::vector<std::int32_t> apart = {};     ///< of these, those that are in no other group's list of such
 };
 
 /// A name stands on a line of its own, and is read without blanks around it.
@@ -96,7 +97,7 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     const auto [place, is_new] = known.try_emplace({group.number, unv_name(group.name)}, written.size());
     of_group[i] = place->second;
     if (is_new) {
-      written.push_back({.number = group.number, .name = unv_name(group.name), .is_apart = true});
+      written.push_back({.number = group.number, .name = unv_name(group.name)});
     }
   }
   std::vector<std::int64_t> numbers;
@@ -104,6 +105,16 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
     numbers.push_back(group.number);
     if (group.number < 1 || !taken.insert(group.number).second) {
       group.number = 0;
+    }
+  }
+  // A group that a set has whole gets the cells of the set.
+  std::vector<std::optional<std::size_t>> group_of_set(document.cell_sets.size());
+  std::vector<bool> is_whole_set(groups.groups.size());
+  for (std::size_t i = 0; i < groups.groups.size(); ++i) {
+    if (const std::int32_t set = groups.groups[i].whole_set; set >= 0) {
+      std::optional<std::size_t>& group = group_of_set[static_cast<std::size_t>(set)];
+      group = group.value_or(of_group[i]);
+      is_whole_set[i] = *group == of_group[i];
     }
   }
   // Points that are cells are nodes of a group.
@@ -116,12 +127,21 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
   };
   for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
     if (groups.of_cell[cell] >= 0) {
-      add(written[of_group[static_cast<std::size_t>(groups.of_cell[cell])]], cell);
+      const auto i = static_cast<std::size_t>(groups.of_cell[cell]);
+      if (elements.places[cell] >= 0) {
+        written[of_group[i]].apart.push_back(elements.places[cell]);
+      }
+      if (!is_whole_set[i]) {
+        add(written[of_group[i]], cell);
+      }
     }
   }
-  for (const NamedSet& set : document.cell_sets) {
-    WrittenGroup& group = written.emplace_back();
-    group.name = unv_name(set.name);
+  for (std::size_t i = 0; i < document.cell_sets.size(); ++i) {
+    const NamedSet& set = document.cell_sets[i];
+    if (!group_of_set[i]) {
+      written.push_back({.name = unv_name(set.name)});
+    }
+    WrittenGroup& group = group_of_set[i] ? written[*group_of_set[i]] : written.back();
     for (const std::int32_t cell : set.members) {
       add(group, static_cast<std::size_t>(cell));
     }
@@ -150,7 +170,7 @@ std::vector<WrittenGroup> written_groups(const MeshDocument& document, const Cel
 std::vector<std::int64_t> written_properties(const std::vector<WrittenGroup>& groups, std::size_t elements) {
   std::vector<std::int64_t> properties(elements);
   for (const WrittenGroup& group : groups) {
-    for (const std::int32_t element : group.is_apart ? group.elements : std::vector<std::int32_t>()) {
+    for (const std::int32_t element : group.apart) {
       properties[static_cast<std::size_t>(element)] = group.number;
     }
   }

@@ -199,6 +199,22 @@ TEST_CASE("sections say what the regions are, before names of elements, before s
   CHECK(values_of<std::int32_t>(shells.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{2, 1});
 }
 
+TEST_CASE("a set that is made of others takes no region away, and one that cuts others is none") {
+  const std::string mesh =
+      "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,2,0\n*ELEMENT, TYPE=CPS3\n1,1,2,3\n2,1,3,4\n3,2,5,3\n"
+      "*ELEMENT, TYPE=T3D2\n4,1,2\n5,2,5\n";
+  const MeshDocument nested = inp.read(mesh +
+                                       "*ELSET, ELSET=faces\n1,2,3\n*ELSET, ELSET=left\n1\n*ELSET, ELSET=middle\n"
+                                       "3\n*ELSET, ELSET=pair\n1,2\n");
+  CHECK(values_of<std::int32_t>(nested.cell_arrays, "abaqus:elset") == std::vector<std::int32_t>{2, 4, 3, 0, 0});
+  CHECK(region_names(nested) == std::vector<ValueName>{{2, 2, "left"}, {3, 2, "middle"}, {4, 2, "pair"}});
+  CHECK(nested.cell_sets == std::vector<NamedSet>{{"faces", {0, 1, 2}}, {"pair", {0, 1}}});
+  const MeshDocument cut =
+      inp.read(mesh + "*ELSET, ELSET=a\n1,2\n*ELSET, ELSET=b\n2,3\n*ELSET, ELSET=line\n4,4\n*ELSET, ELSET=c\n3,4\n");
+  CHECK(region_names(cut) == std::vector<ValueName>{{1, 1, "line"}});
+  CHECK(cut.cell_sets.size() == 3);
+}
+
 TEST_CASE("nodes that conditions, loads and constraints name by number are sets, which hold them") {
   const MeshDocument document = inp.read(square +
                                          "*BOUNDARY\n1, 1, 2\nNall, 3\n*CLOAD\n30, 2, -5.\n*EQUATION\n2\n4,1,1.,2,"
@@ -352,10 +368,36 @@ TEST_CASE("a mesh of another format keeps its groups, their names and its sets")
         std::vector<std::string>{
             "Abaqus holds lines, faces and solids only: 1 cell of type polygon is not written",
             "Abaqus holds no cell arrays: t is not written",
-            "Abaqus holds names of letters, digits, _ and - only: changed are copper part (as copper_part), Wall (as "
-            "Wall_1)"});
+            "Abaqus holds names of up to 60 letters, digits, _ and -, a letter first: changed are copper part (as "
+            "copper_part)",
+            "Abaqus holds each name once, whatever the case of its letters: changed are Wall (as Wall_1)"});
   const MeshDocument back = inp.read(inp.written(document));
   CHECK(region_names(back) == std::vector<ValueName>{{1, 1, "wall"}, {2, 2, "copper_part"}, {3, 2, "Wall_1"}});
+}
+
+TEST_CASE("groups that overlap are written whole, each once and under its own name") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(cell_type::vertex, std::vector<std::int32_t>{2});
+  document.cells.append(cell_type::vertex, std::vector<std::int32_t>{3});
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 2});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
+  // The last triangle is in `all` first, and in 7, which has no name, and `air` as well; so are the vertices.
+  document.cell_arrays.push_back(trismooth::make_data_array<std::int32_t>("gmsh:physical", 1, {4, 3, 2, 1, 2}));
+  auto description = std::make_shared<trismooth::ArrayDescription>();
+  description->value_names = {{3, 0, "ends"}, {4, 0, "end"}, {2, 1, "all"}, {1, 2, "steel"}, {2, 2, "all"}};
+  document.cell_arrays[0].description = description;
+  document.cell_sets = {{"ends", {0, 1}}, {"all", {3, 4}}, {"air", {4}}};
+  CHECK(says(inp.written(document),
+             "*ELSET, ELSET=all\n3\n*ELSET, ELSET=steel\n4\n*ELSET, ELSET=all_1\n4, 5\n*ELSET, ELSET=air\n5\n"
+             "*NSET, NSET=end\n3\n*NSET, NSET=ends\n3, 4\n"));
+  // A line and faces share a name.
+  CHECK(what_is_lost(document, FileFormat::inp) ==
+        std::vector<std::string>{
+            "Abaqus holds each name once, whatever the case of its letters: changed are all (as all_1)"});
+  CHECK(region_names(inp.read(inp.written(document))) ==
+        std::vector<ValueName>{{1, 1, "all"}, {2, 2, "steel"}, {4, 2, "air"}});
 }
 
 TEST_CASE("input files are told from others by their first keyword") {

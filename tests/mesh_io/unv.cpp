@@ -302,6 +302,23 @@ TEST_CASE("UNV: a mesh from elsewhere is written with its groups and sets under 
   CHECK(unv.read(unv.written(MeshDocument{})).points.empty());
 }
 
+TEST_CASE("UNV: groups that overlap are written whole, each once and under its own number") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 2});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
+  document.cell_arrays = {make_data_array<std::int32_t>("gmsh:physical", 1, {1, 2})};
+  auto description = std::make_shared<trismooth::ArrayDescription>();
+  description->value_names = {{1, 2, "steel"}, {2, 2, "all"}};
+  document.cell_arrays[0].description = description;
+  document.cell_sets = {{"all", {0, 1}}, {"air", {1}}};
+  const MeshDocument again = unv.read(unv.written(document));
+  CHECK(values_of<std::int64_t>(again.cell_arrays, "unv:group") == std::vector<std::int64_t>{1, 3});
+  CHECK(again.cell_arrays.at(0).description->value_names ==
+        std::vector<trismooth::ValueName>{{1, 2, "steel"}, {3, 2, "air"}});
+  CHECK(again.cell_sets == std::vector<trismooth::NamedSet>{{"all", {0, 1}}});
+}
+
 TEST_CASE("UNV: what is wrong is said with its line") {
   struct Fault {
     std::string text;
