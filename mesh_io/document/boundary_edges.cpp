@@ -21,7 +21,10 @@ void for_edges(const CellList& cells, const Visit& visit) {
       visit(vertices[0], vertices[1], true);
     } else if (has_edges(cells.types[cell])) {
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        visit(vertices[i], vertices[(i + 1) % vertices.size()], false);
+        // A quadrilateral may repeat a corner: there it has no edge.
+        if (const std::int32_t next = vertices[(i + 1) % vertices.size()]; next != vertices[i]) {
+          visit(vertices[i], next, false);
+        }
       }
     }
   }

@@ -43,6 +43,13 @@ TEST_CASE("boundary edges: lines take theirs, in either direction; edges of thre
   CHECK(find_boundary_edges(cells) == Edges{{2, 0}, {2, 3}, {3, 1}, {2, 4}, {4, 1}});
 }
 
+TEST_CASE("boundary edges: none is from a vertex to itself where a quad repeats a corner") {
+  CellList cells;
+  add(cells, type::quad, {0, 1, 2, 2});
+  add(cells, type::quad, {3, 0, 2, 3});
+  CHECK(find_boundary_edges(cells) == Edges{{0, 1}, {1, 2}, {3, 0}, {2, 3}});
+}
+
 TEST_CASE("boundary edges: other cells have none") {
   CellList cells;
   add(cells, type::polygon, {0, 1, 2, 3, 4});
