@@ -13,6 +13,7 @@
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/collapsed_quads.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/straight_cells.h"
@@ -113,6 +114,18 @@ bool holds_cells_of_any_order(FileFormat format) {
   return format == FileFormat::vtk || format == FileFormat::vtu;
 }
 
+bool holds_quads(FileFormat format) {
+  switch (format) {
+    case FileFormat::stl:
+    case FileFormat::adcirc:
+    case FileFormat::freefem:
+    case FileFormat::triangle:
+      return false;
+    default:
+      return true;
+  }
+}
+
 bool holds_curved_cells(FileFormat format) {
   switch (format) {
     case FileFormat::off:
@@ -152,8 +165,15 @@ std::string describe_straight(const MeshDocument& document, const MeshDocument& 
          (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
 }
 
-/// The document as the target can hold it, where it cannot hold strips, curved cells or cells of any order that the
-/// document has; what changes thereby is added to `losses`.
+/// What a format that holds triangles only gets in place of that many quadrilaterals that repeat a corner.
+std::string describe_collapsed(std::size_t quads, FileFormat target) {
+  return std::string(title_of(target)) + " holds triangles only: " + std::to_string(quads) +
+         (quads == 1 ? " quadrilateral that repeats a corner is written as the triangle that it is"
+                     : " quadrilaterals that repeat a corner are written as the triangles that they are");
+}
+
+/// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals or cells of any
+/// order that the document has; what changes thereby is added to `losses`.
 std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat target, std::vector<std::string>& losses) {
   std::optional<MeshDocument> changed;
   const auto now = [&]() -> const MeshDocument& { return changed ? *changed : document; };
@@ -164,6 +184,10 @@ std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat tar
     MeshDocument expanded = with_strips_as_triangles(now());
     losses.push_back(describe_strips(now(), expanded, target));
     changed = std::move(expanded);
+  }
+  if (const std::size_t quads = holds_quads(target) ? 0 : count_collapsed_quads(now()); quads > 0) {
+    losses.push_back(describe_collapsed(quads, target));
+    changed = with_collapsed_quads_as_triangles(now());
   }
   if (!holds_curved_cells(target) && has_curved_cells(now())) {
     MeshDocument straight = with_straight_cells(now());

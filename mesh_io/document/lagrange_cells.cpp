@@ -4,7 +4,7 @@ namespace trismooth {
 
 bool has_cells_of_any_order(const MeshDocument& document) {
   for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
-    if (type_of_fixed_order(document.cells.types[cell], document.cells[cell].size()) != document.cells.types[cell]) {
+    if (ordinary_type(document.cells.types[cell], document.cells[cell].size()) != document.cells.types[cell]) {
       return true;
     }
   }
@@ -15,7 +15,7 @@ MeshDocument with_fixed_orders(const MeshDocument& document) {
   MeshDocument fixed = document;
   fixed.original = nullptr;
   for (std::size_t cell = 0; cell < fixed.cells.size(); ++cell) {
-    fixed.cells.types[cell] = type_of_fixed_order(fixed.cells.types[cell], fixed.cells[cell].size());
+    fixed.cells.types[cell] = ordinary_type(fixed.cells.types[cell], fixed.cells[cell].size());
   }
   return fixed;
 }

@@ -22,7 +22,13 @@ constexpr std::uint8_t type_of_fixed_order(std::uint8_t type, std::size_t vertic
   }
 }
 
-/// True where that is another one for any cell.
+/// The same, and polygons of three and four vertices are triangles and quadrilaterals.
+constexpr std::uint8_t ordinary_type(std::uint8_t type, std::size_t vertices) {
+  const bool is_small = type == cell_type::polygon && (vertices == 3 || vertices == 4);
+  return is_small ? cell_type::of_face(vertices) : type_of_fixed_order(type, vertices);
+}
+
+/// True where ordinary_type() is another one for any cell.
 bool has_cells_of_any_order(const MeshDocument& document);
 
 /// The document with those types; without an original. For formats that have no cells of any order. Linear.

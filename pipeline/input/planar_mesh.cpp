@@ -9,6 +9,7 @@
 
 #include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/mesh_io/document/collapsed_quads.h"
 #include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/strip_triangles.h"
 #include "trismooth/mesh_io/errors.h"
@@ -20,8 +21,7 @@ namespace {
 constexpr std::int64_t cell_grain = 8192;
 
 bool is_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  return vertices.size() == 3 &&
-         (type == cell_type::polygon || type_of_fixed_order(type, vertices.size()) == cell_type::triangle);
+  return vertices.size() == 3 && ordinary_type(type, vertices.size()) == cell_type::triangle;
 }
 
 bool is_quadratic(std::uint8_t type, std::span<const std::int32_t> vertices) {
@@ -35,44 +35,6 @@ bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {
 
 bool repeats_a_vertex(std::span<const std::int32_t> triangle) {
   return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
-}
-
-/// Of four corners: that which is the next one as well, where the other three differ.
-std::optional<std::size_t> repeated_corner(std::span<const std::int32_t> quad) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::array three{quad[(i + 1) % 4], quad[(i + 2) % 4], quad[(i + 3) % 4]};
-    if (quad[i] == three[0]) {
-      return repeats_a_vertex(three) ? std::nullopt : std::optional(i);
-    }
-  }
-  return std::nullopt;
-}
-
-/// The triangle of a quadrilateral of four or eight nodes that repeats a corner.
-std::optional<CellTriangle> triangle_of_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  const bool is_straight = vertices.size() == 4 && (type == cell_type::quad || type == cell_type::polygon);
-  if (!is_straight && !(vertices.size() == 8 && type == cell_type::quadratic_quad)) {
-    return std::nullopt;
-  }
-  const std::optional<std::size_t> repeated = repeated_corner(vertices);
-  if (!repeated) {
-    return std::nullopt;
-  }
-  // One of the two is left out, and with it the side between them, whose middle is there as well.
-  if (!is_straight && vertices[4 + *repeated] != vertices[*repeated]) {
-    return std::nullopt;
-  }
-  CellTriangle triangle{{}, std::nullopt, true};
-  std::array<std::int32_t, 3> middles{};
-  const std::size_t left_out = std::min<std::size_t>(*repeated + 1, 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    triangle.corners[i] = vertices[i < left_out ? i : i + 1];
-    middles[i] = is_straight ? -1 : vertices[4 + (i < *repeated ? i : i + 1)];
-  }
-  if (!is_straight) {
-    triangle.middles = middles;
-  }
-  return triangle;
 }
 
 std::string counted(std::int64_t count, const std::string& one, const std::string& several) {
@@ -224,7 +186,8 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
 std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices) {
   const bool quadratic = is_quadratic(type, vertices);
   if (!quadratic && !is_triangle(type, vertices)) {
-    return triangle_of_quad(type, vertices);
+    const auto quad = triangle_of_quad(type, vertices);
+    return quad ? std::optional(CellTriangle{quad->corners, quad->middles, true}) : std::nullopt;
   }
   if (repeats_a_vertex(vertices)) {
     return std::nullopt;

@@ -215,7 +215,7 @@ TEST_CASE("Medit: a mesh from elsewhere is written with its groups as references
 TEST_CASE("Medit: z is written where it is not 0, and cells that Medit has not are named") {
   MeshDocument document = two_triangles_and_a_line();
   document.points[2] = 0.5;
-  document.cells.append(cell_type::polygon, std::vector<std::int32_t>{0, 1, 2, 3});
+  document.cells.append(cell_type::polygon, std::vector<std::int32_t>{0, 1, 2, 3, 1});
   CHECK(bytes_written_to(document, "out.mesh") ==
         "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0.5 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\nEdges\n1\n1 2 0\n"
         "Triangles\n2\n1 2 3 0\n1 3 4 0\nEnd\n");

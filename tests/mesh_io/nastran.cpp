@@ -442,7 +442,7 @@ TEST_CASE("Nastran: a mesh of another format is written in large field, with its
   document.cells.append(cell_type::vertex, std::vector<std::int32_t>{0});
   document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
   document.cells.append(cell_type::line, std::vector<std::int32_t>{1, 2});
-  document.cells.append(cell_type::polygon, std::vector<std::int32_t>{0, 1, 2});
+  document.cells.append(cell_type::polygon, std::vector<std::int32_t>{0, 1, 2, 1, 0});
   auto groups = make_data_array("gmsh:physical", 1, std::vector<std::int32_t>{4, 1, 4, 0, 4});
   trismooth::ArrayDescription names;
   names.value_names = {{4, 2, "sand and clay"}, {4, 1, "a \"wall\""}};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/collapsed_quads.h"
 #include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
@@ -131,6 +132,54 @@ TEST_CASE("VTK's Lagrange cells of order 1 and 2 are written to other formats as
       CHECK(text.read(text.written(lagrange)).cells.types == lagrange.cells.types);
     }
   }
+}
+
+TEST_CASE("formats that hold triangles only get those that quadrilaterals and polygons are, and a note says so") {
+  MeshDocument triangles;
+  triangles.points = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 0, 0, 2, 1, 0, 1, 1, 0};
+  MeshDocument quads;
+  quads.points = triangles.points;
+  MeshDocument polygons = quads;
+  const auto add = [](MeshDocument& document, std::uint8_t type, const std::vector<std::int32_t>& vertices) {
+    document.cells.append(type, vertices);
+  };
+  for (const std::vector<std::int32_t>& corners : {std::vector{0, 4, 6}, std::vector{4, 1, 5}, std::vector{6, 2, 3}}) {
+    add(triangles, cell_type::triangle, corners);
+    add(polygons, cell_type::polygon, corners);
+  }
+  add(quads, cell_type::quad, {0, 4, 6, 6});
+  add(quads, cell_type::polygon, {4, 1, 1, 5});
+  add(quads, cell_type::quad, {6, 2, 3, 6});
+  for (const FileFormat format :
+       {FileFormat::stl, FileFormat::adcirc, FileFormat::freefem, FileFormat::su2, FileFormat::inp, FileFormat::msh}) {
+    CAPTURE(title_of(format));
+    triangles.format = quads.format = polygons.format = format;
+    const TextFormat text{std::string(extensions_of(format).front())};
+    CHECK(text.written(polygons) == text.written(triangles));
+    CHECK(what_is_lost(polygons, format) == what_is_lost(triangles, format));
+    if (format == FileFormat::su2 || format == FileFormat::inp || format == FileFormat::msh) {
+      const MeshDocument read = text.read(text.written(quads));
+      CHECK(std::ranges::count(read.cells.types, cell_type::quad) == 3);
+      continue;
+    }
+    CHECK(text.written(quads) == text.written(triangles));
+    CHECK(
+        what_is_lost(quads, format).front() ==
+        std::string(title_of(format)) +
+            " holds triangles only: 3 quadrilaterals that repeat a corner are written as the triangles that they are");
+  }
+}
+
+TEST_CASE(
+    "a quadrilateral of eight nodes that repeats a corner is a triangle of six where these are all that is held") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 2, 0, 0, 0, 2, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(cell_type::quadratic_quad, std::vector<std::int32_t>{0, 1, 2, 2, 3, 4, 2, 5});
+  const trismooth::CellList cells = with_collapsed_quads_as_triangles(document).cells;
+  CHECK(cells.types == std::vector<std::uint8_t>{cell_type::quadratic_triangle});
+  CHECK(cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5});
+  const TextFormat stl{".stl"};
+  CHECK(stl.read(stl.written(document)).cells.types == std::vector<std::uint8_t>{cell_type::triangle});
 }
 
 TEST_CASE("Lagrange cells of higher order are no others") {

@@ -109,7 +109,7 @@ TEST_CASE("SU2 output: z is never dropped without a word") {
 TEST_CASE("SU2 output: other cells, arrays and sets are named as lost") {
   MeshDocument document = marked_square();
   document.cells.append(type::vertex, std::vector{1});
-  document.cells.append(type::polygon, std::vector{0, 1, 2, 3});
+  document.cells.append(type::polygon, std::vector{0, 1, 2, 3, 1});
   document.point_arrays.push_back(trismooth::make_data_array("depth", 1, std::vector<double>(4)));
   document.point_sets.push_back({"inlet", {0, 1}});
   CHECK(what_is_lost(document, FileFormat::su2) ==
