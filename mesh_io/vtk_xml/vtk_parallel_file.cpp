@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -36,15 +37,15 @@ FileFormat piece_format_of(const std::filesystem::path& path, const XmlElement& 
   if (root.name != "VTKFile") {
     throw ReadError(path, root.line, "expected <VTKFile>, got <" + root.name + ">: no file of VTK's XML formats");
   }
-  const std::string* const type = root.attribute("type");
-  if (type != nullptr && *type == "PUnstructuredGrid") {
+  const std::optional<std::string_view> type = root.word("type");
+  if (type == "PUnstructuredGrid") {
     return FileFormat::vtu;
   }
-  if (type != nullptr && *type == "PPolyData") {
+  if (type == "PPolyData") {
     return FileFormat::vtp;
   }
   throw ReadError(path, root.line,
-                  "holds " + (type == nullptr ? std::string("data of no type") : "'" + *type + "'") +
+                  "holds " + (type ? "'" + std::string(*type) + "'" : "data of no type") +
                       "; meshes in pieces are PUnstructuredGrid and PPolyData");
 }
 

@@ -114,6 +114,16 @@ std::vector<std::string> unknown_vtk_xml_attributes(const XmlElement& root) {
   return sentences;
 }
 
+XmlAttributes vtk_file_attributes(const XmlElement& root) {
+  XmlAttributes attributes = root.attributes;
+  for (auto& [name, value] : attributes) {
+    if (is_one_of(of_file, name)) {
+      value = std::string(root.word(name).value_or(value));
+    }
+  }
+  return attributes;
+}
+
 std::string unknown_vtk_file_attributes(const XmlElement& root) {
   std::string names;
   for (const auto& [attribute, value] : root.attributes) {

@@ -13,6 +13,10 @@ namespace trismooth {
 /// Complexity: n log n in the number of attributes.
 std::vector<std::string> unknown_vtk_xml_attributes(const XmlElement& root);
 
+/// The root's attributes as a new file gets them: values of those that VTK knows without white space around them, which
+/// it does not take everywhere.
+XmlAttributes vtk_file_attributes(const XmlElement& root);
+
 /// The names of the root's attributes that VTK does not know, quoted and joined by commas; empty where there is none.
 std::string unknown_vtk_file_attributes(const XmlElement& root);
 

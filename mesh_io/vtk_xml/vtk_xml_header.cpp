@@ -16,8 +16,8 @@ namespace {
 template <class Value, std::size_t Count>
 Value choose(const std::filesystem::path& path, const XmlElement& element, std::string_view attribute, Value fallback,
              const std::array<std::pair<std::string_view, Value>, Count>& choices) {
-  const std::string* const text = element.attribute(attribute);
-  if (text == nullptr) {
+  const std::optional<std::string_view> text = element.word(attribute);
+  if (!text) {
     return fallback;
   }
   std::string known;
@@ -33,8 +33,8 @@ Value choose(const std::filesystem::path& path, const XmlElement& element, std::
 }
 
 void check_version(const std::filesystem::path& path, const XmlElement& root) {
-  const std::string* const version = root.attribute("version");
-  if (version != nullptr && !version->starts_with("0.") && !version->starts_with("1.") && !version->starts_with("2.")) {
+  const std::optional<std::string_view> version = root.word("version");
+  if (version && !version->starts_with("0.") && !version->starts_with("1.") && !version->starts_with("2.")) {
     throw ReadError(path, root.line,
                     "file version " + trismooth::quoted(*version) + " is not known; known are 0.1 to 2.x");
   }
@@ -101,11 +101,11 @@ VtkXmlHeader read_vtk_xml_header(const std::filesystem::path& path, std::string_
   if (root.name != "VTKFile") {
     throw ReadError(path, root.line, "expected <VTKFile>, got <" + root.name + ">");
   }
-  const std::string* const type = root.attribute("type");
-  if (type == nullptr || *type != to_string(kind)) {
+  const std::optional<std::string_view> type = root.word("type");
+  if (type != to_string(kind)) {
     throw ReadError(path, root.line,
                     "expected a VTKFile of type " + std::string(to_string(kind)) + ", got " +
-                        (type == nullptr ? std::string("none") : trismooth::quoted(*type)));
+                        (!type ? std::string("none") : trismooth::quoted(*type)));
   }
   check_version(path, root);
 

@@ -172,8 +172,7 @@ VtkXmlArrayType vtk_xml_array_type_of(const std::filesystem::path& path, const X
     throw ReadError(path, array.line,
                     "array " + trismooth::quoted(result.name) + " holds time steps; give a file of one mesh");
   }
-  const std::string* const type = array.attribute("type");
-  const std::string_view type_name = type == nullptr ? std::string_view() : std::string_view(*type);
+  const std::string_view type_name = array.word("type").value_or("");
   const auto* const found = std::ranges::find(number_types, type_name, &std::pair<std::string_view, ScalarType>::first);
   if (found != number_types.end()) {
     result.type = found->second;
@@ -192,8 +191,7 @@ VtkXmlArrayType vtk_xml_array_type_of(const std::filesystem::path& path, const X
         path, array.line,
         "array " + trismooth::quoted(result.name) + " has " + std::to_string(result.components) + " components");
   }
-  const std::string* const id_type = array.attribute("IdType");
-  result.ids = id_type != nullptr && *id_type == "1" && result.type == int64;
+  result.ids = array.word("IdType") == "1" && result.type == int64;
   return result;
 }
 

@@ -133,7 +133,7 @@ class Reader {
         decoder_(path, bytes, header_, workers, file_.losses) {
     file_.kind = kind;
     file_.encoding = header_.encoding;
-    file_.attributes = head_.root.attributes;
+    file_.attributes = vtk_file_attributes(head_.root);
   }
 
   VtkXmlFile read();

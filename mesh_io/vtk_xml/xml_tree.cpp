@@ -116,6 +116,11 @@ const std::string* XmlElement::attribute(std::string_view attribute_name) const 
   return found == attributes.end() ? nullptr : &found->second;
 }
 
+std::optional<std::string_view> XmlElement::word(std::string_view attribute_name) const {
+  const std::string* const value = attribute(attribute_name);
+  return value == nullptr ? std::nullopt : std::optional(trimmed(*value, " \t\r\n"));
+}
+
 const XmlElement* XmlElement::child(std::string_view child_name) const {
   const auto found = std::ranges::find(children, child_name, &XmlElement::name);
   return found == children.end() ? nullptr : &*found;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,9 @@ struct XmlElement {
 
   /// The attribute's value, or nullptr.
   const std::string* attribute(std::string_view attribute_name) const;
+  /// Its value without white space around it: a word of the format, which writers in Fortran pad. Valid as long as
+  /// that.
+  std::optional<std::string_view> word(std::string_view attribute_name) const;
   /// The first child of that name, or nullptr.
   const XmlElement* child(std::string_view child_name) const;
 };

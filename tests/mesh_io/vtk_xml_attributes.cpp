@@ -84,6 +84,24 @@ TEST_CASE("numbers in attributes may be padded with blanks, as writers in Fortra
   CHECK(document.point_arrays.size() == plain.point_arrays.size());
 }
 
+TEST_CASE("words in attributes may be padded with blanks, and a file that others can read is written") {
+  const std::string text = tags::file(R"(type="UnstructuredGrid" version="0.1" byte_order="LittleEndian")", "", "", "");
+  std::string padded = text;
+  for (const std::string word : {"UnstructuredGrid", "0.1", "LittleEndian", "ascii", "Float64"}) {
+    padded = replace_all(padded, "=\"" + word + "\"", "=\"  " + word + "\n\"");
+  }
+  REQUIRE(padded != text);
+  MeshDocument document = tags::read(padded);
+  CHECK(document.points == tags::read(text).points);
+  const TemporaryPath output(".vtu");
+  for (const double x : {document.points[12], 0.55}) {
+    document.points[12] = x;
+    trismooth::write_mesh(output.path(), document);
+    CHECK(trismooth::read_mesh(output.path()).points == document.points);
+    CHECK(vtk_xml_samples::read_with_vtk(output.path(), trismooth::VtkXmlKind::unstructured_grid)->GetPoint(4)[0] == x);
+  }
+}
+
 TEST_CASE("attributes that VTK does not know are told with their lines, once each") {
   const MeshDocument document = tags::read(tags::file(R"(type="UnstructuredGrid" creator="me")", " units=\"mm\"",
                                                       " units=\"K\" RangeMin=\"0\" ComponentName0=\"t\"", " x=\"\""));
