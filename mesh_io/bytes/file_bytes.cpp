@@ -60,7 +60,7 @@ void read_rest(const InputFile& file, MemoryBlock& block) {
 FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& workers) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    throw ReadError(path, "is a folder, not a mesh file");
+    throw ReadError(path, "is a folder, not a file");
   }
   const InputFile file(path);
   try {

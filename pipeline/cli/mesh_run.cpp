@@ -380,6 +380,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     outputs.place();
   }
   if (verbosity != Verbosity::quiet) {
+    if (const auto& written = settings.pipeline.written(); written && is_standard_stream(*written)) {
+      environment.err << labelled_line("written:", shown_output(*written).string());
+    }
     print_notes(result, verbosity, environment.err);
   }
   if (verbosity == Verbosity::verbose) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -13,9 +14,17 @@
 
 namespace trismooth {
 
+namespace {
+
+TextScanner scanner_of(std::string_view bytes, const std::filesystem::path& path) {
+  return {bytes, path, TextScanner::Comments::hash, bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0};
+}
+
+}  // namespace
+
 std::vector<std::int64_t> read_vertex_numbers(const std::filesystem::path& path, std::int64_t vertex_count) {
   const FileBytes bytes = read_file_bytes(path);
-  TextScanner scanner(bytes, path, TextScanner::Comments::hash);
+  TextScanner scanner = scanner_of(bytes, path);
   std::vector<std::int64_t> ids;
   while (!scanner.at_end()) {
     if (vertex_count == 0) {
@@ -84,7 +93,7 @@ std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> label
 std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document) {
   const LabelledPoints points(document, "'--fixed-labels'", "--fixed-ids");
   const FileBytes bytes = read_file_bytes(path);
-  TextScanner scanner(bytes, path, TextScanner::Comments::hash);
+  TextScanner scanner = scanner_of(bytes, path);
   std::vector<std::int32_t> ids;
   while (!scanner.at_end()) {
     const std::int64_t label = scanner.next_integer("the label of a vertex", std::numeric_limits<std::int64_t>::min(),

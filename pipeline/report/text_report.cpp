@@ -343,7 +343,8 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += fmt::format("{} regions: --verbose shows the worst of them, a report has them all\n",
                         result.region_names.size());
   }
-  if (const auto& written = options.written()) {
+  // What goes to standard output is written behind this text.
+  if (const auto& written = options.written(); written && !is_standard_stream(*written)) {
     text += labelled_line("written:", shown_output(*written).string());
   }
   return text;

@@ -32,6 +32,8 @@ std::string failure_of(const std::string& text, std::int64_t vertex_count = 10) 
 TEST_CASE("vertex numbers stand between any white space and comments, in any order and as often as they like") {
   CHECK(read("3 1\t4\r\n1\n\n  5\r9") == Ids{3, 1, 4, 1, 5, 9});
   CHECK(read("# the hole's rim\n0 # its lowest\n#1\n 2#3\n4") == Ids{0, 2, 4});
+  CHECK(read("\xEF\xBB\xBF"
+             "3 1\n") == Ids{3, 1});
   CHECK(read("").empty());
   CHECK(read(" \n# nothing\n").empty());
   CHECK(read("007\n") == Ids{7});
