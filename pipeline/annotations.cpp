@@ -94,16 +94,22 @@ DataArray displacement_annotation(std::span<const double> before, std::span<cons
   return make_data_array(annotation_name("displacement"), 3, std::move(displacements));
 }
 
-std::vector<std::string> drop_annotations(MeshDocument& document) {
+std::vector<std::string> annotations_in(const MeshDocument& document) {
   std::vector<std::string> names;
-  for (std::vector<DataArray>* const arrays : {&document.cell_arrays, &document.point_arrays}) {
-    std::erase_if(*arrays, [&names](const DataArray& array) {
-      const bool is_ours = is_annotation(array.name);
-      if (is_ours) {
+  for (const std::vector<DataArray>* const arrays : {&document.cell_arrays, &document.point_arrays}) {
+    for (const DataArray& array : *arrays) {
+      if (is_annotation(array.name)) {
         names.push_back(array.name);
       }
-      return is_ours;
-    });
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> drop_annotations(MeshDocument& document) {
+  std::vector<std::string> names = annotations_in(document);
+  for (std::vector<DataArray>* const arrays : {&document.cell_arrays, &document.point_arrays}) {
+    std::erase_if(*arrays, [](const DataArray& array) { return is_annotation(array.name); });
   }
   document.has_stale_annotations = document.has_stale_annotations || !names.empty();
   return names;

@@ -42,6 +42,9 @@ DataArray fixed_annotation(std::span<const std::uint8_t> reasons, Workers& worke
 /// From x, y, z of every vertex before and after. An array of float64, 3 a vertex.
 DataArray displacement_annotation(std::span<const double> before, std::span<const double> after, Workers& workers);
 
+/// The names of the annotations that the document has.
+std::vector<std::string> annotations_in(const MeshDocument& document);
+
 /// Takes annotations of an earlier run out of the document's arrays, and has none of them be written. Answers their
 /// names, those of cells first.
 std::vector<std::string> drop_annotations(MeshDocument& document);

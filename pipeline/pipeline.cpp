@@ -90,26 +90,29 @@ class Run {
     const std::vector<DataArray> point_arrays = document.point_arrays;
     state_.document = std::move(document);
     take_input(state_);
+    const bool annotates = annotations != nullptr && (options_.annotate || options_.annotated);
+    const bool drops = options_.output || annotates;
     try {
       check_and_smooth();
+      if (annotates) {
+        *annotations = annotations_of(state_);
+      } else if (const auto dropped = annotations_in(state_.document); drops && !dropped.empty()) {
+        state_.note(note_of_dropped_annotations(dropped));
+      }
+      complete(watch);
+      if (options_.beside.prepare) {
+        options_.beside.prepare(state_.result);
+      }
     } catch (...) {
       document = std::move(state_.document);
       document.points = points;
       document.point_arrays = point_arrays;
       throw;
     }
-    const bool annotates = annotations != nullptr && (options_.annotate || options_.annotated);
-    if (annotates) {
-      *annotations = annotations_of(state_);
-    }
-    if (options_.output || annotates) {
-      const std::vector<std::string> dropped = drop_annotations(state_.document);
-      if (!annotates && !dropped.empty()) {
-        state_.note(note_of_dropped_annotations(dropped));
-      }
+    if (drops) {
+      drop_annotations(state_.document);
     }
     document = std::move(state_.document);
-    complete(watch);
     return std::move(state_.result);
   }
 

@@ -45,10 +45,10 @@ struct EnumText<Stage> {
 struct PipelineResult;
 
 /// What belongs to the mesh that a run writes and is to be there with it or not at all, as reports. Both are called
-/// where the run writes a mesh alone, by rank 0 alone. Empty: there is nothing.
+/// where the run writes a mesh alone, by rank 0 alone; `prepare` by smooth_document() too. Empty: there is nothing.
 struct BesideOutput {
-  /// Is told the result, up to its last notes and times, when the mesh is complete under another name. Where it throws,
-  /// the run does: nothing takes its place, nothing is left.
+  /// Is told the result, up to its last notes and times, when the mesh is complete under another name, or beside the
+  /// document. Where it throws, the run does: nothing takes its place, nothing is left, the document is as it was.
   std::function<void(const PipelineResult&)> prepare;
   /// Puts in place what was prepared, right before the mesh takes its own place. Where it throws, the mesh does not.
   std::function<void()> place;

@@ -67,6 +67,9 @@ PipelineResult run_here(WholeMesh& whole, FileFormat piece_format, PipelineOptio
   if (options.output && !options.single) {
     options.output = std::filesystem::path("piece").replace_extension(extensions_of(piece_format).front());
   }
+  if (!options.single) {
+    options.beside = {};  // the pieces are written later
+  }
   PipelineResult result = options.single ? run_pipeline_on(std::move(whole.document), options)
                                          : run_on_document(whole.document, options, annotations);
   held.report(result.input);

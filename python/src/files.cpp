@@ -221,7 +221,9 @@ class FileMesh {
     return nb::steal(PyUnicode_DecodeFSDefaultAndSize(name.data(), static_cast<Py_ssize_t>(name.size())));
   }
 
-  FileOutcome smooth(const nb::dict& arguments, const nb::dict& file_arguments, const nb::object& progress) {
+  /// `accept` is called with the outcome before the mesh is changed, and may raise: it has the warnings.
+  FileOutcome smooth(const nb::dict& arguments, const nb::dict& file_arguments, const nb::object& progress,
+                     const nb::callable& accept) {
     PipelineOptions options = pipeline_options(file_arguments);
     CallOptions call = parse_options(arguments);
     if (options.geographic && call.slide.along != Slide::off) {
@@ -231,13 +233,20 @@ class FileMesh {
     options.slide = call.slide;
     Interruption interruption(progress);
     options.smoothing.progress = std::ref(interruption);
-    return run(options, smooth_document);
+    FileOutcome outcome;
+    options.beside.prepare = [&](const PipelineResult& result) {
+      outcome = outcome_of(options, result);
+      const nb::gil_scoped_acquire gil;
+      accept(outcome);
+    };
+    run(options, smooth_document);
+    return outcome;
   }
 
   FileOutcome check(const nb::dict& file_arguments, nb::handle threads) {
     PipelineOptions options = pipeline_options(file_arguments);
     options.smoothing.threads = threads_of(threads);
-    return run(options, check_document);
+    return outcome_of(options, run(options, check_document));
   }
 
   /// Answers what the file does not hold of the mesh.
@@ -299,20 +308,23 @@ class FileMesh {
     return options;
   }
 
-  FileOutcome run(const PipelineOptions& options,
-                  PipelineResult (*stages)(MeshDocument& document, const PipelineOptions& options)) {
+  static FileOutcome outcome_of(const PipelineOptions& options, const PipelineResult& result) {
+    FileOutcome outcome;
+    outcome.json = json_report(options, result);
+    outcome.notes = result.notes;
+    outcome.warnings = result.warnings;
+    outcome.losses = result.losses;
+    outcome.outcome.before = result.before;
+    outcome.outcome.after = result.after;
+    outcome.outcome.smoothing = result.smoothing.value_or(SmoothingResult{});
+    return outcome;
+  }
+
+  PipelineResult run(const PipelineOptions& options,
+                     PipelineResult (*stages)(MeshDocument& document, const PipelineOptions& options)) {
     return with_document([&](MeshDocument& document) {
       const nb::gil_scoped_release no_gil;
-      PipelineResult result = stages(document, options);
-      FileOutcome outcome;
-      outcome.json = json_report(options, result);
-      outcome.notes = std::move(result.notes);
-      outcome.warnings = std::move(result.warnings);
-      outcome.losses = std::move(result.losses);
-      outcome.outcome.before = std::move(result.before);
-      outcome.outcome.after = std::move(result.after);
-      outcome.outcome.smoothing = std::move(result.smoothing).value_or(SmoothingResult{});
-      return outcome;
+      return stages(document, options);
     });
   }
 
@@ -357,7 +369,7 @@ void bind_files(nb::module_& module) {
       .def_prop_ro("notes", &FileMesh::notes)
       .def_prop_ro("format", &FileMesh::format)
       .def_prop_ro("path", &FileMesh::path)
-      .def("smooth", &FileMesh::smooth, "options"_a, "file_options"_a, "progress"_a.none())
+      .def("smooth", &FileMesh::smooth, "options"_a, "file_options"_a, "progress"_a.none(), "accept"_a)
       .def("check", &FileMesh::check, "file_options"_a, "threads"_a.none())
       .def("write", &FileMesh::write, "path"_a, "format"_a.none(), "threads"_a.none());
   module.def("run_program", &run_program, "arguments"_a);

@@ -72,9 +72,11 @@ int threads_to_copy(const PointArray& points, int threads) {
 
 /// Smooths `points` into `out` by smooth(PointView), which returns a SmoothingResult; the GIL is not held while it
 /// runs. `mesh_quality` makes the MeshQuality for the reports before and after; null where they are not wanted.
+/// `accept` is called with the outcome before anything is written, and may raise: it has the warnings.
 template <class Smooth>
 Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, WorkingPoints& working,
-                    const std::function<MeshQuality()>& mesh_quality, int threads, const Smooth& smooth) {
+                    const std::function<MeshQuality()>& mesh_quality, int threads, const nb::callable& accept,
+                    const Smooth& smooth) {
   require_same_form(out_array, points_array);
   const PointArray points(points_array);
   const PointArray out(out_array);
@@ -104,6 +106,7 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
   if (PyErr_CheckSignals() != 0) {
     throw nb::python_error();
   }
+  accept(outcome);
   const nb::gil_scoped_release no_gil;
   Workers workers(threads_to_copy(points, threads));
   working.write(out, workers);
@@ -112,7 +115,7 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
 
 Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle out_object,
                       const nb::dict& constraints, bool with_quality, const nb::object& progress,
-                      const nb::dict& arguments) {
+                      const nb::callable& accept, const nb::dict& arguments) {
   const HostArray points_array(points_object, "points");
   const PointArray points(points_array);
   const HostArray out(out_object, "out", HostArray::Access::write);
@@ -134,7 +137,7 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   if (with_quality) {
     mesh_quality = [&] { return MeshQuality(static_cast<std::int64_t>(points.size()), corners, options.threads); };
   }
-  return smooth_into(points_array, out, working, mesh_quality, options.threads, [&](const PointView& view) {
+  return smooth_into(points_array, out, working, mesh_quality, options.threads, accept, [&](const PointView& view) {
     if (triangles.nodes() == 6) {
       const std::vector<std::int32_t> nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
       return trismooth::smooth_quadratic(view, nodes, all, options);
@@ -173,7 +176,8 @@ class HostPlan {
     });
   }
 
-  Outcome smooth(nb::handle points_object, nb::handle out_object, bool with_quality, const nb::object& progress) {
+  Outcome smooth(nb::handle points_object, nb::handle out_object, bool with_quality, const nb::object& progress,
+                 const nb::callable& accept) {
     const HostArray points_array(points_object, "points");
     const PointArray points(points_array);
     if (points.size() != vertex_count_) {
@@ -188,7 +192,7 @@ class HostPlan {
     if (with_quality) {
       mesh_quality = [this] { return MeshQuality(static_cast<std::int64_t>(vertex_count_), triangles_, threads_); };
     }
-    return smooth_into(points_array, out, working_, mesh_quality, threads_,
+    return smooth_into(points_array, out, working_, mesh_quality, threads_, accept,
                        [this](const PointView& view) { return plan_->smooth(view); });
   }
 
@@ -210,12 +214,12 @@ class HostPlan {
 
 void bind_smoothing(nb::module_& module) {
   module.def("smooth", &smooth_arrays, "points"_a, "triangles"_a, "out"_a, "constraints"_a, "quality"_a,
-             "progress"_a.none(), "options"_a);
+             "progress"_a.none(), "accept"_a, "options"_a);
   module.def("option_names", &option_names);
   nb::class_<HostPlan>(module, "HostPlan")
       .def(nb::init<nb::handle, std::size_t, const nb::dict&, const nb::dict&>(), "triangles"_a, "vertex_count"_a,
            "constraints"_a, "options"_a)
-      .def("smooth", &HostPlan::smooth, "points"_a, "out"_a, "quality"_a, "progress"_a.none())
+      .def("smooth", &HostPlan::smooth, "points"_a, "out"_a, "quality"_a, "progress"_a.none(), "accept"_a)
       .def_prop_ro("vertex_count", &HostPlan::vertex_count)
       .def_prop_ro("triangle_count", &HostPlan::triangle_count);
 }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -313,3 +315,71 @@ def test_an_array_on_a_device_is_refused_where_the_build_cannot_take_it():
         trismooth.smooth(OnDevice(), TRIANGLES)
     with pytest.raises(ValueError, match="^triangles: .*cuda:0"):
         trismooth.smooth(POINTS, OnDevice())
+
+
+def _meshes_to_be_left(points, triangles, tmp_path):
+    """Calls that change what they are given, and what this then holds, by name."""
+    space = np.column_stack([points, np.zeros(len(points))])
+    array = points.copy()
+    yield "out", lambda: trismooth.smooth(array, triangles, out=array), lambda: array
+    columns = np.asfortranarray(points)
+    yield "out of other strides", lambda: trismooth.smooth(columns, triangles, out=columns), lambda: columns
+    foreign = points.astype(points.dtype.newbyteorder())
+    yield "out of another byte order", lambda: trismooth.smooth(foreign, triangles, out=foreign), lambda: foreign
+    plan, of_plan = trismooth.Plan(triangles, len(points)), points.copy()
+    yield "plan", lambda: plan.smooth(of_plan, out=of_plan), lambda: of_plan
+    for name in ("pyvista", "meshio", "skfem"):
+        try:
+            package = __import__(name)
+        except ImportError:
+            continue
+        if name == "pyvista":
+            mesh = package.PolyData(space, np.column_stack([np.full(len(triangles), 3), triangles]).ravel())
+        elif name == "meshio":
+            mesh = package.Mesh(space, [("triangle", triangles)])
+        else:
+            mesh = package.MeshTri(points.T.copy(), triangles.T.copy())
+        yield (
+            name,
+            lambda mesh=mesh: trismooth.smooth(mesh, inplace=True),
+            lambda mesh=mesh: mesh.p if hasattr(mesh, "p") else np.array(mesh.points),
+        )
+    if trismooth.build_info()["files"]:
+        path = tmp_path / "mesh.vtk"
+        path.write_text(
+            f"# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(space)} double\n"
+            + "\n".join(" ".join(map(repr, map(float, row))) for row in space)
+            + f"\nCELLS {len(triangles)} {4 * len(triangles)}\n"
+            + "\n".join("3 {} {} {}".format(*row) for row in triangles)
+            + f"\nCELL_TYPES {len(triangles)}\n"
+            + "5\n" * len(triangles)
+            + f"POINT_DATA {len(space)}\nSCALARS depth double 1\nLOOKUP_TABLE default\n"
+            + "\n".join(repr(float(row[0])) for row in space)
+            + f"\nCELL_DATA {len(triangles)}\nSCALARS trismooth:shape double 1\nLOOKUP_TABLE default\n"
+            + "1\n" * len(triangles)
+        )
+        of_file = trismooth.read(path)
+
+        def held():
+            arrays = [of_file.points, *of_file.point_data.values(), *of_file.cell_data.values()]
+            return np.concatenate([array.ravel() for array in arrays])
+
+        yield "file", of_file.smooth, held
+
+
+def test_warnings_that_are_errors_leave_all_as_it_was(tmp_path):
+    points, triangles = grid(12, 9)
+    points[5 * 13] = points[5 * 13 + 3]  # of the boundary: it stays, and triangles beside it are inverted
+    seen = []
+    for name, smooth, state in _meshes_to_be_left(points, triangles, tmp_path):
+        seen.append(name)
+        before = state().copy()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", trismooth.MeshWarning)
+            with pytest.raises(trismooth.MeshWarning):
+                smooth()
+        np.testing.assert_array_equal(state(), before, err_msg=name)
+        with pytest.warns(trismooth.MeshWarning):
+            smooth()
+        assert len(state()) != len(before) or (state() != before).any(), name
+    assert {"out", "plan"} <= set(seen)

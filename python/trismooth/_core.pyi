@@ -1,7 +1,7 @@
 """Types of the compiled part of trismooth."""
 
 import os
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -147,6 +147,7 @@ def smooth(
     constraints: dict[str, Any],
     quality: bool,
     progress: Any,
+    accept: Callable[[Outcome], None],
     options: dict[str, Any],
 ) -> Outcome: ...
 def option_names() -> list[str]: ...
@@ -176,7 +177,9 @@ class HostPlan:
     def __init__(
         self, triangles: Any, vertex_count: int, constraints: dict[str, Any], options: dict[str, Any]
     ) -> None: ...
-    def smooth(self, points: Any, out: Any, quality: bool, progress: Any) -> Outcome: ...
+    def smooth(
+        self, points: Any, out: Any, quality: bool, progress: Any, accept: Callable[[Outcome], None]
+    ) -> Outcome: ...
     @property
     def vertex_count(self) -> int: ...
     @property
@@ -236,7 +239,13 @@ class FileMesh:
     def format(self) -> str: ...
     @property
     def path(self) -> str: ...
-    def smooth(self, options: dict[str, Any], file_options: dict[str, Any], progress: Any) -> FileOutcome: ...
+    def smooth(
+        self,
+        options: dict[str, Any],
+        file_options: dict[str, Any],
+        progress: Any,
+        accept: Callable[[FileOutcome], None],
+    ) -> FileOutcome: ...
     def check(self, file_options: dict[str, Any], threads: int) -> FileOutcome: ...
     def write(self, path: Path, format: Optional[str], threads: int) -> list[str]: ...
 

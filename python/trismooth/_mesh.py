@@ -194,9 +194,15 @@ class Mesh:
             "project": project,
             "geographic": geographic,
         }
-        result = FileResult(self._mesh.smooth(options, held, progress), self)
-        warn_of([*result.notes, *result.warnings, *result.losses])
-        return result
+        return FileResult(
+            self._mesh.smooth(
+                options,
+                held,
+                progress,
+                lambda outcome: warn_of([*outcome.notes, *outcome.warnings, *outcome.losses]),
+            ),
+            self,
+        )
 
     def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""

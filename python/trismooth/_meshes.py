@@ -47,8 +47,8 @@ def smooth_mesh(
         _arrays.wants_quality(quality, True),
         progress,
         options,
+        flat.notes,
     )
-    result.notes = [*flat.notes, *result.notes]
     if inplace:
         result.input_points = None
     result.mesh = adapter.with_points(mesh, flat, result.points, inplace=inplace)

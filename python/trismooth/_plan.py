@@ -8,7 +8,7 @@ from . import _arrays, _core
 from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
 from ._repeats import Repeats, find_repeats
-from ._result import Result
+from ._result import Result, notes_of
 from ._smooth import Progress
 
 
@@ -126,17 +126,19 @@ class Plan:
             Where triangles of the result are inverted or degenerate, as those of the points were that went in.
         """
         result = self._smoothed(points, out, _arrays.wants_quality(quality, False), progress)
-        warn_of(result.notes)
         result.notes += self._notes
         return result
 
     def _smoothed(self, points: Any, out: Any, quality: bool, progress: Optional[Progress]) -> Result:
         if self._on_device:
             result: Result = self._plan.smooth(points, out, quality, progress)
+            warn_of(result.notes)
             return result
         numbers = _arrays.on_host(points, "points", float)
         output = _arrays.Output(points, numbers, out)
-        outcome = self._plan.smooth(numbers, output.numbers, quality, progress)
+        outcome = self._plan.smooth(
+            numbers, output.numbers, quality, progress, lambda outcome: warn_of(notes_of(outcome))
+        )
         if self._repeats is not None:
             outcome = self._repeats.renumbered(outcome)
         return Result(outcome, output.delivered(), self._triangles, output.input_points())

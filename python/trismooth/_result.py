@@ -64,6 +64,11 @@ def touching_lines_note(outcome: _core.Outcome) -> List[str]:
     ]
 
 
+def notes_of(outcome: _core.Outcome) -> List[str]:
+    """What to say of what a smoothing did, one sentence each."""
+    return [*layers_notes(outcome), *touching_lines_note(outcome), *invalid_triangles_note(outcome)]
+
+
 def free_moved(result: Result) -> int:
     """How many of the free vertices moved: those that slid are none of them."""
     return result.moved - (0 if result.sliding is None else result.sliding.slid)
@@ -116,17 +121,20 @@ class Result:
 
     __slots__ = ("points", "triangles", "input_points", "mesh", "notes", "_outcome")
 
-    def __init__(self, outcome: _core.Outcome, points: Any, triangles: Any, input_points: Any = None) -> None:
+    def __init__(
+        self,
+        outcome: _core.Outcome,
+        points: Any,
+        triangles: Any,
+        input_points: Any = None,
+        notes: Optional[List[str]] = None,
+    ) -> None:
         self.points = points
         self.triangles = triangles
         self.input_points = input_points
         self.mesh: Any = None
         self._outcome = outcome
-        self.notes: List[str] = [
-            *layers_notes(outcome),
-            *touching_lines_note(outcome),
-            *invalid_triangles_note(outcome),
-        ]
+        self.notes: List[str] = notes_of(outcome) if notes is None else notes
 
     def _quality(self, report: Optional[QualityReport]) -> QualityReport:
         if report is None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional, Sequence
 
 from . import _arrays, _core
 from ._constraints import Constraints
 from ._core import SweepRecord
 from ._notes import options_without_effect, warn_of
 from ._repeats import find_repeats
-from ._result import Result
+from ._result import Result, notes_of
 
 Progress = Callable[[SweepRecord], Any]
 
@@ -132,10 +132,7 @@ def smooth(
     options["backend"] = backend
     options["slide"] = slide
     constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
-    result = smoothed(points, triangles, constraints, out, quality, progress, options)
-    result.notes += options_without_effect(options, size)
-    warn_of(result.notes)
-    return result
+    return smoothed(points, triangles, constraints, out, quality, progress, options)
 
 
 def smoothed(
@@ -146,8 +143,9 @@ def smoothed(
     quality: Optional[bool],
     progress: Optional[Progress],
     options: Dict[str, Any],
+    notes: Sequence[str] = (),
 ) -> Result:
-    """smooth() without warnings."""
+    """smooth() of what it has gathered, with ``notes`` in front of those of the result."""
     if triangles is None:
         from . import _meshes
 
@@ -155,7 +153,10 @@ def smoothed(
     if _arrays.device_of(points) is not None:
         from . import _device
 
-        return _device.smooth(points, triangles, constraints, out, quality, progress, options)
+        result = _device.smooth(points, triangles, constraints, out, quality, progress, options)
+        result.notes += options_without_effect(options, constraints.size)
+        warn_of(result.notes)
+        return result
     if "inplace" in options:
         raise TypeError("inplace: is for meshes; arrays are smoothed in place by out=points")
     if "stream" in options:
@@ -167,6 +168,11 @@ def smoothed(
     if repeats is not None:
         corners = repeats.triangles()
         constraints = repeats.leave_out(constraints, len(numbers))
+        notes = [*notes, *repeats.notes]
+
+    def notes_with(outcome: _core.Outcome) -> List[str]:
+        return [*notes, *notes_of(outcome), *options_without_effect(options, constraints.size)]
+
     outcome = _core.smooth(
         numbers,
         corners,
@@ -174,10 +180,9 @@ def smoothed(
         constraints.on_host(),
         _arrays.wants_quality(quality, out is None),
         progress,
+        lambda outcome: warn_of(notes_with(outcome)),
         options,
     )
-    if repeats is None:
-        return Result(outcome, output.delivered(), triangles, output.input_points())
-    result = Result(repeats.renumbered(outcome), output.delivered(), triangles, output.input_points())
-    result.notes = [*repeats.notes, *result.notes]
-    return result
+    if repeats is not None:
+        outcome = repeats.renumbered(outcome)
+    return Result(outcome, output.delivered(), triangles, output.input_points(), notes_with(outcome))
