@@ -106,6 +106,26 @@ def test_nodes_inside_of_surfaces_move(z: float) -> None:
     assert set(gmsh.model.mesh.getNodes()[1].reshape(-1, 3)[:, 2]) == {z}
 
 
+def test_quadrangles_that_repeat_a_node_are_triangles() -> None:
+    def model(kind: int) -> np.ndarray:
+        gmsh.clear()
+        surface = gmsh.model.addDiscreteEntity(2)
+        x, y = (a.ravel() for a in np.meshgrid(np.arange(6.0), np.arange(6.0)))
+        inner = (x > 0) & (x < 5) & (y > 0) & (y < 5)
+        x = x + 0.3 * np.sin(7 * y + x) * inner
+        gmsh.model.mesh.addNodes(2, surface, np.arange(1, 37), np.column_stack([x, y, 0 * x]).ravel())
+        first = (np.arange(5)[:, None] * 6 + np.arange(1, 6)).ravel()
+        triangles = np.concatenate([np.column_stack(t) for t in ((first, first + 1, first + 7), (first, first + 7, first + 6))])
+        cells = triangles if kind == 2 else triangles[:, [0, 1, 2, 2]]
+        gmsh.model.mesh.addElementsByType(surface, kind, [], cells.ravel())
+        return np.asarray(trismooth.gmsh.smooth().points)
+
+    expected = model(2)
+    with pytest.warns(trismooth.MeshWarning, match="50 quadrilaterals repeat a corner"):
+        found = model(3)
+    np.testing.assert_array_equal(found, expected)
+
+
 def test_result() -> None:
     two_squares()
     gmsh.model.mesh.generate(2)

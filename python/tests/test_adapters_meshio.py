@@ -234,6 +234,27 @@ def test_polyhedra_hold_their_vertices() -> None:
     assert np.array_equal(moved(mesh, smooth(mesh).mesh), expected)
 
 
+def test_polygons_and_quadrilaterals_that_are_triangles() -> None:
+    third = len(G.triangles) // 3
+    quads = np.column_stack([G.triangles[third:, 0], G.triangles[third:]])
+    quads = np.insert(quads, 5, [0, 1, 12, 11], axis=0)  # one that is none
+    blocks = [("polygon", G.triangles[:third]), ("quad", quads)]
+    labels = [G.regions[:third], np.insert(G.regions[third:], 5, 9)]
+    count = len(G.triangles) - third
+    expected = smooth(G.points, G.triangles, regions=G.regions, fixed=[0, 1, 11, 12]).points
+    of_all = np.concatenate(labels)
+    sets = {"left": [np.flatnonzero(of_block == 1) for of_block in labels]}
+    for mesh, options in (
+        (meshio.Mesh(G.points, blocks, cell_data={"material": labels}), {}),
+        (meshio.Mesh(G.points, blocks, cell_sets=sets), {}),
+        (meshio.Mesh(G.points, blocks), {"regions": of_all}),
+        (meshio.Mesh(G.points, blocks), {"regions": G.regions}),
+    ):
+        with pytest.warns(trismooth.MeshWarning, match=f"^{count} quadrilaterals repeat a corner"):
+            result = smooth(mesh, **options)
+        assert same_bits(result.mesh.points, expected).all()
+
+
 def test_quadratic_triangles() -> None:
     q = quadratic_grid()
     mesh = mesh_of([("triangle6", q.triangles)], q.points, cell_data={"gmsh:physical": [q.grid.regions]})

@@ -263,6 +263,53 @@ def test_lagrange_triangles_are_those_of_their_order(order: int) -> None:
     assert set(lagrange.celltypes) == {pv.CellType.LAGRANGE_TRIANGLE}
 
 
+def test_polygons_and_quadrilaterals_that_are_triangles_are_those_of_the_program(tmp_path: Path) -> None:
+    quads = [[a, *t] if k % 2 else [*t, t[2]] for k, t in enumerate(TRIANGLES.tolist()) for a in t[:1]]
+    none = [[0, 1, 12, 11], [0, 1, 0, 11]]  # four corners; a repeated one that does not follow
+    kinds = np.arange(len(TRIANGLES)) % 4
+    by_kind = {0: (5, 3), 1: (7, 3), 2: (9, 4), 3: (7, 4)}
+    cells = [TRIANGLES[k].tolist() if by_kind[kind][1] == 3 else quads[k] for k, kind in enumerate(kinds)]
+    types = np.array([by_kind[kind][0] for kind in kinds], dtype=np.uint8)
+    flat = np.concatenate([[len(cell), *cell] for cell in cells])
+    expected = np.asarray(smooth(G.points3, TRIANGLES).points)
+    meshes = [pv.UnstructuredGrid(flat, types, G.points3), pv.PolyData(G.points3, faces=flat)]
+    for mesh in meshes:
+        mesh.cell_data["load"] = np.arange(len(cells)) * 0.5
+        with pytest.warns(trismooth.MeshWarning, match=f"^{np.sum(kinds > 1)} quadrilaterals repeat a corner") as caught:
+            result = smooth(mesh)
+        assert same_bits(np.asarray(result.mesh.points), expected).all()
+        assert str(caught[0].message) == result.notes[0]
+    regions = G.regions
+    with pytest.warns(trismooth.MeshWarning):
+        held = smooth(meshes[0], regions=regions).mesh.points
+    assert np.array_equal(moved(meshes[0], pv.PolyData(held)), G.is_inside)
+    if trismooth.build_info()["files"]:
+        meshes[0].save(tmp_path / "mesh.vtu")
+        of_file = trismooth.read(tmp_path / "mesh.vtu")
+        with pytest.warns(trismooth.MeshWarning):
+            notes = of_file.smooth(method="mean-ratio").notes
+        assert np.allclose(of_file.points, expected, rtol=0, atol=1e-15)
+        assert f"{np.sum(kinds > 1)} quadrilaterals repeat a corner: they are smoothed as the triangles that they are" in notes
+    more = np.concatenate([flat, *([4, *quad] for quad in none)])
+    with pytest.warns(trismooth.MeshWarning):
+        stay = smooth(pv.UnstructuredGrid(more, np.append(types, [9, 9]).astype(np.uint8), G.points3)).mesh
+    has_moved = moved(meshes[0], stay)
+    assert not has_moved[[0, 1, 11, 12]].any() and has_moved[13]
+
+
+def test_quadrilaterals_of_eight_nodes_that_are_triangles_of_six() -> None:
+    q = quadratic_grid()
+    points = np.column_stack([q.points, np.zeros(len(q.points))])
+    a, b, c, ab, bc, ca = q.triangles.T
+    quads = np.column_stack([a, b, c, c, ab, bc, c, ca])
+    quads[::3] = np.column_stack([a, a, b, c, a, ab, bc, ca])[::3]
+    kind = pv.CellType.QUADRATIC_QUAD
+    with pytest.warns(trismooth.MeshWarning, match="quadrilaterals repeat a corner"):
+        of_quads = smooth(pv.UnstructuredGrid(np.insert(quads, 0, 8, axis=1).ravel(), np.full(len(quads), kind), points))
+    expected = smooth(points, q.triangles).points
+    assert same_bits(np.asarray(of_quads.mesh.points), np.asarray(expected)).all()
+
+
 def test_triangles_of_both_kinds() -> None:
     q = quadratic_grid()
     left = q.grid.regions == 1

@@ -8,17 +8,19 @@ from typing import TYPE_CHECKING, Any, Optional
 import numpy as np
 
 from ._constraints import slides
-from .adapters.flat import triangle_width, vertices_of
+from ._notes import warn_of
+from .adapters.flat import quads_note, triangle_width, triangles_of_quads, vertices_of
 
 if TYPE_CHECKING:
     from . import Result
 
 __all__ = ["smooth"]
 
-# Numbers of Gmsh for types of elements. Gmsh lists the nodes of the triangles as VTK does.
+# Numbers of Gmsh for types of elements, of quadrangles with how many nodes they have. Gmsh lists nodes as VTK does.
 _LINE = 1
 _TRIANGLE = 2
 _QUADRATIC_TRIANGLE = 9
+_QUADS = {3: 4, 16: 8}
 
 # How far nodes may be from a plane z = const, as a part of the mesh's size: the tolerance of the command-line program.
 _FLATNESS = 1e-6
@@ -29,8 +31,8 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
 
     Nodes that Gmsh classifies on surfaces move: those inside of them. Nodes on curves and points are held, also where
     these are embedded in a surface, and so are the borders between surfaces. Nodes of quadrangles and of other elements
-    that are no triangles are held, too, and nodes that are linked as periodic. Where they have parametric coordinates
-    on their surface, moved nodes get those of the new place.
+    that are no triangles are held, too, and nodes that are linked as periodic; a quadrangle that repeats a corner is a
+    triangle. Where they have parametric coordinates on their surface, moved nodes get those of the new place.
 
     With ``slide`` nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
     are linked as periodic on two curves slide together. Moved nodes are on the edges of the mesh as it was, not on the
@@ -76,6 +78,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     held = _held_nodes(nodes, surfaces, curves, elements.lines, fixed)
     _check_plane(nodes, elements.triangles)
     model = gmsh.model.getCurrent()
+    warn_of(elements.notes)
     result = trismooth.smooth(
         np.ascontiguousarray(nodes.points[:, :2]),
         elements.triangles,
@@ -90,6 +93,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     )
     current = gmsh.model.getCurrent()  # the caller's progress may have changed it
     gmsh.model.setCurrent(model)
+    result.notes = [*elements.notes, *result.notes]
     _move_nodes(gmsh, nodes, [*surfaces, *curves], np.asarray(result.points))
     gmsh.model.setCurrent(current)
     return result
@@ -125,14 +129,15 @@ class _Entity:
 
 @dataclass
 class _Elements:
-    """The triangles of a model, the surface of each, the lines for nodes to slide on, the curve of each, and a mask of
-    the nodes of all other elements."""
+    """The triangles of a model, the surface of each, the lines for nodes to slide on, the curve of each, a mask of the
+    nodes of all other elements, and what the user should know of them."""
 
     triangles: np.ndarray
     regions: np.ndarray
     lines: np.ndarray
     line_tags: np.ndarray
     other_nodes: Optional[np.ndarray]
+    notes: list[str]
 
 
 def _nodes_of_model(gmsh: Any) -> _Nodes:
@@ -155,16 +160,25 @@ def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list
     """Return the elements. Lines are other elements where there are no curves."""
     triangles: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
     regions: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
+    of_quads = {_TRIANGLE: 0, _QUADRATIC_TRIANGLE: 0}
     others = []
     for surface in surfaces:
         for kind, _, tags in zip(*gmsh.model.mesh.getElements(2, surface.tag)):
             numbers = nodes.numbers(tags)
+            like = kind
             if kind in triangles:
-                corners = numbers.reshape(-1, 3 if kind == _TRIANGLE else 6)
-                triangles[kind].append(corners)
-                regions[kind].append(np.full(len(corners), surface.tag, dtype=np.int64))
+                found = numbers.reshape(-1, 3 if kind == _TRIANGLE else 6)
+            elif kind in _QUADS:
+                quads = numbers.reshape(-1, _QUADS[kind])
+                which, found = triangles_of_quads(quads)
+                others.append(np.delete(quads, which, axis=0))
+                like = _TRIANGLE if _QUADS[kind] == 4 else _QUADRATIC_TRIANGLE
+                of_quads[like] += len(found)
             else:
                 others.append(numbers)
+                continue
+            triangles[like].append(found)
+            regions[like].append(np.full(len(found), surface.tag, dtype=np.int64))
     linear, quadratic = (sum(map(len, triangles[kind])) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE))
     if linear + quadratic == 0:
         raise ValueError("the model has no triangles of order 1 or 2: call gmsh.model.mesh.generate(2) first")
@@ -182,6 +196,7 @@ def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list
         np.concatenate(regions[chosen]),
         *_lines_of(gmsh, nodes, curves),
         vertices_of(others, len(nodes.tags)),
+        quads_note(of_quads[chosen]),
     )
 
 

@@ -75,6 +75,47 @@ def triangle_width(linear: int, quadratic: int) -> int:
     return 6 if quadratic > linear else 3
 
 
+def triangles_of_quads(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return which quadrilaterals are triangles since they repeat a corner, and these triangles, as the program has it.
+
+    Two corners that follow each other are the same vertex, no others; of eight nodes so is the middle between them. See
+    ``pipeline/input/planar_mesh.h``.
+
+    Parameters
+    ----------
+    quads : ndarray of int, shape (M, 4) or (M, 8)
+        Corners, then the middles of the sides 01, 12, 23 and 30.
+
+    Returns
+    -------
+    ndarray of int, shape (K,), and ndarray of int, shape (K, 3) or (K, 6)
+    """
+    corners = quads[:, :4]
+    is_next = corners == np.roll(corners, -1, axis=1)
+    repeated = is_next.argmax(axis=1)[:, None]
+    three = np.take_along_axis(corners, (repeated + [1, 2, 3]) % 4, axis=1)
+    is_triangle = is_next.any(axis=1) & (three != np.roll(three, 1, axis=1)).all(axis=1)
+    kept = np.arange(3) + (np.arange(3) > np.minimum(repeated, 2))
+    triangles = np.take_along_axis(corners, kept, axis=1)
+    if quads.shape[1] == 8:
+        between = np.take_along_axis(quads, 4 + repeated, axis=1)
+        is_triangle &= (between == np.take_along_axis(corners, repeated, axis=1))[:, 0]
+        middles = np.take_along_axis(quads, 4 + np.arange(3) + (np.arange(3) >= repeated), axis=1)
+        triangles = np.concatenate([triangles, middles], axis=1)
+    return np.flatnonzero(is_triangle), triangles[is_triangle]
+
+
+def quads_note(count: int) -> list[str]:
+    """What to say of quadrilaterals that are triangles: a sentence, or none."""
+    if count == 0:
+        return []
+    return [
+        "1 quadrilateral repeats a corner: it is smoothed as the triangle that it is"
+        if count == 1
+        else f"{count} quadrilaterals repeat a corner: they are smoothed as the triangles that they are"
+    ]
+
+
 def vertices_of(nodes: Iterable[Any], count: int) -> Optional[np.ndarray]:
     """Return the mask of the vertices that any of the arrays of vertex numbers has; None if there are none."""
     mask = np.zeros(count, dtype=bool)

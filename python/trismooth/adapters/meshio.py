@@ -20,10 +20,12 @@ from .flat import (
     no_such_name,
     one_value_each,
     point_array_mask,
+    quads_note,
     region_arrays,
     side_names,
     tags_of_lines,
     triangle_width,
+    triangles_of_quads,
     vertex_mask,
     vertices_of,
     with_sides,
@@ -41,7 +43,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     Parameters
     ----------
     mesh : meshio.Mesh
-        Blocks ``triangle`` and ``triangle6`` are smoothed. All other cells hold their vertices, lines and vertex cells,
+        Blocks ``triangle`` and ``triangle6`` are smoothed, and of blocks ``polygon`` triangles, of ``quad`` and ``quad8``
+        what repeats a corner and so is a triangle. All other cells hold their vertices, lines and vertex cells,
         too. Sides of triangles that cell data of scikit-fem mark (``skfem:b:wall``) are taken for lines.
     regions : None, False, str, list of str or array_like
         None: the cell data that give regions by their names (``gmsh:physical``, ``medit:ref``, ...) or look like it,
@@ -74,19 +77,20 @@ class _Flattener:
 
     def __init__(self, mesh: Any) -> None:
         self._mesh = mesh
-        counts = {kind: sum(len(block.data) for block in mesh.cells if block.type == kind) for kind in _WIDTHS}
-        width = triangle_width(counts["triangle"], counts["triangle6"])
-        self._is_chosen = [_WIDTHS.get(block.type) == width for block in mesh.cells]
+        self._found = [_triangles_of(block) for block in mesh.cells]
+        counts = {nodes: sum(len(t) for _, t in self._found if t.shape[1] == nodes) for nodes in (3, 6)}
+        width = triangle_width(counts[3], counts[6])
+        self._is_chosen = [len(t) > 0 and t.shape[1] == width for _, t in self._found]
         self._first_cell = np.cumsum([0] + [len(block.data) for block in mesh.cells])
 
     def flatten(self, regions: Any, fixed: Any, lines: bool) -> FlatMesh:
         mesh = self._mesh
         count = len(mesh.points)
         of_lines = [b for b, block in enumerate(mesh.cells) if lines and block.type == "line"]
-        others = (block for b, block in enumerate(mesh.cells) if not self._is_chosen[b] and b not in of_lines)
-        of_others = [nodes for block in others for nodes in _nodes_of(block.data)]
+        others = (self._without_triangles(b) for b in range(len(mesh.cells)) if b not in of_lines)
+        of_others = [nodes for cells in others for nodes in _nodes_of(cells)]
         blocks = self._blocks()
-        triangles = np.concatenate([mesh.cells[b].data for b in blocks])
+        triangles = np.concatenate([self._found[b][1] for b in blocks])
         sides, side_tags = marked_sides([self._values(name, blocks) for name in side_names(mesh.cell_data)], triangles)
         all_lines, line_tags = None, None
         if lines:
@@ -96,7 +100,7 @@ class _Flattener:
                 sides,
                 side_tags,
             )
-        notes: list[str] = []
+        notes = quads_note(sum(self._cell_count([b]) for b in blocks if mesh.cells[b].data.shape[1] in (4, 8)))
         flat = FlatMesh(
             float_points(mesh.points),
             triangles,
@@ -104,9 +108,7 @@ class _Flattener:
                 regions,
                 default=lambda: self._default_regions(triangles, notes),
                 named=self._named_regions,
-                cell_of_triangle=np.concatenate(
-                    [np.arange(self._first_cell[b], self._first_cell[b + 1]) for b in blocks]
-                ),
+                cell_of_triangle=np.concatenate([self._first_cell[b] + self._found[b][0] for b in blocks]),
                 cell_count=int(self._first_cell[-1]),
             ),
             other_cells=vertices_of(of_others if lines else [*of_others, sides], count),
@@ -139,12 +141,21 @@ class _Flattener:
         return [b for b, chosen in enumerate(self._is_chosen) if chosen]
 
     def _cell_count(self, blocks: list[int]) -> int:
-        return sum(len(self._mesh.cells[b].data) for b in blocks)
+        return sum(len(self._rows(b)) for b in blocks)
+
+    def _rows(self, b: int) -> np.ndarray:
+        """Numbers of the cells of a block: of those that are triangles, where they are smoothed."""
+        return self._found[b][0] if self._is_chosen[b] else np.arange(len(self._mesh.cells[b].data))
+
+    def _without_triangles(self, b: int) -> Any:
+        """The cells of a block that are not smoothed."""
+        cells = self._mesh.cells[b].data
+        return np.delete(cells, self._found[b][0], axis=0) if self._is_chosen[b] else cells
 
     def _values(self, name: str, blocks: list[int]) -> np.ndarray:
         """Values of cell data at the cells of the blocks."""
         data = self._mesh.cell_data[name]
-        of_blocks = (np.asarray(data[b]) for b in blocks)
+        of_blocks = (np.asarray(data[b])[self._rows(b)] for b in blocks)
         return np.concatenate([values.reshape(-1) if values.shape[1:] == (1,) else values for values in of_blocks])
 
     def _members(self, name: str, blocks: list[int]) -> np.ndarray:
@@ -157,8 +168,9 @@ class _Flattener:
                 numbers = np.asarray(of_block, dtype=np.int64).reshape(-1)
                 if numbers.size > 0 and (numbers.min() < 0 or numbers.max() >= count):
                     raise ValueError(f"points: the cell set '{name}' has numbers beyond the {count} cells of block {b}")
-                members.append(first + numbers)
-            first += count
+                rows = self._rows(b)
+                members.append(first + np.flatnonzero(np.isin(rows, numbers)))
+            first += self._cell_count([b])
         return np.concatenate(members)
 
     def _set_names(self) -> list[str]:
@@ -209,7 +221,17 @@ class _Flattener:
         raise no_such_name("fixed", name, "point data or point set", [*mesh.point_data, *mesh.point_sets])
 
 
-_WIDTHS = {"triangle": 3, "triangle6": 6}
+def _triangles_of(block: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Which cells of a block are triangles, and their nodes."""
+    cells = block.data
+    is_polygon = block.type.startswith("polygon")
+    width = cells.shape[1] if isinstance(cells, np.ndarray) and cells.dtype != object and cells.ndim == 2 else 0
+    if (block.type, width) in (("triangle", 3), ("triangle6", 6)) or (is_polygon and width == 3):
+        return np.arange(len(cells)), cells
+    if (block.type, width) in (("quad", 4), ("quad8", 8)) or (is_polygon and width == 4):
+        return triangles_of_quads(cells)
+    return np.empty(0, dtype=np.int64), np.empty((0, 3), dtype=np.int64)
+
 
 
 def _nodes_of(cells: Any) -> Iterator[np.ndarray]:

@@ -26,10 +26,12 @@ from .flat import (
     no_such_name,
     one_value_each,
     point_array_mask,
+    quads_note,
     region_arrays,
     side_names,
     tags_of_lines,
     triangle_width,
+    triangles_of_quads,
     vertices_of,
     with_sides,
 )
@@ -40,6 +42,7 @@ _LINES = (3, 4)  # lines and polylines
 _TRIANGLE = 5
 _TRIANGLE_STRIP = 6
 _QUADRATIC_TRIANGLE = 22
+_POLYGON, _QUAD, _QUADRATIC_QUAD = 7, 9, 23
 _LAGRANGE_TRIANGLE = 69  # of any order: of three nodes it is a triangle, of six a quadratic one
 
 
@@ -49,7 +52,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     Parameters
     ----------
     mesh : pyvista.PolyData, pyvista.UnstructuredGrid, vtkPolyData or vtkUnstructuredGrid
-        Triangles, triangle strips and quadratic triangles are smoothed. All other cells hold their vertices, lines and
+        Triangles, polygons of three corners, triangle strips, quadratic triangles and quadrilaterals that repeat a
+        corner are smoothed. All other cells hold their vertices, lines and
         vertex cells, too. Sides of triangles that cell arrays of scikit-fem mark (``skfem:b:wall``) are taken for lines.
     regions : None, False, str, list of str or array_like
         None: the cell arrays that give regions by their names (``material``, ``region_id``, ...) or look like it, as
@@ -67,7 +71,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     points = float_points(_to_numpy(mesh.GetPoints().GetData()))
     cell_data, point_data = mesh.GetCellData(), mesh.GetPointData()
 
-    notes: list[str] = []
+    notes = quads_note(cells.quads)
 
     def of_triangles(name: str) -> Optional[np.ndarray]:
         values = _values(cell_data, name)
@@ -144,14 +148,15 @@ def _copy(mesh: Any) -> Any:
 
 @dataclass
 class _Cells:
-    """The cells of a mesh: triangles, the cell that each of them is, the same of edges of lines, and arrays of nodes of
-    all other cells."""
+    """The cells of a mesh: triangles, the cell that each of them is, the same of edges of lines, arrays of nodes of all
+    other cells, and how many of the triangles are quadrilaterals that repeat a corner."""
 
     triangles: np.ndarray
     of_triangle: np.ndarray
     lines: np.ndarray
     of_line: np.ndarray
     other_nodes: list[np.ndarray]
+    quads: int
 
 
 @dataclass
@@ -166,6 +171,11 @@ class _CellArray:
         """Return the nodes of the chosen cells, all of that width."""
         nodes: np.ndarray = self.nodes[self.begins[chosen][:, None] + np.arange(width)]
         return nodes
+
+    def triangles_of_quads(self, chosen: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return which of the chosen quadrilaterals are triangles since they repeat a corner, and these triangles."""
+        places, triangles = triangles_of_quads(self.of(chosen, width))
+        return chosen[places], triangles
 
     def edges_of(self, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the edges between nodes that follow each other in the chosen cells, and the cell that each is of."""
@@ -205,20 +215,22 @@ def _cells_of_poly_data(mesh: Any, with_lines: bool) -> _Cells:
     chosen = np.flatnonzero(polygons.ends - polygons.begins == 3)
     strips = _cell_array(mesh.GetStrips())
     of_strips, strip_of = _triangles_of_strips(strips, np.arange(len(strips.begins)))
-    triangle_width(len(chosen) + len(of_strips), 0)
+    quads, of_quads = polygons.triangles_of_quads(np.flatnonzero(polygons.ends - polygons.begins == 4), 4)
+    triangle_width(len(chosen) + len(of_strips) + len(quads), 0)
     lines = _cell_array(mesh.GetLines())
     chosen_lines = np.flatnonzero(with_lines & (lines.ends - lines.begins >= 2))
     edges, line_of = lines.edges_of(chosen_lines)
     return _Cells(
-        np.concatenate([polygons.of(chosen, 3), of_strips]),
-        np.concatenate([first_polygon + chosen, first_strip + strip_of]),
+        np.concatenate([polygons.of(chosen, 3), of_quads, of_strips]),
+        np.concatenate([first_polygon + chosen, first_polygon + quads, first_strip + strip_of]),
         edges,
         mesh.GetNumberOfVerts() + line_of,
         [
             _cell_array(mesh.GetVerts()).nodes,
             lines.nodes_of_others(chosen_lines),
-            polygons.nodes_of_others(chosen),
+            polygons.nodes_of_others(np.concatenate([chosen, quads])),
         ],
+        len(quads),
     )
 
 
@@ -227,22 +239,31 @@ def _cells_of_grid(mesh: Any, with_lines: bool) -> _Cells:
     types = _cell_types(mesh)
     sizes = cells.ends - cells.begins
     linear, quadratic = (
-        np.flatnonzero((types == kind) | ((types == _LAGRANGE_TRIANGLE) & (sizes == nodes)))
-        for kind, nodes in ((_TRIANGLE, 3), (_QUADRATIC_TRIANGLE, 6))
+        np.flatnonzero((types == kind) | np.isin(types, of_any_size) & (sizes == nodes))
+        for kind, nodes, of_any_size in (
+            (_TRIANGLE, 3, (_LAGRANGE_TRIANGLE, _POLYGON)),
+            (_QUADRATIC_TRIANGLE, 6, (_LAGRANGE_TRIANGLE,)),
+        )
     )
+    quads, of_quads = cells.triangles_of_quads(np.flatnonzero((types == _QUAD) | (types == _POLYGON) & (sizes == 4)), 4)
+    quadratic_quads, of_quadratic_quads = cells.triangles_of_quads(np.flatnonzero(types == _QUADRATIC_QUAD), 8)
     strips = np.flatnonzero(types == _TRIANGLE_STRIP)
     of_strips, strip_of = _triangles_of_strips(cells, strips)
     chosen_lines = np.flatnonzero(with_lines & np.isin(types, _LINES) & (sizes >= 2))
     edges, line_of = cells.edges_of(chosen_lines)
-    if triangle_width(len(linear) + len(of_strips), len(quadratic)) == 6:
-        others = cells.nodes_of_others(np.concatenate([quadratic, chosen_lines]))
-        return _Cells(cells.of(quadratic, 6), quadratic, edges, line_of, [others])
+    width = triangle_width(len(linear) + len(quads) + len(of_strips), len(quadratic) + len(quadratic_quads))
+    if width == 6:
+        of_triangle = np.concatenate([quadratic, quadratic_quads])
+        others = cells.nodes_of_others(np.concatenate([of_triangle, chosen_lines]))
+        triangles = np.concatenate([cells.of(quadratic, 6), of_quadratic_quads])
+        return _Cells(triangles, of_triangle, edges, line_of, [others], len(quadratic_quads))
     return _Cells(
-        np.concatenate([cells.of(linear, 3), of_strips]),
-        np.concatenate([linear, strip_of]),
+        np.concatenate([cells.of(linear, 3), of_quads, of_strips]),
+        np.concatenate([linear, quads, strip_of]),
         edges,
         line_of,
-        [cells.nodes_of_others(np.concatenate([linear, strips, chosen_lines]))],
+        [cells.nodes_of_others(np.concatenate([linear, quads, strips, chosen_lines]))],
+        len(quads),
     )
 
 
