@@ -57,7 +57,9 @@ SmoothingOptions agreed_options(const SmoothingOptions& options, const Constrain
     backend_of(options).require_ready();
     agreed.threads = ranks.threads(options.threads);
   });
-  require_same_options(options, constraints.slide, gather != Gather::never, ranks);
+  std::vector<OptionValue> values = option_values(options, constraints.slide);
+  values.emplace_back("gather", gather != Gather::never ? 1 : 0);
+  require_same(values, ranks);
   return agreed;
 }
 

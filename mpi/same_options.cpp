@@ -1,19 +1,15 @@
 #include "trismooth/mpi/same_options.h"
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 namespace trismooth::mpi {
 
-void require_same_options(const SmoothingOptions& options, const Sliding& slide, bool gathers,
-                          const Communicator& communicator) {
+std::vector<OptionValue> option_values(const SmoothingOptions& options, const Sliding& slide) {
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
-  const std::array<std::pair<const char*, std::int64_t>, 25> values{{
+  return {
       {"method", static_cast<std::int64_t>(options.method)},
       {"form", static_cast<std::int64_t>(options.form)},
       {"layout", static_cast<std::int64_t>(options.layout)},
@@ -38,23 +34,27 @@ void require_same_options(const SmoothingOptions& options, const Sliding& slide,
       {"slide.deviation", bits(slide.deviation)},
       {"slide.curve", static_cast<std::int64_t>(slide.curve)},
       {"slide.coincident", slide.coincident ? 1 : 0},
-      {"gather", gathers ? 1 : 0},
-  }};
+  };
+}
+
+void require_same(std::span<const OptionValue> values, const Communicator& communicator) {
   auto to_first = lists_by_rank<std::int64_t>(communicator);
   for (const auto& [name, value] : values) {
     to_first[0].push_back(value);
   }
   const ByRank<std::int64_t> all = communicator.exchanged(std::move(to_first));
-  communicator.on_all([&] {
+  const auto compare = [&] {
     for (std::size_t i = 0; i < values.size() && communicator.rank() == 0; ++i) {
       for (std::size_t r = 1; r < all.size(); ++r) {
         if (all[r][i] != all[0][i]) {
-          throw std::invalid_argument(std::string("the option ") + values[i].first + " is not the same on rank " +
+          throw std::invalid_argument("the option " + values[i].first + " is not the same on rank " +
                                       std::to_string(r));
         }
       }
     }
-  });
+  };
+  // It names the rank that it is of, which is not the one that has found it.
+  communicator.on_all(compare, {library_errors().kinds});
 }
 
 }  // namespace trismooth::mpi

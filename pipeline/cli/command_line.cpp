@@ -117,8 +117,8 @@ void reserve_memory_for_the_end() {
 int run_words(int argc, const char* const* argv, const CommandEnvironment& given) {
   PrintableStream out(given.out);
   PrintableStream err(given.err);
-  const CommandEnvironment environment{out,        err, given.terminal,   given.run,
-                                       given.cuda, {},  given.over_ranks, given.follows};
+  const CommandEnvironment environment{
+      out, err, given.terminal, given.run, given.cuda, {}, given.over_ranks, given.follows, given.whose};
   CLI::App app(description, "trismooth");
   app.set_version_flag("--version,-V", "trismooth " + std::string(version()), "Print the version and exit");
   app.set_help_flag("--help,-h", "Print this help and exit");
@@ -131,7 +131,7 @@ int run_words(int argc, const char* const* argv, const CommandEnvironment& given
     code = run_chosen(app, argc, argv, named);
     flush_results(environment.out);
   } catch (...) {
-    code = report_failure(environment.err);
+    code = report_failure(environment.err, given.whose);
   }
   environment.err.flush();
   return static_cast<int>(code);
@@ -143,7 +143,7 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
   try {
     return run_words(argc, argv, given);
   } catch (...) {
-    return static_cast<int>(report_failure(given.err));
+    return static_cast<int>(report_failure(given.err, given.whose));
   }
 }
 
@@ -171,6 +171,7 @@ int run_process(int argc, const char* const* argv) {
   environment.run = [&job](const PipelineOptions& options) { return job->run(options); };
   environment.over_ranks = job->shares_work();
   environment.follows = follows;
+  environment.whose = follows ? "rank " + std::to_string(job->rank()) + ": " : "";
   const int code = job->agreed(run_command_line(argc, argv, environment), unread);
   // Of ranks that end with an error, a launcher tells the others to end, which are about to.
   ignore_interrupts();
@@ -184,7 +185,7 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     return run_process(argc, argv);
   } catch (...) {
-    return static_cast<int>(report_failure(std::cerr));
+    return static_cast<int>(report_failure(std::cerr, launched_rank()));
   }
 }
 

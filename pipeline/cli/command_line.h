@@ -22,6 +22,7 @@ struct CommandEnvironment {
   bool over_ranks = false;
   /// This is one of its ranks but the first: it takes part in the run and does nothing else.
   bool follows = false;
+  std::string whose = {};  ///< what stands in front of errors: that rank, where it is one of those
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for

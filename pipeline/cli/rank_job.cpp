@@ -19,8 +19,10 @@
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/pipeline/cli/exit_code.h"
 #include "trismooth/pipeline/cli/failure.h"
+#include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/ranks/metis_parts.h"
 #include "trismooth/pipeline/ranks/one_file_run.h"
+#include "trismooth/pipeline/ranks/piece_options.h"
 #include "trismooth/pipeline/ranks/piece_run.h"
 #endif
 
@@ -72,8 +74,8 @@ void give_back_arrays() {
 }
 
 /// Of one that has no memory to make a message with.
-int say_rank_failure_without_memory() {
-  std::fputs("trismooth: error: a rank has not enough memory\n", stderr);
+int say_rank_failure_without_memory(int rank) {
+  std::fprintf(stderr, "trismooth: error: rank %d: not enough memory\n", rank);
   return static_cast<int>(ExitCode::bad_input);
 }
 
@@ -89,7 +91,7 @@ int say_rank_failure(int rank) {
   } catch (const std::exception&) {
     // What it was about has been lost with the memory for the message.
   }
-  return say_rank_failure_without_memory();
+  return say_rank_failure_without_memory(rank);
 }
 
 class MpiJob final : public RankJob {
@@ -113,7 +115,7 @@ class MpiJob final : public RankJob {
   ~MpiJob() override {
     if (std::uncaught_exceptions() > 0) {
       // The others do not know of it: they would never finish.
-      mpi::end_all(MPI_COMM_WORLD, say_rank_failure_without_memory());
+      mpi::end_all(MPI_COMM_WORLD, say_rank_failure_without_memory(ranks_->rank()));
     }
     ranks_.reset();
     MPI_Finalize();
@@ -140,10 +142,13 @@ class MpiJob final : public RankJob {
   int agreed(int code, const std::ostringstream& unread) override {
     if (!is_settled_ && starts(false)) {
       // Rank 0 has begun what this one cannot take part in.
-      if (unread.good() && !unread.view().empty()) {
+      if (code == static_cast<int>(ExitCode::done)) {
+        print_error(std::cerr, "rank " + std::to_string(rank()) + ": has another command than rank 0");
+        code = static_cast<int>(ExitCode::wrong_usage);
+      } else if (unread.good() && !unread.view().empty()) {
         std::cerr << unread.view() << std::flush;
       } else {
-        say_rank_failure_without_memory();
+        say_rank_failure_without_memory(rank());
       }
       mpi::end_all(MPI_COMM_WORLD, code);
     }
@@ -154,6 +159,7 @@ class MpiJob final : public RankJob {
  private:
   /// Throws mpi::KnownToAll, or what has happened on this rank alone.
   PipelineResult run_together(const PipelineOptions& options) {
+    require_same_options(options, *ranks_);
     if (names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output))) {
       return run_pieces(options, ranks_);
     }
@@ -207,6 +213,15 @@ std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv) {
   return has_pieces || has_launcher() ? std::make_unique<MpiJob>(has_pieces) : nullptr;
 }
 
+std::string launched_rank() {
+  for (const char* const name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"}) {
+    if (const char* const rank = std::getenv(name); rank != nullptr && std::atoi(rank) > 0) {
+      return "rank " + std::to_string(std::atoi(rank)) + ": ";
+    }
+  }
+  return {};
+}
+
 std::string mpi_text() {
   return mpi_library() + "; reads meshes in pieces (.pvtu, .pvtp)" +
          (metis_version().empty() ? "" : "; partitions by METIS " + metis_version());
@@ -215,6 +230,10 @@ std::string mpi_text() {
 #else
 
 std::string metis_version() {
+  return {};
+}
+
+std::string launched_rank() {
   return {};
 }
 

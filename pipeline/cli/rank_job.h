@@ -38,6 +38,10 @@ class RankJob {
 /// job by itself where an argument names a mesh in pieces. Null for others, and where the build has no MPI.
 std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv);
 
+/// What stands in front of errors of a process that has not joined its job yet: "rank 3: ", by what launchers tell.
+/// Empty for rank 0, and where there is no launcher.
+std::string launched_rank();
+
 /// Throws std::invalid_argument where the build cannot share a mesh out in that way.
 void require_partition(Partition partition);
 

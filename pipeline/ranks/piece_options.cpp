@@ -1,13 +1,22 @@
 #include "trismooth/pipeline/ranks/piece_options.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include <xxhash.h>
+
+#include "trismooth/base/enum_text.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/mpi/same_options.h"
 
 namespace trismooth {
 
@@ -41,7 +50,86 @@ void require_output(const PipelineOptions& options, const std::filesystem::path&
   }
 }
 
+/// As the program has it: that of the library is the member's name.
+std::string program_option(std::string name) {
+  if (name == "record_min_shape") {
+    return "--verbose";  // as --target-quality, which stands before it, is the same
+  }
+  if (name == "time_limit_seconds") {
+    return "--time-limit";
+  }
+  if (name == "slide.coincident") {
+    return "--slide-coincident";
+  }
+  if (name == "slide.along") {
+    return "--slide";
+  }
+  std::ranges::replace(name, '_', '-');
+  return "--" + name.substr(name.find('.') + 1);
+}
+
+std::int64_t hash_of(std::string_view text) {
+  return static_cast<std::int64_t>(XXH64(text.data(), text.size(), 0));
+}
+
+std::int64_t number_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += name + '\0';
+  }
+  return hash_of(text);
+}
+
+std::int64_t number_of(const std::optional<std::filesystem::path>& path) {
+  return path ? hash_of(path->native()) : -1;
+}
+
+std::int64_t number_of(const std::optional<std::string>& text) {
+  return text ? hash_of(*text) : -1;
+}
+
+std::vector<std::string> annotated_metrics(const PipelineOptions& options) {
+  std::vector<std::string> names{options.annotated_size_ratio ? "size_ratio" : ""};
+  for (const Metric metric : options.annotated_metrics) {
+    names.push_back(std::to_string(static_cast<int>(metric)));
+  }
+  return names;
+}
+
+template <class Enum>
+std::int64_t number_of(const std::optional<Enum>& value) {
+  return value ? static_cast<std::int64_t>(*value) : -1;
+}
+
 }  // namespace
+
+void require_same_options(const PipelineOptions& options, const mpi::Communicator& ranks) {
+  std::vector<mpi::OptionValue> values = mpi::option_values(options.smoothing, options.slide);
+  for (mpi::OptionValue& value : values) {
+    value.first = program_option(value.first);
+  }
+  values.insert(values.end(), {{"INPUT", hash_of(options.input.native())},
+                               {"OUTPUT", number_of(options.output)},
+                               {"--format", number_of(options.format)},
+                               {"--region-array", number_of(options.region_arrays)},
+                               {"--fixed-array", number_of(options.fixed_array)},
+                               {"--fixed-set", number_of(options.fixed_sets)},
+                               {"--fixed-labels", options.fixed_ids_are_labels ? number_of(options.fixed_ids) : -1},
+                               {"--fixed-ids", options.fixed_ids_are_labels ? -1 : number_of(options.fixed_ids)},
+                               {"--merge", options.merge ? std::bit_cast<std::int64_t>(*options.merge) : -1},
+                               {"--size-array", number_of(options.size_array)},
+                               {"--fields", number_of(options.fields)},
+                               {"--field-array", number_of(options.field_arrays)},
+                               {"--project", number_of(options.project)},
+                               {"--geographic", options.geographic ? 1 : 0},
+                               {"--partition", number_of(options.partition)},
+                               {"--gather", options.gather ? 1 : 0},
+                               {"--single", options.single ? 1 : 0},
+                               {"--annotate", options.annotate ? 0 : number_of(options.annotated)},
+                               {"--annotate-metrics", number_of(annotated_metrics(options))},
+                               {"--require size_ratio", options.size_ratio ? 1 : 0}});
+  mpi::require_same(values, ranks);
+}
 
 std::string_view what_needs_whole_mesh(const PipelineOptions& options) {
   return options.slide.along != Slide::off                   ? "--slide"

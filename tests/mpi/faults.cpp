@@ -290,6 +290,7 @@ TEST_CASE("options that are not the same on one rank are refused on all, by name
       {"target", [](Job& job) { job.options.mean_ratio.target = TargetShape::input; }},
       {"guard", [](Job& job) { job.options.guard = false; }},
       {"untangle", [](Job& job) { job.options.untangle = trismooth::Untangle::on; }},
+      {"layers", [](Job& job) { job.options.layers = trismooth::Layers::keep; }},
       {"max_sweeps", [](Job& job) { job.options.max_sweeps = 7; }},
       {"tolerance", [](Job& job) { job.options.tolerance = 1e-3; }},
       {"time_limit_seconds", [](Job& job) { job.options.time_limit_seconds = 1000; }},

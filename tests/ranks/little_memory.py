@@ -42,8 +42,8 @@ class LittleMemory(ranks_tool.RanksTest):
     def outputs(self):
         return {name: self.read(name) for name in sorted(os.listdir(self.folder)) if name.startswith("out")}
 
-    def check_outcome(self, arguments, good, outcome):
-        """It has worked, or has ended with a message and left what was there."""
+    def check_outcome(self, arguments, good, outcome, rank=0):
+        """It has worked, or has ended with a message, which names the rank, and left what was there."""
         if outcome.code == 0:
             self.assertEqual(self.outputs(), good, outcome)
             return
@@ -52,6 +52,8 @@ class LittleMemory(ranks_tool.RanksTest):
         self.assertTrue(errors, outcome)
         for error in errors:
             self.assertRegex(error, "memory" if outcome.code == BAD_INPUT else "memory|standard output", outcome)
+            if rank > 0:
+                self.assertIn(f"rank {rank}: ", error, outcome)
         if "smooth" in arguments and outcome.code == BAD_INPUT:
             self.assertEqual(self.outputs(), {arguments[2]: OLD}, outcome)
 
@@ -84,7 +86,7 @@ class LittleMemory(ranks_tool.RanksTest):
         for first in evenly(1, count - 25, 200 if tool.thorough else samples):
             for failing in (1, 20) if tool.thorough or first % 2 else (1,):
                 with self.subTest(arguments=arguments, rank=rank, first=first, of=count, failing=failing):
-                    self.check_outcome(arguments, good, run(FAIL_AT=first, FAILING_COUNT=failing))
+                    self.check_outcome(arguments, good, run(FAIL_AT=first, FAILING_COUNT=failing), rank)
 
     def limited(self, kibibytes, arguments):
         """With so many addresses for rank 1."""
@@ -107,7 +109,7 @@ class LittleMemory(ranks_tool.RanksTest):
             with self.subTest(kibibytes=kibibytes, enough=enough):
                 outcome = self.limited(kibibytes, arguments)
                 if outcome.code in (0, BAD_INPUT):
-                    self.check_outcome(arguments, good, outcome)
+                    self.check_outcome(arguments, good, outcome, 1)
                 else:  # MPI's or the system's libraries could not begin
                     self.assertEqual(self.outputs(), {"out.pvtu": OLD}, outcome)
 
