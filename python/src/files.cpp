@@ -108,6 +108,20 @@ std::optional<std::string> text_or_none(nb::handle value, const char* name) {
   return bytes_of_text(value);
 }
 
+std::optional<double> distance_or_none(nb::handle value, const char* name) {
+  if (value.is_none()) {
+    return std::nullopt;
+  }
+  double distance = 0;
+  if (PyBool_Check(value.ptr()) || !nb::try_cast(value, distance)) {
+    raise_type_error(name, "a number is needed, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  if (!std::isfinite(distance) || distance < 0) {
+    raise_value_error(name, "a distance is 0 or more, and finite, not " + nb::cast<std::string>(nb::repr(value)));
+  }
+  return distance;
+}
+
 template <class Enum>
 std::optional<Enum> choice_or_none(nb::handle value, const char* name) {
   const std::optional<std::string> text = text_or_none(value, name);
@@ -293,6 +307,8 @@ class FileMesh {
           std::ranges::copy(vertices_of_labels(labels, document_, "fixed_labels"),
                             std::back_inserter(options.fixed_vertices));
         }
+      } else if (name == "merge") {
+        options.merge = distance_or_none(value, "merge");
       } else if (name == "size") {
         options.size_array = text_or_none(value, "size");
       } else if (name == "fields") {

@@ -29,6 +29,7 @@ struct Parsed {
   Sliding slide{};
   std::string backend = "auto";
   std::vector<int> devices{};
+  const char* of_lines = nullptr;  ///< an option that says how vertices slide, if one is given
 };
 
 /// Throws std::invalid_argument for options that do not fit.
@@ -149,6 +150,21 @@ template <auto member>
 void parse_slide_number(nb::handle value, const char* name, Parsed& parsed) {
   if (!value.is_none()) {
     parsed.slide.*member = real_of(value, name);
+    parsed.of_lines = name;
+  }
+}
+
+void parse_curve(nb::handle value, const char* name, Parsed& parsed) {
+  parsed.slide.curve = choice_of<SlideCurve>(value, name);
+  if (parsed.slide.curve != Sliding{}.curve) {
+    parsed.of_lines = name;
+  }
+}
+
+void parse_coincident(nb::handle value, const char* name, Parsed& parsed) {
+  parsed.slide.coincident = flag_of(value, name);
+  if (parsed.slide.coincident) {
+    parsed.of_lines = name;
   }
 }
 
@@ -187,10 +203,8 @@ constexpr auto options = std::to_array<Option>({
      [](nb::handle value, const char* name, Parsed& parsed) { parsed.slide.along = choice_of<Slide>(value, name); }},
     {"corner_angle", parse_slide_number<&Sliding::corner_angle>},
     {"deviation", parse_slide_number<&Sliding::deviation>},
-    {"curve", [](nb::handle value, const char* name,
-                 Parsed& parsed) { parsed.slide.curve = choice_of<SlideCurve>(value, name); }},
-    {"slide_coincident",
-     [](nb::handle value, const char* name, Parsed& parsed) { parsed.slide.coincident = flag_of(value, name); }},
+    {"curve", parse_curve},
+    {"slide_coincident", parse_coincident},
 });
 
 const Option* find_option(std::string_view name) {
@@ -265,6 +279,9 @@ CallOptions parse_options(const nb::dict& arguments) {
     option->parse(value, option->name, parsed);
   }
   validate(parsed, arguments);
+  if (parsed.of_lines != nullptr && parsed.slide.along == Slide::off) {
+    raise_value_error(parsed.of_lines, "is for vertices that slide; slide='straight' or slide='curves' has them do so");
+  }
   choose_backend(parsed.backend, parsed.devices, parsed.options);
   return {std::move(parsed.options), parsed.slide};
 }

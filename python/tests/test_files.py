@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import pytest
 
 import trismooth
 from conftest import grid
+from program import off_file
 
 pytestmark = pytest.mark.skipif(not trismooth.build_info()["files"], reason="this build has no files")
 PROGRAM = os.environ.get("TRISMOOTH_PROGRAM")
@@ -335,3 +337,35 @@ def test_the_module_ends_at_once_at_ctrl_c(tmp_path):
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 130
+
+
+def _soup(path):
+    """A grid of 6 by 8 squares whose triangles have corners of their own."""
+    points, triangles = grid(6, 8)
+    return off_file(path, points[triangles].reshape(-1, 2), np.arange(triangles.size).reshape(-1, 3))
+
+
+def test_corners_in_one_place_are_joined_as_the_note_says(tmp_path):
+    mesh = trismooth.read(_soup(tmp_path / "soup.off"))
+    with pytest.warns(trismooth.MeshWarning, match="lie where others do; merge=0 joins them"):
+        assert mesh.smooth().moved == 0
+    assert mesh.smooth(merge=0).free_vertices == 5 * 7
+    assert np.allclose(mesh.points[:, :2], trismooth.smooth(*grid(6, 8)).points[grid(6, 8)[1]].reshape(-1, 2), atol=1e-9)
+    for bad, kind in ((-1.0, ValueError), (float("nan"), ValueError), ("0", TypeError), (True, TypeError)):
+        with pytest.raises(kind, match="^merge: "):
+            mesh.smooth(merge=bad)
+
+
+def test_notes_of_files_name_arguments_of_python(tmp_path):
+    mesh = trismooth.read(_soup(tmp_path / "soup.off"))
+    with pytest.warns(trismooth.MeshWarning) as caught:
+        result = mesh.smooth(power=2)
+    assert "the method smart takes no notice of power; method='mean-ratio' does" in result.notes
+    assert result.warnings and set(result.warnings) <= set(result.notes)
+    assert [str(warning.message) for warning in caught] == result.notes
+    assert not any("--" in note for note in result.notes)
+    space = grid(3, 3)[0]
+    path = off_file(tmp_path / "bent.off", *grid(3, 3))
+    path.write_text(path.read_text().replace(f"{float(space[5][0])!r} {float(space[5][1])!r} 0", "1.1 1.1 5"))
+    with pytest.raises(trismooth.ReadError, match="project='xy'"):
+        trismooth.read(path).smooth()

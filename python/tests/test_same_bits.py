@@ -45,7 +45,6 @@ SINGLE = [
     {"layout": "soa", "execution": "single-block"},
     {"execution": "cdp"},
     {"time_limit": 1000.0},
-    {"slide": "off", "curve": "spline", "deviation": 0.5},
     {"slide": "straight"},
     {"slide": "straight", "guard": False},
     {"slide": "straight", "method": "weighted", "precision": "single"},

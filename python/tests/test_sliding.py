@@ -302,3 +302,26 @@ def test_what_a_file_cannot_slide_is_said(msh):
     with pytest.raises(TypeError, match="'lines' is no option"):
         mesh.smooth(slide="curves", lines=[[0, 1]])
     np.testing.assert_array_equal(mesh.points, before)
+
+
+@pytest.mark.parametrize(
+    "option", [{"deviation": 0.1}, {"curve": "spline"}, {"corner_angle": 20}, {"slide_coincident": True}], ids=str
+)
+def test_options_of_sliding_without_it_are_refused(option):
+    points, triangles = grid(4, 3)
+    (name,) = option
+    calls = [
+        lambda: trismooth.smooth(points, triangles, **option),
+        lambda: trismooth.Plan(triangles, len(points), **option),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match=f"^{name}: .*slide='curves'"):
+            call()
+    trismooth.smooth(points, triangles, deviation=None, curve="polyline", corner_angle=None, slide_coincident=False)
+
+
+def test_options_of_curves_without_curves_are_said():
+    points, triangles = grid(4, 3)
+    with pytest.warns(trismooth.MeshWarning):
+        result = trismooth.smooth(points, triangles, slide="straight", deviation=0.1, curve="spline")
+    assert result.notes == ["slide='straight' takes no notice of deviation, curve; slide='curves' does"]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, Optional, Sequence, Union
+from contextlib import contextmanager
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _arrays, _core
 from ._core import QualityReport
-from ._notes import warn_of
+from ._notes import in_python, warn_of
 from ._result import Result
 from ._smooth import Progress
 from ._support import NO_FILES
@@ -28,9 +29,11 @@ class FileResult(Result):
     ----------
     report : dict
         The program's JSON report: the input, what holds vertices, regions, options, sizes, fields, ...
-    notes, warnings, losses : list of str
-        What one should know, one sentence each, in the words of the program. Losses are of point arrays that could not
-        follow the mesh.
+    notes : list of str
+        What one should know, one sentence each: the program's sentences, with arguments of Python in place of options.
+        They were warnings.
+    warnings, losses : list of str
+        Those of the notes that the program calls warnings, and those of point arrays that could not follow the mesh.
     """
 
     __slots__ = ("report", "warnings", "losses")
@@ -40,9 +43,24 @@ class FileResult(Result):
         super().__init__(outcome.outcome, mesh.points, linear if len(linear) > 0 else mesh.quadratic_triangles)
         self.mesh = mesh
         self.report: Dict[str, Any] = json.loads(outcome.json)
-        self.notes = outcome.notes
-        self.warnings: List[str] = outcome.warnings
-        self.losses: List[str] = outcome.losses
+        self.notes = _said(outcome)
+        self.warnings: List[str] = [in_python(warning) for warning in outcome.warnings]
+        self.losses: List[str] = [in_python(loss) for loss in outcome.losses]
+
+
+def _said(outcome: Any) -> List[str]:
+    return [in_python(sentence) for sentence in (*outcome.notes, *outcome.warnings, *outcome.losses)]
+
+
+@contextmanager
+def _errors_in_python() -> Iterator[None]:
+    try:
+        yield
+    except (_core.ReadError, _core.MeshError, ValueError) as error:
+        said = in_python(str(error))
+        if said == str(error) or type(error) not in (_core.ReadError, _core.MeshError, ValueError):
+            raise
+        raise type(error)(said) from None
 
 
 class Mesh:
@@ -122,6 +140,7 @@ class Mesh:
         fixed_labels: Any = None,
         fixed_array: Optional[str] = None,
         fixed_sets: Union[None, str, Sequence[str]] = None,
+        merge: Optional[float] = None,
         size: Optional[str] = None,
         fields: Optional[str] = None,
         field_arrays: Union[None, str, Sequence[str]] = None,
@@ -147,6 +166,9 @@ class Mesh:
             The point array whose nonzero values hold vertices. Default: "fixed", where there is one.
         fixed_sets : str or list of str, optional
             Point sets that hold vertices. Default: all but those of areas.
+        merge : float, optional
+            Corners of triangles that are no further apart, in the file's unit, count as one vertex: they move together,
+            and the mesh keeps all of them. Default: none are joined.
         size : str, optional
             The array of sizes to aim at: edge lengths at points, or areas of cells.
         fields : {"keep", "interpolate"}, optional
@@ -170,8 +192,7 @@ class Mesh:
         Warns
         -----
         MeshWarning
-            Of all that the result's notes, warnings and losses say: option ``--region-array`` of the program is
-            ``regions`` here, ``--fixed-set`` is ``fixed_sets``, ``--fixed-ids`` is ``fixed``, and so on.
+            Of all that the result's notes say.
 
         Raises
         ------
@@ -188,25 +209,21 @@ class Mesh:
             "fixed_labels": None if fixed_labels is None else _labels(fixed_labels),
             "fixed_array": fixed_array,
             "fixed_sets": fixed_sets,
+            "merge": merge,
             "size": size,
             "fields": fields,
             "field_arrays": field_arrays,
             "project": project,
             "geographic": geographic,
         }
-        return FileResult(
-            self._mesh.smooth(
-                options,
-                held,
-                progress,
-                lambda outcome: warn_of([*outcome.notes, *outcome.warnings, *outcome.losses]),
-            ),
-            self,
-        )
+        with _errors_in_python():
+            outcome = self._mesh.smooth(options, held, progress, lambda outcome: warn_of(_said(outcome)))
+        return FileResult(outcome, self)
 
     def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""
-        outcome = self._mesh.check({"project": project, "geographic": geographic}, threads)
+        with _errors_in_python():
+            outcome = self._mesh.check({"project": project, "geographic": geographic}, threads)
         report = outcome.outcome.before
         assert report is not None  # a check always has it
         return report
