@@ -1,22 +1,29 @@
 #pragma once
 
 #include <ostream>
+#include <string>
 #include <string_view>
 
 #include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {
 
+/// In one piece, or not at all where there is no memory for it.
+inline void print_message(std::ostream& stream, std::string_view kind, std::string_view message) {
+  const std::string text = printable(message);
+  stream << "trismooth: " << kind << ": " << text << '\n';
+}
+
 /// The messages of the command line, one a line whatever they name: "trismooth: error: plate.off:17: expected 3
 /// coordinates".
 inline void print_error(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: error: " << printable(message) << '\n';
+  print_message(stream, "error", message);
 }
 inline void print_warning(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: warning: " << printable(message) << '\n';
+  print_message(stream, "warning", message);
 }
 inline void print_note(std::ostream& stream, std::string_view message) {
-  stream << "trismooth: note: " << printable(message) << '\n';
+  print_message(stream, "note", message);
 }
 
 }  // namespace trismooth

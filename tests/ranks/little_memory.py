@@ -43,7 +43,7 @@ class LittleMemory(ranks_tool.RanksTest):
         return {name: self.read(name) for name in sorted(os.listdir(self.folder)) if name.startswith("out")}
 
     def check_outcome(self, arguments, good, outcome, rank=0):
-        """It has worked, or has ended with a message, which names the rank, and left what was there."""
+        """It has worked, or has ended with a message, which names the rank or the rank's file, and left what was there."""
         if outcome.code == 0:
             self.assertEqual(self.outputs(), good, outcome)
             return
@@ -53,7 +53,7 @@ class LittleMemory(ranks_tool.RanksTest):
         for error in errors:
             self.assertRegex(error, "memory" if outcome.code == BAD_INPUT else "memory|standard output", outcome)
             if rank > 0:
-                self.assertIn(f"rank {rank}: ", error, outcome)
+                self.assertRegex(error, rf"rank {rank}: |_{rank}\.vtu: ", outcome)
         if "smooth" in arguments and outcome.code == BAD_INPUT:
             self.assertEqual(self.outputs(), {arguments[2]: OLD}, outcome)
 
