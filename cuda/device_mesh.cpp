@@ -19,9 +19,9 @@
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
+#include "trismooth/cuda/primitives/gather_bytes.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_pointer.h"
-#include "trismooth/cuda/slide/held_points.h"
 #include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/device_topology.h"
 

@@ -105,7 +105,7 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
   }
   GhostValues ghosts(overlap.part);
   const LayerCandidates candidates(points, overlap.triangles, reversed, workers,
-                                   [&ghosts](std::span<std::uint32_t> at_corners) { ghosts.update(at_corners); });
+                                   [&ghosts](std::span<FlatAround> around) { ghosts.update(around); });
   Findings found = shared_findings(overlap, candidates.after(layers_first_choices, workers), layers, layers_least_seen,
                                    ranks, workers);
   if (!found.finds_any()) {

@@ -20,7 +20,7 @@ MAY_USE = {
     "smoothing faces": ["base"],
     "smoothing/methods": ["base", "quality", "smoothing faces"],
     "smoothing/parts": [],
-    "smoothing/layers": ["base", "smoothing faces"],
+    "smoothing/layers": ["base", "quality", "smoothing faces"],
     "smoothing/rings": ["base", "quality", "smoothing faces", "smoothing/parts", "smoothing/layers"],
     "smoothing/halo": ["base", "smoothing/parts", "smoothing/rings"],
     "smoothing/guard": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/halo"],

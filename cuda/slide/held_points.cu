@@ -36,14 +36,6 @@ struct Gather {
   __device__ void operator()(std::uint32_t i) const { gathered[i] = stored[vertices[i]]; }
 };
 
-struct GatherBytes {
-  const std::uint8_t* values;
-  const std::int32_t* numbers;
-  std::uint8_t* gathered;
-
-  __device__ void operator()(std::uint32_t i) const { gathered[i] = values[numbers[i]]; }
-};
-
 struct NoteFans {
   const std::int32_t* numbers;
   std::int32_t free_count;
@@ -88,15 +80,6 @@ std::vector<std::int32_t> find_packed_numbers(Context& context, const VertexOrde
 void gather_points(const Context& context, const Point2<double>* stored, const DeviceBuffer<std::int32_t>& vertices,
                    Point2<double>* gathered) {
   for_each(context, static_cast<std::uint32_t>(vertices.size()), Gather{stored, vertices.data(), gathered});
-}
-
-std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* values,
-                                       const DeviceBuffer<std::int32_t>& numbers) {
-  DeviceBuffer<std::uint8_t> gathered(context, numbers.size());
-  for_each(context, static_cast<std::uint32_t>(numbers.size()), GatherBytes{values, numbers.data(), gathered.data()});
-  std::vector<std::uint8_t> found(numbers.size());
-  gathered.download(found);
-  return found;
 }
 
 void find_fans(const Context& context, const DeviceBuffer<std::int32_t>& numbers, std::int32_t free_count,

@@ -17,9 +17,6 @@ std::vector<std::int32_t> find_packed_numbers(Context& context, const VertexOrde
 /// Copies stored[vertices[i]] to gathered[i]; all is on the device.
 void gather_points(const Context& context, const Point2<double>* stored, const DeviceBuffer<std::int32_t>& vertices,
                    Point2<double>* gathered);
-/// values[numbers[i]] of each number; waits for the device.
-std::vector<std::uint8_t> gather_bytes(Context& context, const std::uint8_t* values,
-                                       const DeviceBuffer<std::int32_t>& numbers);
 
 /// Lists the fans of held vertices for the guard: fan_of[numbers[i] - free_count] = i. Others are left as they are.
 void find_fans(const Context& context, const DeviceBuffer<std::int32_t>& numbers, std::int32_t free_count,

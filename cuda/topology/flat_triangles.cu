@@ -21,25 +21,31 @@ struct MarkFlat {
   }
 };
 
-struct CountAtCorners {
+struct AddAtCorners {
   TriangleList triangles;
+  const Point2<double>* points;
+  const std::uint8_t* reversed;
   const std::uint8_t* levels;
   std::uint8_t level;
-  std::uint32_t* at;
+  FlatAround* around;
 
   __device__ void operator()(std::uint32_t t) const {
     if (levels[t] != level) {
       return;
     }
-    for (const std::int32_t v : triangles[t]) {
-      fetch_add(&at[v], 1U);
+    const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
+    const TensorUnits tensor = in_units(flat_tensor(points[corners[0]], points[corners[1]], points[corners[2]]));
+    for (const std::int32_t v : corners) {
+      fetch_add(&around[v].count, 1U);
+      fetch_add(&around[v].sum.xx, tensor.xx);
+      fetch_add(&around[v].sum.xy, tensor.xy);
     }
   }
 };
 
 struct ChooseCandidates {
   TriangleList triangles;
-  const std::uint32_t* at;
+  const FlatAround* around;
   std::uint8_t level;
   std::uint8_t* levels;
 
@@ -47,11 +53,11 @@ struct ChooseCandidates {
     if (levels[t] != level) {
       return;
     }
-    bool are_crowded = true;
+    bool stays = true;
     for (const std::int32_t v : triangles[t]) {
-      are_crowded = are_crowded && at[v] >= layers_crowd;
+      stays = stays && stay_in_choice(around[v], level);
     }
-    levels[t] = are_crowded ? level + 1 : level;
+    levels[t] = stays ? level + 1 : level;
   }
 };
 
@@ -86,12 +92,12 @@ LayerCandidates::LayerCandidates(Context& context, const TriangleList& triangles
       reversed_(reversed),
       levels_(context, static_cast<std::size_t>(triangles.count)) {
   const auto count = static_cast<std::uint32_t>(triangles.count);
-  DeviceBuffer<std::uint32_t> at(context, static_cast<std::size_t>(vertex_count));
+  DeviceBuffer<FlatAround> around(context, static_cast<std::size_t>(vertex_count));
   for_each(context, count, MarkFlat{triangles, points, reversed, levels_.data()});
   for (std::uint8_t level = 1; level <= layers_first_choices; ++level) {
-    at.fill_bytes(0);
-    for_each(context, count, CountAtCorners{triangles, levels_.data(), level, at.data()});
-    for_each(context, count, ChooseCandidates{triangles, at.data(), level, levels_.data()});
+    around.fill_bytes(0);
+    for_each(context, count, AddAtCorners{triangles, points, reversed, levels_.data(), level, around.data()});
+    for_each(context, count, ChooseCandidates{triangles, around.data(), level, levels_.data()});
   }
 }
 

@@ -14,7 +14,7 @@ namespace trismooth::cuda {
 /// trismooth::LayerCandidates of a mesh on the device.
 class LayerCandidates {
  public:
-  /// All of it outlives this. Memory: 1 byte a triangle, and 4 a vertex meanwhile. Queued.
+  /// All of it outlives this. Memory: 1 byte a triangle, and 12 a vertex meanwhile. Queued.
   LayerCandidates(Context& context, const TriangleList& triangles, std::int32_t vertex_count,
                   const Point2<double>* points, const std::uint8_t* reversed);
 

@@ -400,12 +400,12 @@ class PieceRun {
     if (std::string warning = warning_of_options_without_effect(options_); !warning.empty()) {
       say_warning(std::move(warning));
     }
-    if (std::string warning = warning_of_layers(layers_); !warning.empty()) {
-      say_warning(std::move(warning));
-    }
     const CoarseBoundary coarse = find_coarse_boundary(*topology_, local_, reversed_, held_, workers_.count());
     if (coarse.any()) {
       say_warning(warning_of(coarse));
+    }
+    if (std::string warning = warning_of_layers(layers_); !warning.empty()) {
+      say_warning(std::move(warning));
     }
   }
 

@@ -36,6 +36,46 @@ constexpr TRISMOOTH_HOST_DEVICE bool is_flat(Point2<double> a, Point2<double> b,
   return quotient > 0 && 867 * (quotient * quotient) <= 16;
 }
 
+/// The edge tensor of a triangle with trace 1, without its yy.
+struct FlatTensor {
+  double xx;
+  double xy;
+};
+
+TRISMOOTH_HOST_DEVICE inline FlatTensor flat_tensor(Point2<double> a, Point2<double> b, Point2<double> c) {
+  const Point2<double> ab = b - a;
+  const Point2<double> bc = c - b;
+  const Point2<double> ac = c - a;
+  const double sum = squared_length(ab) + squared_length(bc) + squared_length(ac);
+  return {(ab.x * ab.x + bc.x * bc.x + ac.x * ac.x) / sum, (ab.x * ab.y + bc.x * bc.y + ac.x * ac.y) / sum};
+}
+
+/// A tensor in 1024ths, for sums that do not depend on their order; negative numbers by their complement. (Sums of
+/// millions run over, everywhere alike.)
+struct TensorUnits {
+  std::uint32_t xx;
+  std::uint32_t xy;
+};
+
+TRISMOOTH_HOST_DEVICE inline TensorUnits in_units(const FlatTensor& tensor) {
+  return {static_cast<std::uint32_t>(static_cast<std::int32_t>(1024 * tensor.xx)),
+          static_cast<std::uint32_t>(static_cast<std::int32_t>(1024 * tensor.xy))};
+}
+
+/// The flat triangles around a vertex.
+struct FlatAround {
+  std::uint32_t count = 0;
+  TensorUnits sum{};
+
+  /// Whether the mean of their tensors has an aspect of 3 or more.
+  TRISMOOTH_HOST_DEVICE bool is_coherent() const {
+    const double units = 1024.0 * count;
+    const double xx = sum.xx / units;
+    const double xy = static_cast<std::int32_t>(sum.xy) / units;
+    return 100 * (xx * (1 - xx) - xy * xy) <= 9;
+  }
+};
+
 /// What is to be known of a flat triangle with these canonical corners.
 TRISMOOTH_HOST_DEVICE inline FlatTriangle described_flat(const Triangle& corners, Point2<double> a, Point2<double> b,
                                                          Point2<double> c) {
@@ -43,21 +83,19 @@ TRISMOOTH_HOST_DEVICE inline FlatTriangle described_flat(const Triangle& corners
   const Point2<double> bc = c - b;
   const Point2<double> ac = c - a;
   const double squares[3] = {squared_length(ab), squared_length(bc), squared_length(ac)};
-  const double sum = squares[0] + squares[1] + squares[2];
   const int longest = squares[1] > squares[0] ? (squares[2] > squares[1] ? 2 : 1) : (squares[2] > squares[0] ? 2 : 0);
   const double m = squares[(longest + 1) % 3];
   const double n = squares[(longest + 2) % 3];
   // The law of cosines: excess = -2 sqrt(m n) cos(angle).
   const double excess = squares[longest] - m - n;
   constexpr double square_of_cosine_110 = 0.11697777844051098;
-  FlatTriangle flat{corners, FlatTriangle::Angle::moderate, 0, 0, shape_quotient(a, b, c)};
+  const auto [xx, xy] = flat_tensor(a, b, c);
+  FlatTriangle flat{corners, FlatTriangle::Angle::moderate, xx, xy, shape_quotient(a, b, c)};
   if (excess > 0 && excess * excess > 2 * (m * n)) {
     flat.angle = FlatTriangle::Angle::obtuse;
   } else if (excess > 0 && excess * excess >= 4 * square_of_cosine_110 * (m * n)) {
     flat.angle = FlatTriangle::Angle::wide;
   }
-  flat.xx = (ab.x * ab.x + bc.x * bc.x + ac.x * ac.x) / sum;
-  flat.xy = (ab.x * ab.y + bc.x * bc.y + ac.x * ac.y) / sum;
   return flat;
 }
 

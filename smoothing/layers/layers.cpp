@@ -20,21 +20,22 @@ namespace {
 constexpr std::int64_t triangle_grain = 16384;
 
 /// The flat triangles of the view, ascending.
-std::vector<std::int32_t> list_flat(const TriangleView& view, Workers& workers) {
+std::vector<ListedFlat> list_flat(const TriangleView& view, Workers& workers) {
   const Blocks blocks(std::ssize(view.triangles), triangle_grain, workers);
-  std::vector<std::vector<std::int32_t>> found(static_cast<std::size_t>(blocks.count()));
+  std::vector<std::vector<ListedFlat>> found(static_cast<std::size_t>(blocks.count()));
   blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::vector<std::int32_t>& own = found[static_cast<std::size_t>(block)];
+    std::vector<ListedFlat>& own = found[static_cast<std::size_t>(block)];
     for_corners(view, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
                 [&own](std::size_t first, std::span<const CornerPoints> corners) {
                   for (std::size_t i = 0; i < corners.size(); ++i) {
-                    if (is_flat(corners[i][0], corners[i][1], corners[i][2])) {
-                      own.push_back(static_cast<std::int32_t>(first + i));
+                    const auto& [a, b, c] = corners[i];
+                    if (is_flat(a, b, c)) {
+                      own.push_back({static_cast<std::int32_t>(first + i), in_units(flat_tensor(a, b, c))});
                     }
                   }
                 });
   });
-  std::vector<std::int32_t> all = std::move(found.front());
+  std::vector<ListedFlat> all = std::move(found.front());
   for (std::size_t b = 1; b < found.size(); ++b) {
     all.insert(all.end(), found[b].begin(), found[b].end());
   }
@@ -180,40 +181,48 @@ class Stretches {
 
 LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                                  std::span<const std::uint8_t> reversed, Workers& workers,
-                                 const std::function<void(std::span<std::uint32_t>)>& complete)
+                                 const std::function<void(std::span<FlatAround>)>& complete)
     : view_{points, triangles, reversed} {
   left_[0] = list_flat(view_, workers);
   for (std::size_t choice = 1; choice < left_.size(); ++choice) {
-    std::vector<std::int32_t> left = left_[choice - 1];
+    std::vector<ListedFlat> left = left_[choice - 1];
     if (!complete && std::ssize(left) < layers_least_seen) {
       return;
     }
-    BulkVector<std::uint32_t> at(points.size());
-    std::ranges::fill(at, 0U);
+    BulkVector<FlatAround> around(points.size());
+    std::ranges::fill(around, FlatAround{});
     workers.for_blocks(std::ssize(left), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+      const auto add = [](std::uint32_t& sum, std::uint32_t value) {
+        std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
+      };
       for (std::int64_t i = begin; i < end; ++i) {
-        for (const std::int32_t v : triangles[static_cast<std::size_t>(left[static_cast<std::size_t>(i)])]) {
-          std::atomic_ref(at[static_cast<std::size_t>(v)]).fetch_add(1, std::memory_order_relaxed);
+        const ListedFlat& flat = left[static_cast<std::size_t>(i)];
+        for (const std::int32_t v : triangles[static_cast<std::size_t>(flat.triangle)]) {
+          FlatAround& here = around[static_cast<std::size_t>(v)];
+          add(here.count, 1);
+          add(here.sum.xx, flat.tensor.xx);
+          add(here.sum.xy, flat.tensor.xy);
         }
       }
     });
     if (complete) {
-      complete(at);
+      complete(around);
     }
-    std::erase_if(left, [&](std::int32_t t) {
-      return !std::ranges::all_of(triangles[static_cast<std::size_t>(t)],
-                                  [&](std::int32_t v) { return at[static_cast<std::size_t>(v)] >= layers_crowd; });
+    std::erase_if(left, [&](const ListedFlat& flat) {
+      return !std::ranges::all_of(triangles[static_cast<std::size_t>(flat.triangle)], [&](std::int32_t v) {
+        return stay_in_choice(around[static_cast<std::size_t>(v)], static_cast<int>(choice));
+      });
     });
     left_[choice] = std::move(left);
   }
 }
 
 std::vector<FlatTriangle> LayerCandidates::after(int choices, Workers& workers) const {
-  const std::vector<std::int32_t>& left = left_[static_cast<std::size_t>(choices)];
+  const std::vector<ListedFlat>& left = left_[static_cast<std::size_t>(choices)];
   std::vector<FlatTriangle> candidates(left.size());
   workers.for_blocks(std::ssize(left), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(left[i]));
+      const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(left[i].triangle));
       const auto [a, b, c] = corners;
       candidates[i] =
           described_flat(corners, view_.points[static_cast<std::size_t>(a)], view_.points[static_cast<std::size_t>(b)],

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/layers/flat_triangle.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
-#include "trismooth/smoothing/rings/slidable.h"
 
 namespace trismooth {
 
@@ -26,8 +26,9 @@ class Workers;
 /// stretches of a few triangles.
 ///
 /// Candidates for it are the flat triangles whose corners all have a second one. In random meshes these are many, so a
-/// first look is at those that are left when the choice is made three more times among them: only where that shows a
-/// stretch of layers_least_seen does the search go on.
+/// first look is at those that are left when the choice is made again and again among them, and with a further rule:
+/// what is flat around each corner is so in one direction (FlatAround::is_coherent()). Only where that shows a stretch
+/// of layers_least_seen does the search go on.
 ///
 /// Nothing of it depends on the order of triangles and corners, on place or unit, or on what holds vertices.
 
@@ -36,8 +37,10 @@ class Workers;
 inline constexpr std::int64_t layers_least = 18;
 /// Of the smallest one for which the search goes on: at its ends a stretch loses some by each further choice.
 inline constexpr std::int64_t layers_least_seen = 12;
-/// The flat triangles at each corner of a candidate.
-inline constexpr std::uint32_t layers_crowd = 2;
+/// Whether a choice, counted from 1, leaves the triangles at a vertex.
+constexpr TRISMOOTH_HOST_DEVICE bool stay_in_choice(const FlatAround& around, int choice) {
+  return around.count >= 2 && (choice == 1 || around.is_coherent());
+}
 /// How often candidates are chosen for the first look, and for the search.
 inline constexpr int layers_first_choices = 4;
 inline constexpr int layers_choices = 1;
@@ -51,16 +54,22 @@ struct LayerSearch {
   LayersResult result;             ///< its numbers of vertices are for whoever knows what else holds these
 };
 
+/// A flat triangle by its number.
+struct ListedFlat {
+  std::int32_t triangle;
+  TensorUnits tensor;
+};
+
 /// The flat triangles of a mesh, and which of them are left after each choice.
 class LayerCandidates {
  public:
   /// `points`: one for each vertex, in the local frame; `reversed`: one for each triangle, as MeshRings::reversed. All
-  /// outlive it. `complete`: where these are the triangles of a part of a mesh, brings the numbers of flat triangles at
-  /// vertices that another part owns; called once a choice. Complexity: linear; nearly all of the time goes into
-  /// looking at all triangles once.
+  /// outlive it. `complete`: where these are the triangles of a part of a mesh, brings what is flat around vertices
+  /// that another part owns; called once a choice. Complexity: linear; nearly all of the time goes into looking at all
+  /// triangles once.
   LayerCandidates(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                   std::span<const std::uint8_t> reversed, Workers& workers,
-                  const std::function<void(std::span<std::uint32_t>)>& complete = {});
+                  const std::function<void(std::span<FlatAround>)>& complete = {});
 
   /// Those left after so many choices, 0 (all flat ones) to layers_first_choices, in the order of `triangles`.
   /// Complexity: linear in their number.
@@ -68,7 +77,7 @@ class LayerCandidates {
 
  private:
   TriangleView view_;
-  std::array<std::vector<std::int32_t>, layers_first_choices + 1> left_;  ///< after so many choices
+  std::array<std::vector<ListedFlat>, layers_first_choices + 1> left_;  ///< after so many choices
 };
 
 /// Looks for stretches of `least` triangles among candidates, in any order; their corners are below `vertex_count`. Not

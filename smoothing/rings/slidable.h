@@ -61,17 +61,6 @@ struct NearLines {
   std::vector<std::int32_t> others;     ///< the vertices that is_held_otherwise(), in any order
 };
 
-/// Whether nothing but lines holds a vertex: a boundary, an interface, or one that the caller names.
-constexpr TRISMOOTH_HOST_DEVICE bool is_held_by_lines(std::uint8_t reasons) {
-  constexpr unsigned of_lines = hold::boundary | hold::interface | hold::line;
-  return reasons != 0 && (reasons & ~of_lines) == 0;
-}
-
-/// Whether something else holds a vertex that is in use.
-constexpr TRISMOOTH_HOST_DEVICE bool is_held_otherwise(std::uint8_t reasons) {
-  return reasons != 0 && !is_held_by_lines(reasons) && !hold::is_unused(reasons);
-}
-
 /// Has these vertices, which were free, held by something else than lines.
 void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices);
 

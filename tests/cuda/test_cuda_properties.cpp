@@ -205,8 +205,9 @@ TEST_CASE("random meshes have the host's orientation, constraints and rings") {
     std::vector<Point2<double>> local;
     std::ranges::transform(mesh.mesh.points, std::back_inserter(local), [&](auto p) { return frame.enter(p); });
     trismooth::Workers workers(1);
-    const auto expected = trismooth::find_mesh_rings(local, mesh.mesh.triangles, mesh.constraints(), workers);
     SmoothingOptions options;
+    const auto expected =
+        trismooth::find_mesh_rings(local, mesh.mesh.triangles, mesh.constraints(), workers, options.used_layers());
     options.execution = mesh.seed % 2 == 0 ? Execution::single_block : Execution::resident;
     const auto found = cuda::backend().find_rings(local, mesh.mesh.triangles, mesh.constraints(), options);
     if (!found) {

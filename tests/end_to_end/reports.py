@@ -135,9 +135,9 @@ class Reports(tool.ToolTest):
         found = guarded["smoothing"]["untangling"]
         self.assertGreater(found["inverted_after"], found["inverted_untangled"])
         words = f"{found['inverted_after']} triangles are not valid now, {found['inverted_untangled']} were after the untangling"
-        self.assertEqual([words in text for text in guarded["warnings"]], [True])
+        self.assertEqual([words in text for text in guarded["warnings"]].count(True), 1)
         free = self.report(*arguments, "--guard", "off")
-        self.assertEqual(free["warnings"], [])
+        self.assertFalse([text for text in free["warnings"] if "were after the untangling" in text])
         self.assertLess(free["after"]["inverted"], guarded["after"]["inverted"])
 
     def test_the_uncommitted_hash_is_that_without_the_guard(self):
