@@ -37,8 +37,9 @@ class MfemEdges {
     for (std::size_t side = 0; side < of_sides_.size(); ++side) {
       of_sides_[side] = first_sides[side] == side ? count_++ : of_sides_[first_sides[side]];
     }
-    const auto same = std::ranges::unique(edges_, {}, &Edge::ends);
-    edges_.erase(same.begin(), same.end());
+    // (Not std::ranges::unique, of which Clang 14 cannot read libstdc++'s.)
+    const auto are_same = [](const Edge& one, const Edge& other) { return one.ends == other.ends; };
+    edges_.erase(std::unique(edges_.begin(), edges_.end(), are_same), edges_.end());
     for (Edge& edge : edges_) {
       edge.number = of_sides_[edge.number];
     }

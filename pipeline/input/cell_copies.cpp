@@ -78,8 +78,8 @@ std::vector<std::int32_t> leave_out(PlanarMesh& mesh, std::span<const RepeatedTr
 }  // namespace
 
 std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell) {
-  const auto [first, last] = std::ranges::equal_range(copies, cell, {}, &CellCopy::cell);
-  return {first, last};
+  const auto first = std::ranges::lower_bound(copies, cell, {}, &CellCopy::cell);
+  return {first, std::ranges::upper_bound(first, copies.end(), cell, {}, &CellCopy::cell)};
 }
 
 void take_out_copies(PlanarMesh& mesh, Workers& workers) {

@@ -208,8 +208,8 @@ class RegionFinder {
     std::string text =
         candidate.text(static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]), with_value);
     std::set<std::string> said{text};
-    const auto [begin, end] = std::ranges::equal_range(copies_by_triangle_, triangle, {}, &CellCopy::triangle);
-    for (auto copy = begin; copy != end; ++copy) {
+    const auto first = std::ranges::lower_bound(copies_by_triangle_, triangle, {}, &CellCopy::triangle);
+    for (auto copy = first; copy != copies_by_triangle_.end() && copy->triangle == triangle; ++copy) {
       if (const auto [other, is_new] = said.insert(candidate.text(static_cast<std::size_t>(copy->cell), with_value));
           is_new) {
         text.append(" + ").append(*other);
