@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,6 +28,7 @@
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/piece_options.h"
 #include "trismooth/pipeline/ranks/rank_boundary.h"
+#include "trismooth/pipeline/ranks/rank_cells.h"
 #include "trismooth/pipeline/ranks/rank_components.h"
 #include "trismooth/pipeline/ranks/rank_constraints.h"
 #include "trismooth/pipeline/ranks/rank_hash.h"
@@ -270,28 +270,10 @@ class PieceRun {
   void summarise() {
     InputSummary& input = result_.input;
     const mpi::Overlap& overlap = topology_->overlap();
-    OwnCells cells;
-    std::int64_t first_repeating = std::numeric_limits<std::int64_t>::max();
-    for (const Piece& piece : files_.pieces) {
-      const OwnCells of_piece = count_own_cells(piece);
-      if (of_piece.first_repeating >= 0) {
-        first_repeating = std::min(first_repeating, number_of_cell(piece, of_piece.first_repeating, cells.cells));
-      }
-      cells.others += of_piece.others;
-      cells.repeating += of_piece.repeating;
-      cells.cells += of_piece.cells;
-    }
-    first_cell_ = ranks_->sum_before(cells.cells);
-    if (first_repeating < std::numeric_limits<std::int64_t>::max() && !files_.know_cell_ids()) {
-      first_repeating += first_cell_;
-    }
-    repeating_ = ranks_->sum(cells.repeating);
-    MPI_Allreduce(MPI_IN_PLACE, &first_repeating, 1, MPI_INT64_T, MPI_MIN, ranks_->handle());
-    const bool is_known = first_repeating < std::numeric_limits<std::int64_t>::max();
-    input.other_cells = ranks_->sum(cells.others);
-    const std::int64_t cell_count = ranks_->sum(cells.cells);
+    cells_ = count_rank_cells(files_, *ranks_);
+    input.other_cells = cells_.others;
     input.triangles = topology_->triangle_count();
-    agree(*ranks_, [&] { require_triangles(input.triangles, cell_count, options_.input); });
+    agree(*ranks_, [&] { require_triangles(input.triangles, cells_.cells, options_.input); });
     ReasonCounts reasons{};
     const std::vector<std::uint8_t> by_array = topology_->of_vertices<std::uint8_t>(constraints_.by_array);
     std::int64_t vertices = 0;
@@ -323,13 +305,11 @@ class PieceRun {
     input.components = static_cast<std::int32_t>(components.count);
     input.reoriented_triangles = components.reoriented_triangles;
     result_.notes.insert(result_.notes.begin(), regions_.notes.begin(), regions_.notes.end());
-    if (cell_count == 0) {
+    if (cells_.cells == 0) {
       note("the pieces hold no cells: nothing to smooth");
     }
-    std::ranges::copy(
-        notes_of_other_cells(input.other_cells, repeating_,
-                             is_known ? std::optional(static_cast<std::size_t>(first_repeating)) : std::nullopt),
-        std::back_inserter(result_.notes));
+    std::ranges::copy(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating),
+                      std::back_inserter(result_.notes));
     std::ranges::copy(notes_of_irregular_vertices(reasons), std::back_inserter(result_.notes));
     input.layers = layers_;
     if (std::string said = note_of_layers(layers_); !said.empty()) {
@@ -355,9 +335,14 @@ class PieceRun {
     return repeats.count > 0;
   }
 
+  /// The number_of_cell() of a triangle; 0 where another rank has it.
+  std::int64_t cell_of(std::int64_t triangle) const {
+    return number_of_triangle(files_, cells_.first, topology_->local_triangle(triangle));
+  }
+
   QualityReport quality_at(std::span<const Point2<double>> points, const LocalFrame& frame) {
     QualityReport report = quality_->report(points, frame, workers_.count());
-    report.degenerate += repeating_;
+    report.degenerate += cells_.repeating;
     std::vector<std::int64_t> cells;
     for (const WorstElement& element : report.worst) {
       cells.push_back(cell_of(element.triangle));
@@ -367,21 +352,6 @@ class PieceRun {
       report.worst[i].triangle = cells[i];
     }
     return report;
-  }
-
-  /// The number_of_cell() of a triangle; 0 where another rank has it.
-  std::int64_t cell_of(std::int64_t triangle) const {
-    auto t = topology_->local_triangle(triangle);
-    std::int64_t before = first_cell_;
-    for (const Piece& piece : files_.pieces) {
-      const auto count = static_cast<std::int32_t>(piece.mesh.triangles.size());
-      if (t >= 0 && t < count) {
-        return number_of_cell(piece, piece.mesh.cells[static_cast<std::size_t>(t)], before);
-      }
-      t -= count;
-      before += std::ranges::count(piece.ghost_cells, 0);
-    }
-    return 0;
   }
 
   void check_before() {
@@ -411,7 +381,7 @@ class PieceRun {
 
   /// Whether triangles are untangled, which is not done in pieces.
   bool is_untangled() const {
-    const auto broken = result_.before.inverted + result_.before.degenerate - repeating_;
+    const auto broken = result_.before.inverted + result_.before.degenerate - cells_.repeating;
     const bool is_needed = options_.smoothing.untangles() && broken > 0;
     agree(*ranks_, [&] {
       if (is_needed && !options_.gather) {
@@ -516,8 +486,7 @@ class PieceRun {
   RankConstraints constraints_;
   std::optional<RankTopology> topology_;
   RankRegions regions_;
-  std::int64_t repeating_ = 0;   ///< triangles that repeat a vertex, in all pieces
-  std::int64_t first_cell_ = 0;  ///< the number of the rank's first cell among those of all pieces
+  RankCells cells_;
   std::vector<std::uint8_t> held_;
   LayersResult layers_;
   std::vector<std::uint8_t> reversed_;

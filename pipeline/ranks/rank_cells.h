@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/ranks/piece_files.h"
+
+namespace trismooth {
+
+/// The cells of all pieces, copies left out.
+struct RankCells {
+  std::int64_t first = 0;  ///< the number of the rank's first cell among them
+  std::int64_t cells = 0;
+  std::int64_t others = 0;                     ///< that are no triangles
+  std::int64_t repeating = 0;                  ///< those of them that are triangles but for a vertex that they repeat
+  std::optional<std::size_t> first_repeating;  ///< the number_of_cell() of the first of these
+};
+
+/// Counts them. Collective. Complexity: linear.
+RankCells count_rank_cells(const PieceFiles& files, const mpi::Communicator& ranks);
+
+/// The number_of_cell() of a triangle by its number among those of the rank's pieces; 0 where it is none of them.
+/// `first`: RankCells::first. Local. Complexity: linear in the cells before it.
+std::int64_t number_of_triangle(const PieceFiles& files, std::int64_t first, std::int32_t triangle);
+
+}  // namespace trismooth
