@@ -87,13 +87,19 @@ class AllOrNothing(tool.ToolTest):
 
     def test_the_mesh_takes_its_place_last(self):
         """A report cannot take its place where a folder has come there in the meantime."""
-        os.mkfifo(self.path("pipe.json"))
+        pipes = [self.path("first.json"), self.path("second.json")]
+        for path in pipes:
+            os.mkfifo(path)
         process = subprocess.Popen([tool.program, "smooth", "plate.off", "out.off", "--report", "old.json", "--report",
-                                    "pipe.json"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        with open(self.path("pipe.json"), "rb") as pipe:  # opened by the program when the mesh is complete aside
-            self.assertEqual(self.read("out.off"), b"precious")
-            os.remove(self.path("old.json"))
-            os.mkdir(self.path("old.json"))
+                                    "first.json", "--report", "second.json"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        # The program opens pipes when the mesh is complete aside, one after the other, and waits for a reader.
+        with open(pipes[0], "rb") as pipe:
+            pipe.read()
+        self.assertEqual(self.read("out.off"), b"precious")
+        os.remove(self.path("old.json"))
+        os.mkdir(self.path("old.json"))
+        with open(pipes[1], "rb") as pipe:
             pipe.read()
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, NOT_WRITTEN, err)

@@ -276,8 +276,10 @@ class OneFileInRanges(ranks_tool.RanksTest):
         self.write("twice.off", "OFF\n6 6 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n"
                    "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 4 0 1\n3 5 4 1\n")
         for ranks in (2, 3):
-            self.check("twice.off", ranks)
-            self.run_over(2, "quality", "out.pvtu")
+            outcome = self.run_over(ranks, "smooth", "twice.off", "out.pvtu", expect=2)
+            self.assertIn("triangles are listed again (2; the first is cell 4)", outcome.err)
+            self.assertIn("--gather", outcome.err)
+            self.run_over(ranks, "smooth", "twice.off", "out.pvtu", "--gather")
 
     def test_a_pipe(self):
         self.write_off("mixed.off", self.mixed())
