@@ -21,8 +21,8 @@ constexpr std::int64_t triangle_grain = 16384;
 /// The corners from the lowest to the highest, without a branch that could be mispredicted.
 Triangle ascending(const Triangle& triangle) {
   const auto [a, b, c] = triangle;
-  const std::int32_t low = std::min(std::min(a, b), c);
-  const std::int32_t high = std::max(std::max(a, b), c);
+  const std::int32_t low = std::min({a, b, c});
+  const std::int32_t high = std::max({a, b, c});
   return {low, a ^ b ^ c ^ low ^ high, high};
 }
 

@@ -82,9 +82,10 @@ std::vector<std::size_t> separate_sets(const InpModel& model) {
   std::vector<std::size_t> largest(cells, nothing);            // of the sets so far that have the cell
   std::vector<std::size_t> counts(model.element_sets.size());  // of the cells whose largest set it is
   std::vector<bool> is_cut(model.element_sets.size());
-  const std::vector<std::size_t> falling = by_falling_size(model, candidates);
-  for (auto set = falling.rbegin(); set != falling.rend(); ++set) {
-    const std::vector<std::int32_t> members = distinct_members(model.element_sets[*set]);
+  std::vector<std::size_t> rising = by_falling_size(model, candidates);
+  std::ranges::reverse(rising);
+  for (const std::size_t set : rising) {
+    const std::vector<std::int32_t> members = distinct_members(model.element_sets[set]);
     std::vector<std::size_t> met;
     for (const std::int32_t member : members) {
       std::size_t& other = largest[static_cast<std::size_t>(member)];
@@ -92,16 +93,16 @@ std::vector<std::size_t> separate_sets(const InpModel& model) {
         met.push_back(other);
         --counts[other];
       }
-      other = *set;
+      other = set;
     }
     for (const std::size_t other : met) {
       // Some of its cells are outside of the larger one.
       if (counts[other] > 0) {
         is_cut[other] = true;
-        is_cut[*set] = true;
+        is_cut[set] = true;
       }
     }
-    counts[*set] = members.size();
+    counts[set] = members.size();
   }
   std::erase_if(candidates, [&is_cut](std::size_t set) { return is_cut[set]; });
   return candidates;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/mesh_io/errors.h"
@@ -73,10 +74,11 @@ std::optional<VtkXmlKind> kind_of_cells(std::string_view name) {
 void refuse_cells_of_other_kind(const std::filesystem::path& path, const XmlElement& piece, VtkXmlKind kind) {
   for (const XmlElement& child : piece.children) {
     if (const auto of_cells = kind_of_cells(child.name); of_cells && *of_cells != kind) {
-      const std::string other(to_string(*of_cells));
-      throw ReadError(path, child.line,
-                      "<" + child.name + "> is of files of type " + other + ", and this one says that it is of type " +
-                          std::string(to_string(kind)) + "; write " + other + " there if that is what it is");
+      const std::string_view other = to_string(*of_cells);
+      std::string fault = "<" + child.name + "> is of files of type ";
+      fault.append(other).append(", and this one says that it is of type ").append(to_string(kind));
+      fault.append("; write ").append(other).append(" there if that is what it is");
+      throw ReadError(path, child.line, fault);
     }
   }
 }

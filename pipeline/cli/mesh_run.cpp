@@ -143,7 +143,7 @@ class RunOutputs {
  private:
   /// All that fail are told; the last one is thrown.
   void write_reports(const PipelineResult& result) {
-    std::optional<WriteError> failure;
+    std::optional<std::pair<std::filesystem::path, std::string>> failure;
     for (const std::filesystem::path& report : settings_.reports) {
       std::string reason;
       try {
@@ -156,12 +156,12 @@ class RunOutputs {
         reason = "cannot be written: not enough memory";
       }
       if (failure) {
-        print_error(environment_.err, failure->what());
+        print_error(environment_.err, WriteError(failure->first, failure->second).what());
       }
       failure.emplace(report, reason + without_mesh());
     }
     if (failure) {
-      throw *failure;
+      throw WriteError(failure->first, failure->second);
     }
   }
 

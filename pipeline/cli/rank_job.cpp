@@ -215,8 +215,8 @@ std::unique_ptr<RankJob> join_ranks(int argc, const char* const* argv) {
 
 std::string launched_rank() {
   for (const char* const name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"}) {
-    if (const char* const rank = std::getenv(name); rank != nullptr && std::atoi(rank) > 0) {
-      return "rank " + std::to_string(std::atoi(rank)) + ": ";
+    if (const char* const rank = std::getenv(name); rank != nullptr && std::string_view(rank) != "0") {
+      return std::string("rank ").append(rank).append(": ");
     }
   }
   return {};

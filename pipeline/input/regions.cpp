@@ -73,7 +73,8 @@ class RegionFinder {
         copy_of_.push_back(copy.triangle);
       }
       copies_by_triangle_ = mesh.copies;
-      std::ranges::stable_sort(copies_by_triangle_, {}, &CellCopy::triangle);
+      std::ranges::sort(copies_by_triangle_, {},
+                        [](const CellCopy& copy) { return std::pair(copy.triangle, copy.cell); });
       has_several_.assign(mesh.cells.size(), 0);
     }
   }

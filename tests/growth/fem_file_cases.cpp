@@ -33,9 +33,7 @@ const std::vector<std::string> plate_corners_from_1{"1 2 5", "2 3 5", "3 4 5", "
 std::string number_of(std::size_t i) {
   return std::to_string(i + 1) + " ";
 }
-std::string nothing_of(std::size_t /*i*/) {
-  return {};
-}
+constexpr auto nothing_of = [](std::size_t /*i*/) { return std::string(); };
 
 constexpr std::string_view msh_4_begin = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 constexpr std::string_view msh_2_begin = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -88,13 +86,13 @@ std::string msh_data(int count) {
 }
 
 std::string medit_text(const std::string& triangles, const std::string& rest) {
-  return "MeshVersionFormatted 2\nDimension 2\nVertices 5\n" + rows(plate_points, &nothing_of, " ", " 0\n") +
-         triangles + rest + "End\n";
+  return "MeshVersionFormatted 2\nDimension 2\nVertices 5\n" + rows(plate_points, nothing_of, " ", " 0\n") + triangles +
+         rest + "End\n";
 }
 /// Every triangle of a region of its own, and keywords that nobody knows.
 std::string medit_regions(int count) {
   std::string triangles = "Triangles " + std::to_string(count + 4) + "\n" +
-                          rows(plate_corners_from_1, &nothing_of, " ", " 1\n") +
+                          rows(plate_corners_from_1, nothing_of, " ", " 1\n") +
                           repeated(count, [](const auto& number) { return "1 2 5 9" + number + "\n"; });
   return medit_text(triangles, repeated(count, [](const auto& number) { return "Unknown" + number + " 1\n2\n"; }));
 }
@@ -110,8 +108,8 @@ std::string medit_markers(int count) {
     if (first % 3 != 0) {
       const std::string a = number_of(static_cast<std::size_t>(first - 1));
       const std::string b = number_of(static_cast<std::size_t>(first));
-      const std::string c = number_of(static_cast<std::size_t>(first + 2));
-      const std::string d = number_of(static_cast<std::size_t>(first + 3));
+      const std::string c = number_of(static_cast<std::size_t>(first) + 2);
+      const std::string d = number_of(static_cast<std::size_t>(first) + 3);
       triangles.append(a).append(c).append(b).append("1\n").append(b).append(c).append(d).append("1\n");
     }
   }
@@ -124,7 +122,7 @@ std::string su2_markers(int count) {
   return "NDIME= 2\nNELEM= 4\n" +
          rows(
              plate_corners_from_0, [](std::size_t) { return "5 "; }, " ") +
-         "NPOIN= 5\n" + rows(plate_points, &nothing_of, " ") + "NMARK= " + std::to_string(count) + "\n" +
+         "NPOIN= 5\n" + rows(plate_points, nothing_of, " ") + "NMARK= " + std::to_string(count) + "\n" +
          repeated(count, [](const auto& number) { return "MARKER_TAG= m" + number + "\nMARKER_ELEMS= 1\n3 0 1\n"; });
 }
 
@@ -204,8 +202,8 @@ std::string sms_strings(int count) {
 
 std::string freefem_labels(int count) {
   const std::string all = std::to_string(count);
-  return "5 4 " + all + "\n" + rows(plate_points, &nothing_of, " ", " 3\n") +
-         rows(plate_corners_from_1, &nothing_of, " ", " 1\n") +
+  return "5 4 " + all + "\n" + rows(plate_points, nothing_of, " ", " 3\n") +
+         rows(plate_corners_from_1, nothing_of, " ", " 1\n") +
          repeated(count, [](const auto& number) { return "1 2 " + number + "\n"; });
 }
 
@@ -218,7 +216,7 @@ std::string mfem_attributes(int count) {
          repeated(count, [](const auto& number) { return "\"s" + number + "\" 2 1 2\n"; }) + "boundary\n" + all + "\n" +
          repeated(count, [](const auto& number) { return "9" + number + " 1 0 1\n"; }) + "bdr_attribute_sets\n" + all +
          "\n" + repeated(count, [](const auto& number) { return "\"b" + number + "\" 1 9" + number + "\n"; }) +
-         "vertices\n5\n2\n" + rows(plate_points, &nothing_of, " ") + "mfem_mesh_end\n";
+         "vertices\n5\n2\n" + rows(plate_points, nothing_of, " ") + "mfem_mesh_end\n";
 }
 
 /// A fan of triangles whose sides have middles in a grid function.

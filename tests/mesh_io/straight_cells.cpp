@@ -103,7 +103,8 @@ TEST_CASE("VTK's Lagrange cells of order 1 and 2 are written to other formats as
   MeshDocument ordinary;
   MeshDocument lagrange;
   for (int point = 0; point < 16; ++point) {
-    ordinary.points.insert(ordinary.points.end(), {point % 4 + 0.5, point / 4 - 0.25, 0});
+    const int row = point / 4;
+    ordinary.points.insert(ordinary.points.end(), {point % 4 + 0.5, row - 0.25, 0});
   }
   lagrange.points = ordinary.points;
   for (const Pair& cell : {Pair{cell_type::triangle, cell_type::lagrange_triangle, {0, 1, 4}},

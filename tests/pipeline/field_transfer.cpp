@@ -133,7 +133,9 @@ TEST_CASE("each component is judged alone: a depth of none beside large discharg
 
 TEST_CASE("values that stand for none are named as the array holds them, each once") {
   trismooth::Workers workers(1);
-  const auto missing_in = [&workers](DataArray field) { return interpolated(field, {}, {}, {}, workers).missing; };
+  const auto missing_in = [&workers](const DataArray& field) {
+    return interpolated(field, {}, {}, {}, workers).missing;
+  };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   CHECK(missing_in(trismooth::make_data_array("d", 1, std::vector<double>{1, infinity, 2})) == "inf");
   CHECK(missing_in(trismooth::make_data_array("d", 1, std::vector<double>{1, -infinity, -999.25})) == "-999.25, -inf");

@@ -32,7 +32,8 @@ struct Cell {
 MeshDocument document_of(const std::vector<Cell>& cells) {
   MeshDocument document;
   for (int v = 0; v < 25; ++v) {
-    document.points.insert(document.points.end(), {static_cast<double>(v % 5), static_cast<double>(v / 5), 0});
+    const int row = v / 5;
+    document.points.insert(document.points.end(), {static_cast<double>(v % 5), static_cast<double>(row), 0});
   }
   for (const Cell& cell : cells) {
     document.cells.append(cell.type, cell.vertices);

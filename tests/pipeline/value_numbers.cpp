@@ -72,7 +72,7 @@ TEST_CASE("pairs are equal where both values are") {
 }
 
 TEST_CASE("whole numbers are told from fractions and from what is not finite") {
-  const auto whole = [](std::vector<float> values) {
+  const auto whole = [](const std::vector<float>& values) {
     const auto array = make_data_array("a", 1, values);
     const Numbers rows = all_rows(values.size());
     return trismooth::are_whole(array, rows, number_values(array, rows));
