@@ -69,14 +69,17 @@ class MetSides {
     return a.print == b.print && edge_of(triangles_, a.halfedge).is(edge_of(triangles_, b.halfedge));
   }
 
+  /// The corner of its triangle that is not of its edge.
+  std::int32_t apex(std::int32_t halfedge) const { return triangles_[halfedge / 3][(halfedge + 2) % 3]; }
+
   void pair(std::int32_t first, std::int32_t next) {
     const std::int32_t second = twins_[first];
-    if (second == unpaired) {
+    if (second == unpaired && apex(first) != apex(next)) {
       twins_[first] = next;
       twins_[next] = first;
       return;
     }
-    if (second != one_of_many) {
+    if (second >= 0) {
       twins_[second] = one_of_many;
     }
     twins_[first] = one_of_many;

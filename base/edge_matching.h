@@ -15,7 +15,8 @@ inline constexpr std::int32_t one_of_many = -2;
 
 /// Finds which halfedges are on the same edge. Halfedge 3 t + i runs from corner i of triangle t to the next one;
 /// `corner` is the lowest that starts at each vertex. Writes to `twins`, for each halfedge, the other one on its edge,
-/// unpaired (there is none) or one_of_many (there are several).
+/// unpaired (there is none) or one_of_many: there are several, or the other one is of a triangle with the same three
+/// corners. Such a copy lies upon its triangle, not beside it.
 ///
 /// Every edge belongs to a part, by the lower of the corners of its ends: files list triangles with more locality than
 /// vertices, so a part's halfedges are near each other however vertices are numbered. The halfedges are sorted by their

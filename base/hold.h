@@ -8,7 +8,7 @@
 namespace trismooth::hold {
 
 inline constexpr std::uint8_t boundary = 1;      ///< on an edge with one triangle
-inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three triangles or more
+inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three triangles or more, or with copies of one
 inline constexpr std::uint8_t bow_tie = 4;       ///< its triangles form more than one fan
 inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
 inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions

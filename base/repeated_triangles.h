@@ -20,10 +20,9 @@ struct RepeatedTriangle {
 };
 
 /// The triangles that have the three corners of one before them, in whatever order; ascending. Programs list triangles
-/// again for every group that has them. What smooths takes each for a triangle of its own: two copies look like
-/// neighbours of each other, so that a corner of the boundary may look like a vertex inside, and one of the two like an
-/// inverted triangle. So leave them out before. `threads`: 0 for all; the result does not depend on it. Throws
-/// MeshError for a corner that has no place in 32 bits, std::invalid_argument for a wrong number of threads.
+/// again for every group that has them. What smooths holds the corners of such triangles, and what judges a mesh counts
+/// them as often as they are listed: so leave them out before. `threads`: 0 for all; the result does not depend on it.
+/// Throws MeshError for a corner that has no place in 32 bits, std::invalid_argument for a wrong number of threads.
 /// Complexity: linear, and n log n in the triangles that are there more than once; 3 to 5 bytes a triangle of memory,
 /// for a while.
 std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads = 0);

@@ -14,7 +14,8 @@ namespace trismooth {
 
 class Workers;
 
-/// The components of a mesh: triangles connected through edges with exactly two triangles.
+/// The components of a mesh: triangles connected through edges with exactly two triangles, which are not two of the
+/// same three corners: a triangle that is listed again lies upon the other and is no neighbour of it.
 struct TriangleComponents {
   std::vector<std::uint8_t> parity;    ///< per triangle: 1 where it is listed against its component's lowest triangle
   BulkVector<std::int32_t> component;  ///< per triangle: from 0, in the order of their lowest triangles
@@ -25,8 +26,9 @@ struct TriangleComponents {
 /// The sides of triangles, matched where they are the same edge: what a topology is built from, TriangleTopology as
 /// well as a halfedge mesh. Halfedge 3 t + i runs from corner i of triangle t, as listed, to the next corner.
 struct MatchedSides : TriangleComponents {
-  static constexpr std::int32_t no_twin = -1;     ///< a boundary edge
-  static constexpr std::int32_t many_twins = -2;  ///< an edge with three triangles or more
+  static constexpr std::int32_t no_twin = -1;  ///< a boundary edge
+  static constexpr std::int32_t many_twins =
+      -2;  ///< an edge with three triangles or more, or with two of the same corners
 
   std::int32_t vertex_count = 0;
   BulkVector<std::int32_t> twins;   ///< per halfedge: the other triangle's halfedge on the edge

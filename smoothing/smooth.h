@@ -23,9 +23,9 @@ namespace trismooth {
 class [[nodiscard]] SmoothingPlan {
  public:
   /// `triangles`: three vertex numbers each, from 0, listed in either direction; orientation is made consistent per
-  /// component (triangles connected through edges of exactly two triangles). Each once: two with the same corners are
-  /// neighbours of each other here, which may free a vertex of the boundary and turns one of them over;
-  /// find_repeated_triangles() in base/repeated_triangles.h finds them. Throws MeshError for triangles that are no
+  /// component (triangles connected through edges of exactly two triangles). Best each once: the corners of one that is
+  /// listed again are held; find_repeated_triangles() in base/repeated_triangles.h finds them. Throws MeshError for
+  /// triangles that are no
   /// mesh: an index out of range, a triangle that repeats a vertex, a component that cannot be oriented, more than
   /// 2,147,483,647 vertices or 715,827,882 triangles. Throws std::invalid_argument for options or constraints that do
   /// not fit. Complexity: linear, but for sorting the edges of each vertex.

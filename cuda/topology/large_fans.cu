@@ -81,6 +81,12 @@ struct LinkRecords {
     return j < record_count && keys[i] == keys[j];
   }
 
+  /// The neighbour of the large vertex that the record's triangle has beside the record's own.
+  TRISMOOTH_HOST_DEVICE std::int32_t other_neighbour(std::uint64_t key, std::uint32_t record) const {
+    const std::int32_t corner = fans.corner(corners, large_vertex_of(key), record / 2);
+    return triangles.neighbour(corner, static_cast<int>(1 - record % 2));
+  }
+
   TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t i) const {
     const std::uint64_t key = keys[i];
     const std::uint32_t record = records[i];
@@ -91,14 +97,17 @@ struct LinkRecords {
     if (!before && !after) {
       partners[record] = LargeFansView::none;
       set_bits(own_reasons, hold::boundary);
-    } else if ((before && after) || (before && same_edge(i, i - 2)) || (after && same_edge(i, i + 2))) {
+      return;
+    }
+    const std::uint32_t partner = records[before ? i - 1 : i + 1];
+    if ((before && after) || (before && same_edge(i, i - 2)) || (after && same_edge(i, i + 2)) ||
+        other_neighbour(key, record) == other_neighbour(key, partner)) {
       partners[record] = LargeFansView::many;
       set_bits(own_reasons, hold::non_manifold);
-    } else if (before) {
-      partners[record] = records[i - 1];
-    } else {
-      const std::uint32_t partner = records[i + 1];
-      partners[record] = partner;
+      return;
+    }
+    partners[record] = partner;
+    if (after) {
       link(key, record, partner, own_reasons);
     }
   }

@@ -72,7 +72,7 @@ struct VertexFan {
 /// Which records of a fan are of the same edge.
 struct FanLinks {
   static constexpr std::int8_t none = -1;  ///< an edge with one triangle: the neighbour is recorded once
-  static constexpr std::int8_t many = -2;  ///< an edge with three triangles or more
+  static constexpr std::int8_t many = -2;  ///< an edge with three triangles or more, or with two of the same corners
 
   int degree;
   std::int8_t partners[2 * VertexFan::capacity];  ///< of each record: the other one of its neighbour, none, or many
@@ -90,7 +90,8 @@ struct FanLinks {
       std::int8_t partner = none;
       for (int s = r + 1; s < records; ++s) {
         if (fan.neighbours[s] == fan.neighbours[r]) {
-          partner = partner == none ? static_cast<std::int8_t>(s) : many;
+          const bool is_second = partner == none && fan.neighbours[s ^ 1] != fan.neighbours[r ^ 1];
+          partner = is_second ? static_cast<std::int8_t>(s) : many;
         }
       }
       partners[r] = partner;

@@ -20,7 +20,7 @@ struct LinkEdge {
 enum class Fan : std::uint8_t {
   closed,  ///< once around the vertex
   open,    ///< from one boundary edge to another
-  other    ///< not one fan, or not listed alike, or an edge of three triangles or more
+  other    ///< not one fan, or not listed alike, or an edge of three triangles or more, or of two with the same corners
 };
 
 /// More triangles around a vertex are not walked around: every step looks at all of them.
@@ -70,7 +70,7 @@ Fan walk_link_of(std::span<const LinkEdge> link, std::int32_t* ring) {
   };
   walk_from(std::ranges::min(link, {}, &LinkEdge::from).from);
   if (met == size && vertex == ring[0]) {
-    return Fan::closed;
+    return size > 2 ? Fan::closed : Fan::other;
   }
   // An open fan begins at the one vertex to which no edge runs. (Two such make two walks, neither over all edges.)
   const auto first = std::ranges::find_if(

@@ -53,7 +53,7 @@ class Oracle {
     if (on_edge.size() == 1) {
       return TriangleTopology::no_twin;
     }
-    if (on_edge.size() > 2) {
+    if (on_edge.size() > 2 || are_copies(on_edge)) {
       return TriangleTopology::many_twins;
     }
     return on_edge[0] == halfedge ? on_edge[1] : on_edge[0];
@@ -107,7 +107,7 @@ class Oracle {
     for (const auto& [edge, on_edge] : halfedges_) {
       if (edge.first == vertex || edge.second == vertex) {
         bits |= on_edge.size() == 1 ? hold::boundary : 0U;
-        bits |= on_edge.size() > 2 ? hold::non_manifold : 0U;
+        bits |= on_edge.size() > 2 || are_copies(on_edge) ? hold::non_manifold : 0U;
       }
     }
     int fans = 0;
@@ -151,6 +151,12 @@ class Oracle {
   }
 
  private:
+  /// Whether the first two halfedges are of triangles with the same corners.
+  bool are_copies(const std::vector<std::int32_t>& halfedges) const {
+    return halfedges.size() > 1 &&
+           std::ranges::is_permutation(triangles_[halfedges[0] / 3], triangles_[halfedges[1] / 3]);
+  }
+
   std::int32_t vertex_count_;
   const std::vector<Triangle>& triangles_;
   std::map<Edge, std::vector<std::int32_t>> halfedges_;

@@ -216,6 +216,17 @@ TEST_CASE("non-manifold edges, bow ties, triangles listed twice and isolated ver
   require_host_results({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}, {2, 1, 0}}});
   require_host_results({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}}});
   require_host_results({{{0, 0}, {1, 0}, {0, 1}, {1, 1}}, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}});
+  // Copies beside the free ends of fans, of which the second is too large for one thread.
+  for (const std::int32_t size : {6, 60}) {
+    Mesh fan = test_meshes::star(size);
+    fan.triangles.pop_back();
+    for (const std::size_t t : {std::size_t{0}, fan.triangles.size() - 1, fan.triangles.size() / 2}) {
+      fan.triangles.push_back(fan.triangles[t]);
+      require_host_results(fan);
+      std::swap(fan.triangles.back()[0], fan.triangles.back()[1]);
+      require_host_results(fan);
+    }
+  }
 }
 
 TEST_CASE("triangles between random vertices: the same results or the same error") {

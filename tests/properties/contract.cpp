@@ -72,6 +72,11 @@ class Edges {
 
   const std::map<Edge, std::vector<std::size_t>>& all() const { return around_; }
 
+  /// Whether the triangles on an edge are two beside each other, and not one upon the other.
+  bool are_neighbours(const std::vector<std::size_t>& sharing) const {
+    return sharing.size() == 2 && !std::ranges::is_permutation(triangles_[sharing[0]], triangles_[sharing[1]]);
+  }
+
   /// Lists all triangles of a component in one direction, that of its first one, and answers them.
   std::set<std::size_t> list_alike(std::size_t start) {
     std::set<std::size_t> component{start};
@@ -84,7 +89,7 @@ class Edges {
         const std::int32_t from = t[i];
         const std::int32_t to = t[(i + 1) % 3];
         const auto& sharing = around_.at(std::minmax({from, to}));
-        if (sharing.size() != 2) {
+        if (!are_neighbours(sharing)) {
           continue;
         }
         const std::size_t other = sharing[0] == index ? sharing[1] : sharing[0];
@@ -117,11 +122,11 @@ void hold_what_the_mesh_holds(const RandomMesh& mesh, const Edges& edges, std::v
   }
   std::vector<std::map<std::size_t, std::vector<std::size_t>>> next_at(fixed.size());
   for (const auto& [edge, sharing] : edges.all()) {
-    const bool between_regions =
-        sharing.size() == 2 && !mesh.regions.empty() && mesh.regions[sharing[0]] != mesh.regions[sharing[1]];
+    const bool joins = edges.are_neighbours(sharing);
+    const bool between_regions = joins && !mesh.regions.empty() && mesh.regions[sharing[0]] != mesh.regions[sharing[1]];
     for (const std::int32_t v : {edge.first, edge.second}) {
-      fixed[v] = fixed[v] || sharing.size() != 2 || between_regions;
-      if (sharing.size() == 2) {
+      fixed[v] = fixed[v] || !joins || between_regions;
+      if (joins) {
         next_at[v][sharing[0]].push_back(sharing[1]);
         next_at[v][sharing[1]].push_back(sharing[0]);
       }

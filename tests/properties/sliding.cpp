@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -53,16 +54,23 @@ struct LineEdge {
 
 std::vector<LineEdge> line_edges(const RandomMesh& mesh) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> around;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::set<std::int32_t>> apexes;
   for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
     const Triangle& corners = mesh.mesh.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
-      around[std::minmax({corners[i], corners[(i + 1) % 3]})].push_back(mesh.regions.empty() ? 0 : mesh.regions[t]);
+      const std::pair<std::int32_t, std::int32_t> edge = std::minmax({corners[i], corners[(i + 1) % 3]});
+      around[edge].push_back(mesh.regions.empty() ? 0 : mesh.regions[t]);
+      apexes[edge].insert(corners[(i + 2) % 3]);
     }
   }
   std::vector<LineEdge> edges;
   for (const auto& [ends, regions] : around) {
-    if (regions.size() != 2 || regions[0] != regions[1]) {
+    if (regions.size() != 2 || regions[0] != regions[1] || apexes[ends].size() < 2) {
       edges.push_back({ends.first, ends.second, std::minmax({regions.front(), regions.back()}), regions.size() == 1});
+    }
+    // An edge of many triangles, or of copies of one, is on no single line.
+    if (regions.size() > 2 || (regions.size() == 2 && apexes[ends].size() < 2)) {
+      edges.push_back(edges.back());
     }
   }
   return edges;

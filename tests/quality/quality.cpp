@@ -128,6 +128,18 @@ TEST_CASE("a triangle that is folded over is inverted, however its neighbours ar
   CHECK(quality(mesh.points, mixed).inverted == inverted);
 }
 
+TEST_CASE("a triangle that is listed again is not inverted") {
+  const test_meshes::Mesh once = test_meshes::jittered_grid(4, 4, 0.2, 3);
+  for (const auto& t : once.triangles) {
+    CAPTURE(t);
+    test_meshes::Mesh mesh = once;
+    mesh.triangles.push_back(t);
+    CHECK(quality(mesh.points, mesh.triangles).inverted == 0);
+    mesh.triangles.back() = {t[1], t[0], t[2]};
+    CHECK(quality(mesh.points, mesh.triangles).inverted == 0);
+  }
+}
+
 TEST_CASE("arrays of every form have the same quality") {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(7, 8, 0.3, 2);
   const QualityReport expected = quality(mesh.points, mesh.triangles);

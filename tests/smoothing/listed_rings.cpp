@@ -72,7 +72,6 @@ TEST_CASE("a closed link is walked from its smallest vertex, in the direction of
 TEST_CASE("links that are one path, and links that are neither a circle nor a path, are told apart") {
   CHECK(fan_of({{1, 2}}) == Fan::open);
   CHECK(fan_of({{2, 1}, {4, 2}, {3, 4}}) == Fan::open);
-  CHECK(fan_of({{1, 2}, {2, 1}}) == Fan::closed);
   // Two circles, apart and through one vertex.
   CHECK(fan_of({{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}}) == Fan::other);
   CHECK(fan_of({{1, 2}, {2, 3}, {3, 1}, {1, 5}, {5, 6}, {6, 1}}) == Fan::other);
@@ -82,9 +81,10 @@ TEST_CASE("links that are one path, and links that are neither a circle nor a pa
   CHECK(fan_of({{1, 2}, {3, 4}, {4, 5}, {5, 3}}) == Fan::other);
   CHECK(fan_of({{1, 2}, {2, 3}, {3, 4}, {4, 2}}) == Fan::other);
   CHECK(fan_of({{2, 3}, {3, 4}, {4, 2}, {2, 1}}) == Fan::other);
-  // A triangle that is listed the other way round, and one twice.
+  // A triangle that is listed the other way round, and one twice, alike or not.
   CHECK(fan_of({{1, 2}, {3, 2}, {3, 1}}) == Fan::other);
   CHECK(fan_of({{1, 2}, {1, 2}}) == Fan::other);
+  CHECK(fan_of({{1, 2}, {2, 1}}) == Fan::other);
   CHECK(fan_of({{1, 2}, {2, 3}, {2, 3}, {3, 1}}) == Fan::other);
 }
 

@@ -329,6 +329,31 @@ TEST_CASE("vertices that the caller fixes do not move, and the others move as if
   });
 }
 
+TEST_CASE("triangles that are listed again free no vertex and are not inverted, whichever they are and however listed") {
+  const Mesh mesh = test_meshes::jittered_grid(6, 5, 0.2, 7);
+  const auto is_inside = [](std::int32_t v) { return v % 6 > 0 && v % 6 < 5 && v / 6 > 0 && v / 6 < 4; };
+  test_meshes::Random random(11);
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    Mesh with_copies = mesh;
+    for (std::int32_t copies = 1 + random.below(i < 100 ? 1 : 40); copies > 0; --copies) {
+      with_copies.triangles.push_back(mesh.triangles[random.below(static_cast<std::int32_t>(mesh.triangles.size()))]);
+      random.shuffle(with_copies.triangles.back());
+    }
+    random.shuffle(with_copies.triangles);
+    for (const Method method : methods) {
+      std::vector<double> xy = with_copies.xy();
+      const SmoothingResult result = smooth(xy_points(xy), with_copies.indices(), {.method = method, .guard = false});
+      CHECK(result.inverted == 0);
+      CHECK(result.degenerate == 0);
+      for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const auto x = static_cast<std::size_t>(2 * v);
+        REQUIRE((is_inside(v) || (xy[x] == mesh.points[v].x && xy[x + 1] == mesh.points[v].y)));
+      }
+    }
+  }
+}
+
 TEST_CASE("negative zeros, subnormals and whatever else stays where it is keep their bits") {
   Mesh mesh = test_meshes::jittered_grid(8, 8, 0.4, 1);
   for (Point& p : mesh.points) {
