@@ -135,16 +135,21 @@ class TouchingSearch {
       if (slidable.may_slide(v)) {
         reaches_[index(v)] = reach(v);
         for (const std::int32_t next : slidable.neighbours[index(v)]) {
-          // (An end that cannot slide: what is around it is not known.)
-          reaches_[index(next)] = std::min(reaches_[index(next)], reaches_[index(v)]);
+          if (!slidable.may_slide(next)) {  // what is around it is not known
+            reaches_[index(next)] = std::min(reaches_[index(next)], reaches_[index(v)]);
+          }
         }
       }
     }
   }
 
   TouchingLines run() {
-    find_places();
-    find_at_edges();
+    // Mostly nobody is in the place of another, which is seen on the way along the edges, too.
+    if (!find_at_edges(false)) {
+      std::ranges::fill(found_.at_edges, 0);
+      find_places();
+      find_at_edges(true);
+    }
     return std::move(found_);
   }
 
@@ -199,8 +204,7 @@ class TouchingSearch {
     const double own = reaches_[index(v)];
     for (const double size : sizes) {
       squares.visit_near(point(v), std::min(own, size), size, [&](std::int32_t other) {
-        const double near = std::min(own, reaches_[index(other)]);
-        if (!(squared_distance(v, other) <= near * near)) {
+        if (!are_in_place(v, other)) {
           return;
         }
         has_one_of_size = has_one_of_size || sizes_[index(other)] == sizes_[index(v)];
@@ -211,7 +215,9 @@ class TouchingSearch {
     return has_one_of_size;
   }
 
-  void find_at_edges() {
+  /// False where vertices lie in the same place and `knows_places` does not say that these have been found: as soon as
+  /// there are any.
+  bool find_at_edges(bool knows_places) {
     std::vector<std::int32_t> firsts;
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
       if (is_held(v) && places_[index(v)] == v) {
@@ -224,30 +230,43 @@ class TouchingSearch {
         continue;
       }
       for (const std::int32_t next : slidable_.neighbours[index(v)]) {
-        if (v < next || !slidable_.may_slide(next)) {
-          find_beside(tree, v, next);
+        if ((v < next || !slidable_.may_slide(next)) && find_beside(tree, v, next) && !knows_places) {
+          return false;
         }
       }
     }
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
       found_.at_edges[index(v)] |= found_.at_edges[index(places_[index(v)])];
     }
+    return true;
   }
 
-  void find_beside(const VertexTree& tree, std::int32_t from, std::int32_t to) {
-    const double near = std::min(reaches_[index(from)], reaches_[index(to)]);
+  bool are_in_place(std::int32_t v, std::int32_t w) const {
+    const double near = std::min(reaches_[index(v)], reaches_[index(w)]);
+    return squared_distance(v, w) <= near * near;
+  }
+
+  /// Returns whether another vertex lies in the place of one of the edge's ends.
+  bool find_beside(const VertexTree& tree, std::int32_t from, std::int32_t to) {
+    const auto [near, far] = std::minmax(reaches_[index(from)], reaches_[index(to)]);
     const Point2<double> way = point(to) - point(from);
     const double squared = squared_length(way);
+    const double length = std::sqrt(squared);
+    bool has_met = false;
     // (Twice as far: what the tree says of an edge is rounded.)
-    tree.visit_beside(point(from), point(to), 2 * near, [&](std::int32_t v) {
+    tree.visit_beside(point(from), point(to), 2 * far, [&, near = near](std::int32_t v) {
+      if (v == places_[index(from)] || v == places_[index(to)]) {
+        return;
+      }
+      has_met = has_met || are_in_place(v, from) || are_in_place(v, to);
       const Point2<double> off = point(v) - point(from);
       const double along = off.x * way.x + off.y * way.y;
-      const double limit = std::min(near, reaches_[index(v)]) * std::sqrt(squared);
-      if (along > 0 && along < squared && std::abs(cross(off, way)) <= limit && v != places_[index(from)] &&
-          v != places_[index(to)]) {
+      const double limit = std::min(near, reaches_[index(v)]) * length;
+      if (along > 0 && along < squared && std::abs(cross(off, way)) <= limit) {
         found_.at_edges[index(v)] = found_.at_edges[index(from)] = found_.at_edges[index(to)] = 1;
       }
     });
+    return has_met;
   }
 
   const Slidable& slidable_;
