@@ -12,6 +12,7 @@
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/geographic/geographic_map.h"
@@ -135,14 +136,20 @@ std::vector<std::int64_t> read_vertex_numbers(const std::filesystem::path& path,
 /// The same of a mesh whose vertices 32 bits can number.
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
 
-/// The vertices with these labels: the numbers that the document's own file gives its points. Throws
-/// std::invalid_argument, which begins with `argument`, for a label that no point has, and where the file gives none.
-/// Complexity: n log n in the vertices where labels do not count on.
+/// The vertices with these labels: the numbers that the document's own file gives its points, be it as global ids
+/// (global_ids.h). Throws std::invalid_argument, which begins with `argument`, for a label that no point has, and where
+/// the file gives none, or one to several points. Complexity: n log n in the vertices where labels do not count on.
 std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> labels, const MeshDocument& document,
                                              const std::string& argument);
 
+/// The labels of vertices that a text file names, as read_vertex_numbers() reads them. Throws ReadError.
+std::vector<std::int64_t> read_labels(const std::filesystem::path& path);
+
+/// The error of such a file that names a label which no point has.
+ReadError unknown_label(const std::filesystem::path& path, std::int64_t label);
+
 /// The vertices whose labels a text file names: the numbers that the document's own file gives its points. Throws
-/// std::invalid_argument where that gives none, ReadError for a label that no point has, and for what is no number.
+/// as vertices_of_labels() where that gives none, ReadError for a label that no point has, and for what is no number.
 /// Complexity: n log n in the vertices where labels do not count on.
 std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document);
 

@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/plain_name.h"
 #include "trismooth/base/shell_words.h"
-#include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/input/marked_points.h"
+#include "trismooth/pipeline/input/set_labels.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {
@@ -239,8 +240,9 @@ class SetFinder {
     return std::move(found_);
   }
 
-  /// All sets of that name, or else of names that differ from it in case, blanks and the like.
-  std::vector<std::size_t> named(const std::string& name) const {
+  /// All sets of that name, or else the points of that label, or sets of names that differ in case, blanks and the
+  /// like.
+  std::vector<std::size_t> named(const std::string& name) {
     std::vector<std::size_t> found;
     const auto find = [&](const auto& same) {
       for (std::size_t s = 0; s < found_.sets.size(); ++s) {
@@ -250,18 +252,39 @@ class SetFinder {
       }
     };
     find([&](const std::string& other) { return other == name; });
+    const std::vector<std::string> arrays = label_arrays(document_);
+    if (const auto label = found.empty() ? find_label(arrays, name) : std::nullopt) {
+      return {labelled(*label)};
+    }
     if (found.empty()) {
       find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
     }
     if (found.empty()) {
-      std::string names;
-      for (const FilePointSet& set : found_.sets) {
-        names += (names.empty() ? "" : ", ") + set.name;
-      }
-      throw std::invalid_argument("the file has no point set '" + name +
-                                  "' to hold; it has: " + (names.empty() ? "none" : names));
+      throw complain_of_set(name, names_, arrays);
     }
     return found;
+  }
+
+  /// The set of the points of a label, which is a new one where it has not been asked for before.
+  std::size_t labelled(const SetLabel& label) {
+    const auto known = std::ranges::find(names_, label.name());
+    if (known != names_.end()) {
+      return static_cast<std::size_t>(known - names_.begin());
+    }
+    const std::vector<std::uint8_t> flags = points_of_label(document_, label);
+    std::vector<std::int32_t> members;
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (flags[v] != 0) {
+        members.push_back(static_cast<std::int32_t>(v));
+      }
+    }
+    if (members.empty()) {
+      throw complain_of_value(label, label_values(document_, label.array));
+    }
+    found_.sets.push_back({label.name(), std::ssize(members)});
+    names_.push_back(label.name());
+    members_.push_back(std::move(members));
+    return names_.size() - 1;
   }
 
   void hold(std::size_t set) {
@@ -276,7 +299,7 @@ class SetFinder {
 
   const MeshDocument& document_;
   bool slides_;
-  /// Of each set of the document, then of each implied one and of each array of markers, each once.
+  /// Of each set of the document, then of each implied one, of each array of markers and each label, each once.
   std::vector<std::vector<std::int32_t>> members_;
   std::vector<std::string> names_;         ///< of each of these
   std::vector<std::string> marker_notes_;  ///< what the user should know where markers count
@@ -285,12 +308,17 @@ class SetFinder {
 
 }  // namespace
 
-HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names, std::span<const std::int32_t> regions, bool slides) {
+bool holds_no_sets(std::span<const std::string> names) {
   const bool holds_none = std::ranges::find(names, no_sets) != names.end();
   if (holds_none && names.size() > 1) {
     throw std::invalid_argument("--fixed-set none holds no sets; it cannot be given with other sets");
   }
+  return holds_none;
+}
+
+HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
+                        std::span<const std::string> names, std::span<const std::int32_t> regions, bool slides) {
+  const bool holds_none = holds_no_sets(names);
   if (document.point_sets.empty() && document.implied_sets.empty() && marker_arrays(document).empty() &&
       (names.empty() || holds_none)) {
     return {};

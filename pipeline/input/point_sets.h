@@ -22,6 +22,9 @@ struct HeldSets {
 /// In place of names of sets: no set holds vertices.
 inline constexpr std::string_view no_sets = "none";
 
+/// Whether `names` is no_sets alone. Throws std::invalid_argument where it is there with others.
+bool holds_no_sets(std::span<const std::string> names);
+
 /// The document's point sets that hold their vertices: those of `names`, or where that is empty all but those that are
 /// of an area. `names` may be no_sets alone. A set is of an area if it has a vertex inside the mesh (each of its
 /// neighbours is in two of its triangles) and all the neighbours of this: files name the points of whole parts, and
@@ -35,7 +38,10 @@ inline constexpr std::string_view no_sets = "none";
 /// What point arrays of markers (is_marker_name(), whole numbers) mark inside the mesh is an implied set of the array's
 /// name (see find_marked_points()), and a note tells of it.
 ///
-/// `triangles`: of the document. Throws std::invalid_argument for a name that no set has, with those there are.
+/// "ARRAY=NUMBER" in `names` is the set of what points_of_label() has, which is never of an area.
+///
+/// `triangles`: of the document. Throws std::invalid_argument for a name that no set has and for a label that nothing
+/// has, with some of those there are.
 /// Complexity: n log n in the members of all sets and the triangles around them.
 HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
                         std::span<const std::string> names = {}, std::span<const std::int32_t> regions = {},

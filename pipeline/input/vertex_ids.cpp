@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
+#include "trismooth/mesh_io/document/global_ids.h"
 #include "trismooth/mesh_io/document/point_ids.h"
+#include "trismooth/mesh_io/document/point_labels.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
@@ -48,16 +50,21 @@ class LabelledPoints {
   /// Throws std::invalid_argument where the document's file gives none; `argument` asks for them, and `rows` takes
   /// rows.
   LabelledPoints(const MeshDocument& document, const std::string& argument, const std::string& rows)
-      : document_(document), ids_(document.point_labels) {
-    if (!document.first_point_label) {
+      : document_(document), labels_(labels_of(document)), ids_(labels_) {
+    if (!document.first_point_label && labels_.empty()) {
       throw std::invalid_argument(argument + ": a file of " + std::string(title_of(document.format)) +
                                   " gives its points no numbers of its own; " + rows +
+                                  " takes their rows, which count from 0");
+    }
+    if (ids_.first_repeated()) {
+      throw std::invalid_argument(argument + ": the file gives several points the number " +
+                                  std::to_string(labels_[*ids_.first_repeated()]) + "; " + rows +
                                   " takes their rows, which count from 0");
     }
   }
 
   std::optional<std::int32_t> find(std::int64_t label) const {
-    if (!document_.point_labels.empty()) {
+    if (!labels_.empty()) {
       return ids_.find(label);
     }
     const std::uint64_t place =
@@ -70,7 +77,22 @@ class LabelledPoints {
   }
 
  private:
+  /// Of all points; none where they count on from the first, or there are none.
+  static std::vector<std::int64_t> labels_of(const MeshDocument& document) {
+    const DataArray* const global = document.first_point_label ? nullptr : find_global_ids(document);
+    if (global == nullptr || global->components != 1 || global->type == ScalarType::float32 ||
+        global->type == ScalarType::float64) {
+      return document.point_labels;
+    }
+    std::vector<std::int64_t> labels(document.point_count());
+    for (std::size_t v = 0; v < labels.size(); ++v) {
+      labels[v] = point_label(*global, v);
+    }
+    return labels;
+  }
+
   const MeshDocument& document_;
+  std::vector<std::int64_t> labels_;
   PointIds ids_;
 };
 
@@ -90,17 +112,28 @@ std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> label
   return vertices;
 }
 
-std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document) {
-  const LabelledPoints points(document, "'--fixed-labels'", "--fixed-ids");
+std::vector<std::int64_t> read_labels(const std::filesystem::path& path) {
   const FileBytes bytes = read_file_bytes(path);
   TextScanner scanner = scanner_of(bytes, path);
-  std::vector<std::int32_t> ids;
+  std::vector<std::int64_t> labels;
   while (!scanner.at_end()) {
-    const std::int64_t label = scanner.next_integer("the label of a vertex", std::numeric_limits<std::int64_t>::min(),
-                                                    std::numeric_limits<std::int64_t>::max());
+    labels.push_back(scanner.next_integer("the label of a vertex", std::numeric_limits<std::int64_t>::min(),
+                                          std::numeric_limits<std::int64_t>::max()));
+  }
+  return labels;
+}
+
+ReadError unknown_label(const std::filesystem::path& path, std::int64_t label) {
+  return {path, LabelledPoints::unknown(label)};
+}
+
+std::vector<std::int32_t> read_vertex_labels(const std::filesystem::path& path, const MeshDocument& document) {
+  const LabelledPoints points(document, "'--fixed-labels'", "--fixed-ids");
+  std::vector<std::int32_t> ids;
+  for (const std::int64_t label : read_labels(path)) {
     const std::optional<std::int32_t> vertex = points.find(label);
     if (!vertex) {
-      throw ReadError(path, LabelledPoints::unknown(label));
+      throw unknown_label(path, label);
     }
     ids.push_back(*vertex);
   }

@@ -33,6 +33,10 @@ void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& shar
   share.held_by_sets = std::move(sets.flags);
   share.point_sets = std::move(sets.sets);
   share.notes = std::move(sets.notes);
+  if (options.fixed_ids && options.fixed_ids_are_labels) {
+    const std::vector<std::int32_t> vertices = read_vertex_labels(*options.fixed_ids, document);
+    share.labelled.assign(vertices.begin(), vertices.end());
+  }
   share.cell_sets = summarise_cell_sets(document);
   share.line_groups = find_line_groups(document);
 }
@@ -69,9 +73,9 @@ MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ra
 FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading, const mpi::Communicator& ranks,
                             Workers& workers) {
   FileInPieces read;
-  // Files that are read by ranges have no sets to name.
-  const bool asks_for_sets = !options.fixed_sets.empty();
-  std::optional<MeshShare> share = asks_for_sets ? std::nullopt : read_share(options.input, ranks, workers);
+  // Files that are read by ranges have no sets to name, and who has which label is known of the whole file.
+  const bool asks_for_whole = !options.fixed_sets.empty() || options.fixed_ids_are_labels;
+  std::optional<MeshShare> share = asks_for_whole ? std::nullopt : read_share(options.input, ranks, workers);
   const bool by_ranges = share.has_value();
   if (!by_ranges) {
     if (reading == FileReading::by_ranges) {
@@ -86,6 +90,7 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   read.input.cell_sets = std::move(share->cell_sets);
   read.input.line_groups = std::move(share->line_groups);
   std::vector<std::string> notes = std::move(share->notes);
+  std::vector<std::int64_t> labelled = std::move(share->labelled);
   std::set<std::string> said(document.notes.begin(), document.notes.end());
   std::set<std::string> lost(document.losses.begin(), document.losses.end());
   if (options.output && ranks.rank() == 0) {
@@ -98,6 +103,7 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
                           options.output, ranks, workers, notes);
   read.files.was_read_whole = !by_ranges;
+  read.files.labelled = std::move(labelled);
   const std::vector<std::string> all_said = texts_of_all(said, ranks);
   read.losses = texts_of_all(lost, ranks);
   // What the reader says of the file is said of what another format loses.
@@ -106,8 +112,7 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
   if (!by_ranges && ranks.size() > 1) {
     read.notes.emplace_back(
         "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "
-        "appended "
-        "arrays, and binary MSH");
+        "appended arrays, and binary MSH, without --fixed-set and --fixed-labels");
   }
   return read;
 }

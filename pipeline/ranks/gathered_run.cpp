@@ -30,19 +30,21 @@ namespace {
 class HeldByIds {
  public:
   /// Throws ReadError.
-  HeldByIds(PipelineOptions& options, const std::vector<std::int64_t>& ids) : path_(options.fixed_ids) {
+  HeldByIds(PipelineOptions& options, const std::vector<std::int64_t>& ids, const PieceFiles& files)
+      : path_(options.fixed_ids) {
     const bool are_numbers = ids.empty() || ids.back() + 1 == std::ssize(ids);
-    if (!path_ || are_numbers) {
+    if (!path_ || (are_numbers && !options.fixed_ids_are_labels)) {
       return;
     }
     std::set<std::int32_t> points;
-    for (const std::int64_t id : read_vertex_numbers(*path_, ids.back() + 1)) {
+    for (const std::int64_t id : read_held_numbers(files, options, ids.empty() ? 0 : ids.back() + 1)) {
       const auto place = std::ranges::lower_bound(ids, id);
-      if (*place != id) {
-        throw unknown_vertex(*path_, id);
+      if (place == ids.end() || *place != id) {
+        throw unknown_vertex(options, id);
       }
       points.insert(static_cast<std::int32_t>(place - ids.begin()));
     }
+    options.fixed_ids_are_labels = false;
     if (!points.empty()) {
       options.fixed_vertices.assign(points.begin(), points.end());
       options.fixed_ids.reset();
@@ -62,10 +64,10 @@ class HeldByIds {
   std::int64_t count_ = 0;
 };
 
-PipelineResult run_here(WholeMesh& whole, FileFormat piece_format, PipelineOptions options, AddedArrays& annotations) {
-  const HeldByIds held(options, whole.ids);
+PipelineResult run_here(WholeMesh& whole, const PieceFiles& files, PipelineOptions options, AddedArrays& annotations) {
+  const HeldByIds held(options, whole.ids, files);
   if (options.output && !options.single) {
-    options.output = std::filesystem::path("piece").replace_extension(extensions_of(piece_format).front());
+    options.output = std::filesystem::path("piece").replace_extension(extensions_of(files.file.piece_format).front());
   }
   if (!options.single) {
     options.beside = {};  // the pieces are written later
@@ -85,9 +87,8 @@ PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
   WholeMesh whole =
       is_of_pieces ? WholeMesh(files, ranks) : WholeMesh(files, FileOptions{workers.count(), options.format}, ranks);
   AddedArrays annotations;
-  PipelineResult result = run_on_first(options, communicator, [&](const PipelineOptions& own) {
-    return run_here(whole, files.file.piece_format, own, annotations);
-  });
+  PipelineResult result = run_on_first(
+      options, communicator, [&](const PipelineOptions& own) { return run_here(whole, files, own, annotations); });
   if (options.single || !options.written()) {
     return result;
   }

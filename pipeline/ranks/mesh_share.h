@@ -25,6 +25,9 @@ struct MeshShare {
   /// One a point, bits of namespace implied, where it is not known yet which points of these sets are inside; or none.
   std::vector<std::uint8_t> implied_by;
 
+  /// Numbers in the whole file of points that the user names by their labels; rank 0 has them.
+  std::vector<std::int64_t> labelled;
+
   // For the report; rank 0 has them.
   std::vector<FilePointSet> point_sets;
   std::vector<FileCellSet> cell_sets;

@@ -38,6 +38,9 @@ struct PieceFiles {
   std::vector<PieceArray> arrays;  ///< in the order of the first piece that holds anything; known to all ranks
   std::deque<Piece> pieces;
   bool was_read_whole = false;  ///< by rank 0, so what sets and markers of points hold is known
+  bool have_labels = false;     ///< the pieces themselves give points their numbers in the whole mesh
+  /// Of one file that was handed out: the numbers in it of points that the user names by labels, on rank 0.
+  std::vector<std::int64_t> labelled;
 
   /// Whether pieces know the numbers of cells in the one file that they are of.
   bool know_cell_ids() const {

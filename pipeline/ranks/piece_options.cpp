@@ -17,6 +17,7 @@
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/mpi/same_options.h"
+#include "trismooth/pipeline/input/point_sets.h"
 
 namespace trismooth {
 
@@ -28,8 +29,10 @@ void refuse(bool is_given, const std::string& option, const std::string& way_out
   }
 }
 
+/// Whether it names a set otherwise than by a label, ARRAY=NUMBER.
 bool names_sets(const std::vector<std::string>& names) {
-  return !names.empty() && names != std::vector<std::string>{"none"};
+  return !holds_no_sets(names) &&
+         std::ranges::any_of(names, [](const std::string& name) { return name.find('=') == std::string::npos; });
 }
 
 void require_output(const PipelineOptions& options, const std::filesystem::path& output) {
@@ -157,9 +160,8 @@ void require_piece_options(const PipelineOptions& options) {
   }
   const bool is_read_in_pieces = names_parallel_file(options.input);
   refuse(options.format && !options.single && is_read_in_pieces, "--format", "the extension says it");
-  refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set",
-         "files of VTK have no sets; hold vertices by --fixed-array");
-  refuse(options.fixed_ids_are_labels, "--fixed-labels", "--fixed-ids takes rows of the file, which count from 0");
+  refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set with the name of a set",
+         "files of VTK have none; ARRAY=NUMBER and --fixed-array hold vertices");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");
   refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge", "the result is the same without it");
 }

@@ -248,7 +248,7 @@ class PieceRun {
     result_.losses = read_losses_;
     result_.input = read_input_;
     mesh_ = join_pieces(files_, *ranks_);
-    constraints_ = find_rank_constraints(files_, mesh_, options_.fixed_array, options_.fixed_ids, *ranks_);
+    constraints_ = find_rank_constraints(files_, mesh_, options_, *ranks_);
     share_out();
     topology_.emplace(mesh_, constraints_.named, owners_, options_.input, ranks_, workers_);
     regions_ = find_rank_regions(files_, *topology_, options_.region_arrays);
@@ -275,23 +275,23 @@ class PieceRun {
     input.triangles = topology_->triangle_count();
     agree(*ranks_, [&] { require_triangles(input.triangles, cells_.cells, options_.input); });
     ReasonCounts reasons{};
-    const std::vector<std::uint8_t> by_array = topology_->of_vertices<std::uint8_t>(constraints_.by_array);
     std::int64_t vertices = 0;
-    std::int64_t by_array_count = 0;
     for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
       if (overlap.is_own(v)) {
         ++vertices;
         ++reasons[held_[static_cast<std::size_t>(v)]];
-        by_array_count += by_array[static_cast<std::size_t>(v)];
       }
     }
     MPI_Allreduce(MPI_IN_PLACE, reasons.data(), static_cast<int>(reasons.size()), MPI_INT64_T, MPI_SUM,
                   ranks_->handle());
     input.vertices = ranks_->sum(vertices);
     input.fixed_array = constraints_.fixed_array;
-    input.fixed_array_vertices = ranks_->sum(by_array_count);
+    input.fixed_array_vertices = count_own(topology_->of_vertices<std::uint8_t>(constraints_.by_array));
     input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
     input.fixed_ids_vertices = constraints_.listed;
+    for (const LabelledVertices& set : constraints_.sets) {
+      input.point_sets.push_back({set.name, count_own(topology_->of_vertices<std::uint8_t>(set.flags)), false, true});
+    }
     input.free_vertices = reasons[0];
     input.fixed_vertices = input.vertices - input.free_vertices;
     input.held = count_held(reasons, layers_);
@@ -318,6 +318,15 @@ class PieceRun {
     if (options_.fixed_ids && constraints_.listed == 0) {
       say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
     }
+  }
+
+  /// How many vertices of the whole mesh have the flag, of those of the overlap. Collective.
+  std::int64_t count_own(std::span<const std::uint8_t> flags) const {
+    std::int64_t count = 0;
+    for (std::int32_t v = 0; v < topology_->overlap().vertex_count(); ++v) {
+      count += topology_->overlap().is_own(v) && flags[static_cast<std::size_t>(v)] != 0 ? 1 : 0;
+    }
+    return ranks_->sum(count);
   }
 
   /// Whether triangles are listed again, which are not taken out in pieces.

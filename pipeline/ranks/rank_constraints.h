@@ -2,15 +2,21 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/rank_mesh.h"
 
 namespace trismooth {
+
+/// The vertices of a label (SetLabel) that the user holds.
+struct LabelledVertices {
+  std::string name;
+  std::vector<std::uint8_t> flags;  ///< one a vertex of the rank's mesh; joined over the ranks they are right
+};
 
 /// The vertices that the user holds, of those that the rank has.
 struct RankConstraints {
@@ -18,16 +24,20 @@ struct RankConstraints {
   std::vector<std::uint8_t> by_array;  ///< one flag a vertex of the rank's mesh
   std::vector<std::uint8_t> named;     ///< by_array, by a set of the file, or in the file of numbers
   std::int64_t listed = 0;             ///< different numbers in that file
+  std::vector<LabelledVertices> sets;  ///< of PipelineOptions::fixed_sets, each once
 };
 
-/// The error of a file that names a vertex which no piece has.
-ReadError unknown_vertex(const std::filesystem::path& path, std::int64_t id);
+/// The numbers in the whole mesh of the vertices that PipelineOptions::fixed_ids names, which is there, by these or by
+/// labels: different ones, ascending. `end`: behind the highest that there is. Of rank 0. Throws ReadError, and
+/// std::invalid_argument where the pieces have no labels.
+std::vector<std::int64_t> read_held_numbers(const PieceFiles& files, const PipelineOptions& options, std::int64_t end);
 
-/// Finds them: by the point array `fixed_array` as find_fixed_array() does, and by the file `fixed_ids` of numbers in
-/// the whole mesh, which rank 0 reads. Collective. Throws std::invalid_argument and ReadError on all ranks.
-RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& mesh,
-                                      const std::optional<std::string>& fixed_array,
-                                      const std::optional<std::filesystem::path>& fixed_ids,
+/// The error of such a file that names a vertex which no piece has.
+ReadError unknown_vertex(const PipelineOptions& options, std::int64_t id);
+
+/// Finds them: by the point array `fixed_array` as find_fixed_array() does, by labels of sets in pieces, and by the
+/// file `fixed_ids`, which rank 0 reads. Collective. Throws std::invalid_argument and ReadError on all ranks.
+RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& mesh, const PipelineOptions& options,
                                       const mpi::Communicator& ranks);
 
 }  // namespace trismooth

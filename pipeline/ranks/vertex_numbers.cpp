@@ -16,32 +16,13 @@
 #include <vector>
 
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/mesh_io/document/global_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 
 namespace trismooth {
 
 namespace {
-
-bool has_role(const DataArray& array, std::string_view role) {
-  return array.description != nullptr &&
-         std::ranges::find(array.description->roles, role) != array.description->roles.end();
-}
-
-/// The point array of numbers in the whole mesh, or nullptr.
-const DataArray* find_global_ids(const MeshDocument& document) {
-  for (const DataArray& array : document.point_arrays) {
-    if (has_role(array, "GlobalIds")) {
-      return &array;
-    }
-  }
-  for (const std::string_view name : {"GlobalNodeIds", "GlobalPointIds"}) {
-    if (const DataArray* const array = find_array(document.point_arrays, name)) {
-      return array;
-    }
-  }
-  return nullptr;
-}
 
 /// Of an array of 64 bits the numbers are its own.
 SharedNumbers numbers_of(const DataArray& array, const std::filesystem::path& path) {
@@ -258,6 +239,7 @@ void number_vertices(PieceFiles& files, const mpi::Communicator& ranks) {
   });
   const bool some_lack = ranks.any(lacking != pieces.end());
   const bool some_have = ranks.any(having != pieces.end());
+  files.have_labels = some_have;
   agree(ranks, [&] {
     if (some_lack && some_have && lacking != pieces.end()) {
       throw ReadError(lacking->path, "marks no point array as global ids, as other pieces do");

@@ -127,6 +127,93 @@ class Labels(tool.ToolTest):
                     f"{len(points)} {len(corners)} 0\n{rows}{triangles}")
         self.write("in" + extension, text)
 
+    def assert_sets_hold(self, name, members, *sets):
+        """The points of these sets are held, as if their rows had been named, and nothing else. `members` by set."""
+        self.write("rows.txt", " ".join(map(str, sorted(set().union(*members.values())))))
+        self.run_tool("smooth", "plate.off", "named.off", "--fixed-ids", "rows.txt")
+        arguments = ("--region-array", "none", *[word for name in sets for word in ("--fixed-set", name)])
+        self.run_tool("smooth", name, "out.off", *arguments)
+        self.assertEqual(self.read("out.off"), self.read("named.off"))
+        self.assertNotEqual(self.read("out.off"), self.read("all.off"))
+        listed = self.report("smooth", name, "out.off", *arguments)["input"]["point_sets"]
+        self.assertEqual({found["name"]: found["vertices"] for found in listed if found["holds"]},
+                         {name: len(points) for name, points in members.items()})
+
+    def test_sets_by_the_numbers_of_points(self):
+        marker = lambda i: 7 if i % 9 in (3, 4) else -2 if i in self.held else 0
+        points_of = lambda number: {i for i in range(81) if marker(i) == number}
+        for extension, array in ((".node", "triangle:marker"), (".mesh", "medit:ref"), (".msh", "freefem:label")):
+            with self.subTest(extension):
+                self.write_marked(extension, marker)
+                self.assert_sets_hold("in" + extension, {f"{array}=7": points_of(7)}, f"{array}=7")
+                both = {f"{array}=7": points_of(7), f"{array}=-2": points_of(-2)}
+                self.assert_sets_hold("in" + extension, both, f"{array.upper()}=-2", f"{array}=7", f"{array}=07")
+
+    def test_sets_by_the_numbers_of_cells(self):
+        """Those of triangles hold the triangles' points, those of lines and points theirs, and one number all of these."""
+        points, cells = self.grid.points, [cell for _, cell in self.grid.cells]
+        area = {v for v in range(81) if 2 <= v % 9 <= 4 and 2 <= v // 9 <= 4}
+        tags = [6 if area.issuperset(cell) else 1 for cell in cells]
+        edges = [(v, v + 1) for v in range(0, 8)]
+        elements = ([f"2 2 {tag} {tag} " + " ".join(str(v + 1) for v in cell) for tag, cell in zip(tags, cells)] +
+                    [f"1 2 4 4 {a + 1} {b + 1}" for a, b in edges] + ["15 2 6 6 9"])
+        self.write("in.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n81\n" +
+                   "".join(f"{i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)) +
+                   f"$EndNodes\n$Elements\n{len(elements)}\n" +
+                   "".join(f"{i + 1} {element}\n" for i, element in enumerate(elements)) + "$EndElements\n")
+        self.run_tool("smooth", "in.msh", "in.vtu", "--fixed-ids", self.all_rows())
+        for name in ("in.msh", "in.vtu"):
+            for array in ("gmsh:physical", "gmsh:geometrical"):
+                with self.subTest(name, array=array):
+                    members = {f"{array}=6": area | {8}, f"{array}=4": set(range(9))}
+                    self.assert_sets_hold(name, members, *members)
+
+    def test_a_group_that_overlaps_others_has_all_of_its_cells(self):
+        """UNV: each element has one number in the array, that of the smallest group."""
+        points, cells = self.grid.points, [cell for _, cell in self.grid.cells]
+        large = [c for c, cell in enumerate(cells) if all(2 <= v % 9 <= 5 and 2 <= v // 9 <= 5 for v in cell)]
+        small = [c for c in large if all(v % 9 >= 4 for v in cells[c])]
+        groups = ""
+        for number, members in ((11, large), (12, small)):
+            groups += f"{number:10}" + 6 * f"{0:10}" + f"{len(members):10}\ngroup{number}\n"
+            groups += "".join(f"{8:10}{c + 1:10}{0:10}{0:10}\n" for c in members)
+        self.write("in.unv", "    -1\n  2411\n" +
+                   "".join(f"{i + 1:10}{1:10}{1:10}{11:10}\n{x:25.16E}{y:25.16E}{z:25.16E}\n"
+                           for i, (x, y, z) in enumerate(points)) + "    -1\n    -1\n  2412\n" +
+                   "".join(f"{c + 1:10}{91:10}{1:10}{1:10}{7:10}{3:10}\n" + "".join(f"{v + 1:10}" for v in cell) + "\n"
+                           for c, cell in enumerate(cells)) + f"    -1\n    -1\n  2467\n{groups}    -1\n")
+        for number, members in ((11, large), (12, small)):
+            points_of = {v for c in members for v in cells[c]}
+            self.assert_sets_hold("in.unv", {f"unv:group={number}": points_of}, f"unv:group={number}")
+
+    def test_numbers_that_nothing_has_are_refused_with_those_there_are(self):
+        self.write_marked(".mesh", lambda i: i)
+        refuse = lambda name: self.run_tool("smooth", "in.mesh", "out.mesh", "--fixed-set", name, expect=WRONG_USAGE).err
+        said = refuse("medit:ref=99")
+        self.assertIn("no point or cell of the file has 'medit:ref=99'", said)
+        self.assertIn("'medit:ref' has: 0, 1, 2, 3, ", said)
+        self.assertRegex(said, "18, 19 and more\n")
+        for name in ("material=7", "medit"):
+            self.assertRegex(refuse(name), f"no point set '{name}' to hold; it has: .*ARRAY=NUMBER.*: medit:ref\n")
+        self.assertFalse(os.path.exists(self.path("out.mesh")))
+
+    def test_global_ids_are_labels(self):
+        """Of a file of VTK, as of the pieces that it may have been."""
+        count = len(self.grid.points)
+        points = "".join(f"{x} {y} {z}\n" for x, y, z in self.grid.points)
+        cells = [cell for _, cell in self.grid.cells]
+        self.write("in.vtk", f"# vtk DataFile Version 3.0\nplate\nASCII\nDATASET POLYDATA\nPOINTS {count} double\n" + points +
+                   f"POLYGONS {len(cells)} {4 * len(cells)}\n" +
+                   "".join("3 " + " ".join(map(str, cell)) + "\n" for cell in cells) + f"POINT_DATA {count}\n" +
+                   "SCALARS GlobalNodeIds int 1\nLOOKUP_TABLE default\n" +
+                   "".join(f"{5 + 7 * (count - i)}\n" for i in range(count)))
+        self.assert_holds("in.vtk", lambda i: 5 + 7 * (count - i))
+        self.write("labels.txt", "6\n")
+        self.run_tool("smooth", "in.vtk", "out.vtk", "--fixed-labels", "labels.txt", expect=BAD_INPUT)
+        self.write("in.vtk", self.read("in.vtk").replace(b"\n19\n12\n", b"\n12\n12\n"))
+        self.assertIn("several points the number 12", self.run_tool(
+            "smooth", "in.vtk", "out.vtk", "--fixed-labels", "labels.txt", expect=WRONG_USAGE).err)
+
     def test_markers_inside_hold_their_vertices(self):
         """A segment and an electrode: what others are smoothed to is as if these had been named."""
         segment, electrode = {4 * 9 + x for x in range(1, 8)}, 2 * 9 + 5

@@ -37,7 +37,7 @@ SHARED = {
     "--fixed-set": (["none"], []),
     "--merge": (["0"], GATHER),
     "--fixed-ids": (["ids.txt"], []),
-    "--fixed-labels": (["ids.txt"], GATHER),
+    "--fixed-labels": (["ids.txt"], []),
     "--project": (["xy"], GATHER),
     "--geographic": ([], GATHER),
     "--fields": (["keep"], []),

@@ -156,6 +156,112 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 self.assertNotIn("not held in pieces", gathered.err)
                 self.assertEqual(self.read_report()["coordinates_hash"], whole["coordinates_hash"])
 
+    def test_sets_by_labels(self):
+        """Of points, of quadrilaterals and of triangles, in pieces and handed out; at the borders of pieces, too."""
+        mesh = self.mixed_mesh()
+        mesh.point_arrays["kind"] = [v % 13 for v in range(len(mesh.points))]
+        mesh.cell_arrays["kind"] = [5 + 10 * (len(cell) == 3) for cell in mesh.cells]
+        mesh.cell_arrays["half"] = [0.5 if 0.4 < mesh.points[cell[0]][0] < 0.6 else 7.0 for cell in mesh.cells]
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 5), 5, global_ids=False)
+        pieces.write_pieces(self.path("mixed.pvtu"), parts)
+        merged = pieces.merged(parts)
+        kinds = dict(zip(mesh.points, mesh.point_arrays["kind"]))
+        merged.point_arrays["kind"] = [kinds[point] for point in merged.points]
+        pieces.write_vtu(self.path("merged.vtu"), merged)
+        quads = {v for cell in merged.cells if len(cell) == 4 for v in cell}
+        halves = {v for cell in merged.cells if 0.4 < merged.points[cell[0]][0] < 0.6 for v in cell}
+        members = {"kind=5": quads | {v for v, kind in enumerate(merged.point_arrays["kind"]) if kind == 5},
+                   "half=0.5": halves}
+        for names in (["kind=5"], ["half=0.5", "kind=5"], ["KIND=05", "half=.5", "kind=5"]):
+            options = [word for name in names for word in ("--fixed-set", name)]
+            whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
+            self.assertEqual({found["name"]: found["vertices"] for found in whole["input"]["point_sets"]},
+                             {name: len(members[name]) for name in names if name in members})
+            self.write("rows.txt", " ".join(str(v) for name in names if name in members for v in members[name]))
+            named = self.report("smooth", "merged.vtu", "smooth.vtu", "--fixed-ids", "rows.txt")
+            self.assertEqual(whole["coordinates_hash"], named["coordinates_hash"])
+            for ranks, more in ((0, []), (1, []), (3, []), (3, ["--partition", "bisect"]), (3, ["--gather"])):
+                with self.subTest(names=names, ranks=ranks, more=more):
+                    report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", *options, *more)
+                    self.assertEqual(without_run(report["input"]), without_run(whole["input"]))
+                    self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+            slid = self.report("smooth", "merged.vtu", "smooth.vtu", *options, "--slide", "straight")
+            report = self.report_over(3, "smooth", "mixed.pvtu", "out.pvtu", *options, "--slide", "straight", "--gather")
+            self.assertEqual(report["coordinates_hash"], slid["coordinates_hash"])
+            report = self.report_over(3, "smooth", "merged.vtu", "out.pvtu", *options)
+            self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+        for name in ("kind=99", "nosuch=5", "kind"):
+            errors = []
+            for ranks, path in ((0, "merged.vtu"), (0, "mixed.pvtu"), (3, "mixed.pvtu")):
+                outcome = self.run_over(ranks, "smooth", path, "no" + path[-5:], "--fixed-set", name, expect=2)
+                errors.append(self.errors_of(outcome))
+                self.assertEqual(len(errors[-1]), 1, outcome)
+            self.assertEqual(errors[1], errors[2])
+            if name == "kind=99":
+                self.assertEqual(errors[0], errors[1])
+                self.assertIn("'kind' has: 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 15", errors[1][0])
+
+    def test_vertices_by_labels(self):
+        """The numbers that the file gives its points; of pieces these are their global ids."""
+        mesh = self.random_mesh(1000)
+        ids = [7 * ((v * 389) % 1009) + 3 for v in range(len(mesh.points))]
+        held = list(range(0, len(mesh.points), 9))
+        self.write("labels.txt", " ".join(str(ids[v]) for v in held) + f"  # and one twice: {ids[9]}")
+        self.write("rows.txt", " ".join(map(str, held)))
+        mesh.point_arrays["GlobalNodeIds"] = ids
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        raw_vtu.write(self.path("raw.vtu"), mesh, raw_vtu.Form())
+        self.write("whole.msh", f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(ids)}\n" +
+                   "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in zip(ids, mesh.points)) +
+                   f"$EndNodes\n$Elements\n{len(mesh.cells)}\n" +
+                   "".join(f"{c + 1} 2 2 {region + 2} 1 " + " ".join(str(ids[v]) for v in cell) + "\n" for c, (cell, region)
+                           in enumerate(zip(mesh.cells, mesh.cell_arrays["region"]))) + "$EndElements\n")
+        named = self.report("smooth", "whole.vtu", "smooth.vtu", "--fixed-ids", "rows.txt")
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 4), 4)
+        for piece in parts:
+            piece.point_arrays["GlobalNodeIds"] = [ids[v] for v in piece.point_arrays["GlobalNodeIds"]]
+        pieces.write_pieces(self.path("big.pvtu"), parts)
+        places = dict(zip(ids, mesh.points))
+        labels = ["--fixed-labels", "labels.txt"]
+        held_ids = {ids[v] for v in held}
+        for name, ranks, more in (("big.pvtu", 0, []), ("big.pvtu", 1, []), ("big.pvtu", 3, []),
+                                  ("big.pvtu", 3, ["--gather", "--fields", "interpolate"])):
+            with self.subTest(name, ranks=ranks, more=more):
+                report = self.report_over(ranks, "smooth", name, "out.pvtu", *labels, *more)
+                self.assertEqual(report["input"]["fixed_ids_vertices"], len(held))
+                self.assertEqual(report["input"]["free_vertices"], named["input"]["free_vertices"])
+                moved = set()
+                for source in pieces.sources(self.path("out.pvtu")):
+                    arrays = pieces.read_ascii_arrays(self.path(source))
+                    xyz = [float(x) for x in arrays["Points", "Points"][1]]
+                    moved.update(v for i, v in enumerate(map(int, arrays["PointData", "GlobalNodeIds"][1]))
+                                 if tuple(xyz[3 * i:3 * i + 3]) != places[v])
+                self.assertFalse(moved & held_ids)
+                self.assertTrue(moved)
+        for name in ("whole.vtu", "raw.vtu", "whole.msh"):
+            alone = self.report("smooth", name, "alone.vtu", *labels)
+            self.assertEqual(alone["coordinates_hash"], named["coordinates_hash"])
+            for output, more in (("out.vtu", []), ("out.pvtu", []), ("out.pvtu", ["--gather", "--slide", "straight"])):
+                with self.subTest(name, output=output, more=more):
+                    report = self.report_over(3, "smooth", name, output, *labels, *more)
+                    if not more:
+                        self.assertEqual(report["coordinates_hash"], named["coordinates_hash"])
+                    self.assertEqual(report["input"]["fixed_ids_vertices"], len(held))
+        self.write("labels.txt", f"{ids[3]} -4 {ids[4]} 4")
+        said = set()
+        for name, ranks, output, more in (("whole.vtu", 0, "no.vtu", []), ("big.pvtu", 0, "no.pvtu", []),
+                                          ("big.pvtu", 3, "no.pvtu", []), ("big.pvtu", 3, "no.pvtu", ["--gather"]),
+                                          ("raw.vtu", 3, "no.pvtu", [])):
+            outcome = self.run_over(ranks, "smooth", name, output, *labels, *more, expect=3)
+            self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
+            said.update(self.errors_of(outcome))
+        self.assertEqual(said, {"trismooth: error: labels.txt: names the vertex -4, and no point of the mesh has that label"})
+        mesh = self.random_mesh(300)
+        pieces.write_pieces(self.path("big.pvtu"), pieces.cut(mesh, pieces.stripes(mesh, 2), 2, global_ids=False))
+        outcome = self.run_over(3, "smooth", "big.pvtu", "no.pvtu", *labels, expect=2)
+        self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
+        self.assertRegex(outcome.err, "'--fixed-labels': the pieces give .*GlobalNodeIds.*; --fixed-ids takes")
+
     def test_an_empty_piece_has_any_array_of_ids(self):
         mesh = self.random_mesh(300)
         parts = pieces.cut(mesh, pieces.stripes(mesh, 2), 3)
