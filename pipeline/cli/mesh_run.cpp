@@ -263,9 +263,8 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       ->group(option_group::constraints);
   add_parsed_option(
       command, "--fixed-set", "NAME",
-      "Set of points in the file (NSET, Corners, boundary) whose vertices are fixed. Repeatable; none: no set fixes "
-      "any "
-      "[all that do not cover an area]",
+      "Set of points in the file (NSET, Corners, boundary) whose vertices are fixed, or ARRAY=NUMBER, what the file "
+      "gives that number (medit:ref=7). Repeatable; none: no set fixes any [all that do not cover an area]",
       [&options](const std::string& text) { options.fixed_sets.push_back(text); }, repeatable)
       ->group(option_group::constraints);
   add_parsed_option(command, "--project", alternatives<Projection>(),
@@ -289,7 +288,7 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
   ids->group(option_group::constraints);
   add_parsed_option(command, "--fixed-labels", "FILE",
                     "Text file of vertices to fix: the numbers that the mesh file itself gives them, as node tags of "
-                    "MSH or nodes of Abaqus",
+                    "MSH, nodes of Abaqus or global ids of pieces",
                     [&options](const std::string& text) {
                       options.fixed_ids = text;
                       options.fixed_ids_are_labels = true;

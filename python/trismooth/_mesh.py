@@ -161,11 +161,13 @@ class Mesh:
         fixed : array of N bools, or of vertex numbers, optional
             Vertices to hold. Numbers are rows of the file, from 0.
         fixed_labels : array of int, optional
-            Vertices to hold, by the numbers that the file itself gives them: node tags of MSH, nodes of Abaqus, ...
+            Vertices to hold, by the numbers that the file itself gives them: node tags of MSH, nodes of Abaqus, global
+            ids of VTK, ...
         fixed_array : str, optional
             The point array whose nonzero values hold vertices. Default: "fixed", where there is one.
         fixed_sets : str or list of str, optional
-            Point sets that hold vertices. Default: all but those of areas.
+            Point sets that hold vertices, or "ARRAY=NUMBER": the points, and those of the cells, that the file gives that
+            number, as "medit:ref=7". Default: all sets but those of areas.
         merge : float, optional
             Corners of triangles that are no further apart, in the file's unit, count as one vertex: they move together,
             and the mesh keeps all of them. Default: none are joined.

@@ -157,7 +157,8 @@ class Labels(tool.ToolTest):
         edges = [(v, v + 1) for v in range(0, 8)]
         elements = ([f"2 2 {tag} {tag} " + " ".join(str(v + 1) for v in cell) for tag, cell in zip(tags, cells)] +
                     [f"1 2 4 4 {a + 1} {b + 1}" for a, b in edges] + ["15 2 6 6 9"])
-        self.write("in.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n81\n" +
+        self.write("in.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n"
+                   "1 6 \"wall\"\n2 6 \"coil\"\n$EndPhysicalNames\n$Nodes\n81\n" +
                    "".join(f"{i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)) +
                    f"$EndNodes\n$Elements\n{len(elements)}\n" +
                    "".join(f"{i + 1} {element}\n" for i, element in enumerate(elements)) + "$EndElements\n")
@@ -167,6 +168,7 @@ class Labels(tool.ToolTest):
                 with self.subTest(name, array=array):
                     members = {f"{array}=6": area | {8}, f"{array}=4": set(range(9))}
                     self.assert_sets_hold(name, members, *members)
+        self.assert_sets_hold("in.msh", {"gmsh:physical=coil": area}, "gmsh:physical=coil")
 
     def test_a_group_that_overlaps_others_has_all_of_its_cells(self):
         """UNV: each element has one number in the array, that of the smallest group."""
