@@ -209,6 +209,13 @@ def test_vertices_are_held_by_the_numbers_that_the_file_gives_them(label, tmp_pa
         moved(fixed_labels=[1.0])
     with pytest.raises(ValueError, match="^fixed_labels: 9223372036854775808 is beyond"):
         moved(fixed_labels=np.array([2**63], np.uint64))
+    path = tmp_path / "labelled.mesh"
+    path.write_text(f"MeshVersionFormatted 2\nDimension 2\nVertices {len(points)}\n" +
+                    "".join(f"{x} {y} {7 if i in held else 0}\n" for x, y, i in points) + f"Triangles {len(cells)}\n" +
+                    "".join(" ".join(str(v + 1) for v in c) + " 0\n" for c in cells) + "End\n")  # fmt: skip
+    np.testing.assert_array_equal(moved(fixed_sets="medit:ref=7"), moved(fixed=held, fixed_sets="none"))
+    with pytest.raises(ValueError, match="'medit:ref' has: 0, 7"):
+        moved(fixed_sets=["medit:ref=8"])
     trismooth.read(path).write(tmp_path / "unlabelled.off")
     with pytest.raises(ValueError, match="^fixed_labels: a file of OFF gives its points no numbers .* fixed takes"):
         trismooth.read(tmp_path / "unlabelled.off").smooth(fixed_labels=[1])

@@ -167,3 +167,37 @@ TEST_CASE("cell sets are counted") {
   CHECK(sets[0].cells == 3);
   CHECK(sets[1].cells == 0);
 }
+
+TEST_CASE("a label holds points, points of lines and of triangles; a set of that very name comes first") {
+  const auto triangles = grid_triangles(4);
+  MeshDocument document = with_sets(4, {{"ref=3", {15}}});
+  document.cells.append(trismooth::cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.cells.append(trismooth::cell_type::triangle, std::vector<std::int32_t>{5, 6, 10});
+  document.cells.append(trismooth::cell_type::triangle, std::vector<std::int32_t>{5, 10, 9});
+  constexpr std::int64_t beyond_doubles = (std::int64_t{1} << 53) + 1;
+  document.cell_arrays.push_back(trismooth::make_data_array("ref", 1, std::vector<std::int64_t>{2, 2, beyond_doubles}));
+  document.point_arrays.push_back(
+      trismooth::make_data_array("Ref", 1, std::vector<float>{0, 0, 0, 0.1F, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0}));
+  document.point_arrays.push_back(trismooth::make_data_array("velocity", 2, std::vector<float>(32, 2)));
+  document.point_arrays.push_back(trismooth::make_data_array("trismooth:fixed", 1, std::vector<float>(16, 2)));
+  const auto held = [&](const std::string& name) {
+    const Bytes flags = find_held_sets(document, triangles, std::vector<std::string>{name}).flags;
+    Numbers points;
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (flags[v] != 0) {
+        points.push_back(static_cast<std::int32_t>(v));
+      }
+    }
+    return points;
+  };
+  CHECK(held("ref=3") == Numbers{15});
+  CHECK(held("ref=2") == Numbers{0, 1, 5, 6, 10});
+  CHECK(held("ref=2.0") == Numbers{0, 1, 5, 6, 10});
+  CHECK(held("ref=9007199254740993") == Numbers{5, 9, 10});
+  CHECK_THROWS_AS(held("ref=9007199254740992"), std::invalid_argument);
+  CHECK(held("Ref=0.1") == Numbers{3});
+  CHECK(held("Ref=7") == Numbers{12});
+  for (const char* const name : {"velocity=2", "trismooth:fixed=2", "=2", "ref=", "ref"}) {
+    CHECK_THROWS_AS(held(name), std::invalid_argument);
+  }
+}
