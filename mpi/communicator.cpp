@@ -142,6 +142,16 @@ std::int64_t Communicator::sum(std::int64_t own) const {
   return own;
 }
 
+void Communicator::sum(std::span<std::int64_t> own) const {
+  const auto count = static_cast<int>(own.size());
+  check(MPI_Allreduce(MPI_IN_PLACE, own.data(), count, MPI_INT64_T, MPI_SUM, communicator_), "MPI_Allreduce");
+}
+
+std::int64_t Communicator::largest(std::int64_t own) const {
+  check(MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT64_T, MPI_MAX, communicator_), "MPI_Allreduce");
+  return own;
+}
+
 std::int64_t Communicator::sum_before(std::int64_t own) const {
   std::int64_t before = 0;
   check(MPI_Exscan(&own, &before, 1, MPI_INT64_T, MPI_SUM, communicator_), "MPI_Exscan");

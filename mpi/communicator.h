@@ -59,6 +59,9 @@ class Communicator {
 
   PartSums joined(PartSums own) const;
   std::int64_t sum(std::int64_t own) const;
+  /// Each becomes the sum over the ranks; as many on all of them.
+  void sum(std::span<std::int64_t> own) const;
+  std::int64_t largest(std::int64_t own) const;
   bool any(bool own) const { return sum(own ? 1 : 0) > 0; }
   /// The sum over the ranks before this one.
   std::int64_t sum_before(std::int64_t own) const;

@@ -7,8 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include <sys/resource.h>
-
+#include "trismooth/base/peak_memory.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
@@ -28,12 +27,6 @@
 namespace trismooth {
 
 namespace {
-
-std::int64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
-}
 
 /// A device starts while the file is read, if that takes long enough to be worth a thread.
 std::future<void> start_backend(const PipelineOptions& options) {

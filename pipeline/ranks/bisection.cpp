@@ -88,7 +88,7 @@ class Level {
       const auto g = static_cast<std::size_t>(group_of_[p]);
       counts[g] += key(p, g) <= cuts[g] ? 1 : 0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, ranks_.handle());
+    ranks_.sum(counts);
     return counts;
   }
 

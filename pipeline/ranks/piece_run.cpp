@@ -9,10 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <mpi.h>
-#include <sys/resource.h>
-
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/peak_memory.h"
 #include "trismooth/base/release.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
@@ -50,14 +48,6 @@
 namespace trismooth {
 
 namespace {
-
-std::int64_t largest_memory_of_ranks(const mpi::Communicator& ranks) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  auto bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
-  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
-  return bytes;
-}
 
 /// Puts those sentences in front that are not there already.
 void put_in_front(const std::vector<std::string>& sentences, std::vector<std::string>& all) {
@@ -159,7 +149,7 @@ class PieceRun {
   /// Collective.
   const PipelineResult& complete() {
     result_.timings_ms.total = watch_.milliseconds();
-    result_.peak_memory_bytes = largest_memory_of_ranks(*ranks_);
+    result_.peak_memory_bytes = ranks_->largest(peak_memory_bytes());
     return result_;
   }
 
@@ -282,8 +272,7 @@ class PieceRun {
         ++reasons[held_[static_cast<std::size_t>(v)]];
       }
     }
-    MPI_Allreduce(MPI_IN_PLACE, reasons.data(), static_cast<int>(reasons.size()), MPI_INT64_T, MPI_SUM,
-                  ranks_->handle());
+    ranks_->sum(reasons);
     input.vertices = ranks_->sum(vertices);
     input.fixed_array = constraints_.fixed_array;
     input.fixed_array_vertices = count_own(topology_->of_vertices<std::uint8_t>(constraints_.by_array));
@@ -356,7 +345,7 @@ class PieceRun {
     for (const WorstElement& element : report.worst) {
       cells.push_back(cell_of(element.triangle));
     }
-    MPI_Allreduce(MPI_IN_PLACE, cells.data(), static_cast<int>(cells.size()), MPI_INT64_T, MPI_SUM, ranks_->handle());
+    ranks_->sum(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       report.worst[i].triangle = cells[i];
     }

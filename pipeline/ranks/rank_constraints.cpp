@@ -110,8 +110,7 @@ void hold_by_labels(const PieceFiles& files, const std::vector<std::string>& nam
 
 void hold_by_numbers(const PieceFiles& files, const PipelineOptions& options, const RankMesh& mesh,
                      const mpi::Communicator& ranks, RankConstraints& constraints) {
-  std::int64_t highest = mesh.ids.empty() ? -1 : mesh.ids[mesh.ids.size() - 1];
-  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
+  const std::int64_t highest = ranks.largest(mesh.ids.empty() ? -1 : mesh.ids[mesh.ids.size() - 1]);
   std::vector<std::int64_t> numbers;
   agree(ranks, [&] {
     if (ranks.rank() == 0) {

@@ -27,8 +27,7 @@ struct PlacedVertex {
 /// The vertices by blocks of ids, a block a rank.
 std::vector<PlacedVertex> by_blocks_of_ids(std::span<const std::int64_t> ids, std::vector<std::array<double, 3>> places,
                                            const mpi::Communicator& ranks) {
-  std::int64_t last = ids.empty() ? 0 : *std::ranges::max_element(ids);
-  MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_INT64_T, MPI_MAX, ranks.handle());
+  const std::int64_t last = ranks.largest(ids.empty() ? 0 : *std::ranges::max_element(ids));
   // So many ids a block that the product does not overflow.
   const std::int64_t block = last / ranks.size() + 1;
   std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);

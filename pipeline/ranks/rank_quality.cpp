@@ -71,7 +71,7 @@ double percentile_of_all(std::span<const double> ratios, std::int64_t total, std
         ++counts[value >> (64 - bits - digit_bits) & (digits - 1)];
       }
     }
-    MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(digits), MPI_INT64_T, MPI_SUM, ranks.handle());
+    ranks.sum(counts);
     std::size_t digit = 0;
     while (counts[digit] < rank) {
       rank -= counts[digit++];
