@@ -112,25 +112,23 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
     return {};
   }
   found = shared_findings(overlap, candidates.after(layers_choices, workers), layers, layers_least, ranks, workers);
-  std::int64_t own_kept = 0;
-  std::int64_t own_on_lines = 0;
+  LayersResult own;
+  LayersResult ghost;
   std::vector<std::int32_t> kept = vertices_here(overlap, found.kept);
   add_ends(candidates.after(0, workers), kept);
   for (const std::int32_t v : kept) {
-    if (moves_in_layer(fixed[v], slides)) {
-      (fixed[v] == 0 ? own_kept : own_on_lines) += overlap.is_own(static_cast<std::int32_t>(v)) ? 1 : 0;
+    if (count_in_layer(fixed[v], slides, overlap.is_own(v) ? own : ghost)) {
       fixed[v] |= hold::named;
     }
   }
   ghosts.update(fixed);  // not all of what is around them is here
-  std::int64_t own_left = 0;
   for (const std::int32_t v : vertices_here(overlap, found.left)) {
-    own_left += overlap.is_own(v) && fixed[v] == 0 ? 1 : 0;
+    own.left += overlap.is_own(v) && fixed[v] == 0 ? 1 : 0;
   }
   LayersResult result = found.result.front();
-  result.left = ranks.sum(own_left);
-  result.kept = ranks.sum(own_kept);
-  result.kept_on_lines = ranks.sum(own_on_lines);
+  result.left = ranks.sum(own.left);
+  result.kept = ranks.sum(own.kept);
+  result.kept_on_lines = ranks.sum(own.kept_on_lines);
   return result;
 }
 

@@ -82,8 +82,7 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   if (!found.kept.empty()) {
     const std::vector<std::uint8_t> reasons = hold_of_layers(*context_, found.kept, slides, fixed_.data());
     for (std::size_t i = 0; i < reasons.size(); ++i) {
-      if (moves_in_layer(reasons[i], slides)) {
-        ++(reasons[i] == 0 ? found.result.kept : found.result.kept_on_lines);
+      if (count_in_layer(reasons[i], slides, found.result)) {
         held.push_back(found.kept[i]);
       }
     }

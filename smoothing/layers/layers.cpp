@@ -307,8 +307,7 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
                                     static_cast<std::int32_t>(points.size()), layers, workers);
   for (const std::int32_t v : found.kept) {
     std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
-    if (moves_in_layer(reasons, slides)) {
-      ++(reasons == 0 ? found.result.kept : found.result.kept_on_lines);
+    if (count_in_layer(reasons, slides, found.result)) {
       reasons |= hold::named;
     }
   }

@@ -101,9 +101,16 @@ constexpr TRISMOOTH_HOST_DEVICE bool moves_in_layer(std::uint8_t reasons, bool s
   return reasons == 0 || (slides && is_held_by_lines(reasons));
 }
 
+/// Whether it has to be; counted in `result` then: by `kept` where it was free, by `kept_on_lines` else.
+constexpr bool count_in_layer(std::uint8_t reasons, bool slides, LayersResult& result) {
+  const bool moves = moves_in_layer(reasons, slides);
+  (reasons == 0 ? result.kept : result.kept_on_lines) += moves ? 1 : 0;
+  return moves;
+}
+
 /// All of it, and marks as hold::named in `fixed`, one byte a vertex, whatever is to be kept and moves_in_layer().
-/// `slides`: whether vertices on lines may slide. Of what it returns `kept` counts those that were free, and
-/// `kept_on_lines` the others. With Layers::smooth it does nothing. `points`: one for each vertex, in the local frame.
+/// `slides`: whether vertices on lines may slide. With Layers::smooth it does nothing. `points`: one for each vertex,
+/// in the local frame.
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
                          std::span<const std::uint8_t> reversed, Layers layers, bool slides,
                          std::span<std::uint8_t> fixed, Workers& workers);
