@@ -76,8 +76,19 @@ void WrittenAside::send() {
 
 void WrittenAside::commit() {
   send();
+  try {
+    for (const std::unique_ptr<OutputFile>& file : files_) {
+      file->commit();
+    }
+  } catch (const WriteError&) {
+    take_back();
+    throw;
+  }
+}
+
+void WrittenAside::take_back() noexcept {
   for (const std::unique_ptr<OutputFile>& file : files_) {
-    file->commit();
+    file->take_back();
   }
 }
 

@@ -43,8 +43,11 @@ class WrittenAside {
   /// them takes its place. Throws WriteError.
   void send();
 
-  /// send(), and the files take their places, in their order. Throws WriteError.
+  /// send(), and the files take their places, in their order, all of them or none. Throws WriteError.
   void commit();
+
+  /// Undoes a commit(), as OutputFile::take_back() does.
+  void take_back() noexcept;
 
  private:
   std::vector<std::unique_ptr<OutputFile>> files_;

@@ -170,7 +170,7 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
 }
 
 OutputFile::~OutputFile() {
-  if (!direct_ && !done_) {
+  if (!direct_ && (!done_ || has_old_)) {
     ::unlink(path_.c_str());
     forget(path_.native());
   }
@@ -230,12 +230,35 @@ void OutputFile::commit() {
   prepare();
   const Folder folder(target_);
   begin_commit();
-  if (::rename(path_.c_str(), target_.c_str()) != 0) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(target_, error);
+  is_new_name_ = !std::filesystem::exists(status);
+  const bool is_replaced =
+      std::filesystem::is_regular_file(status) &&
+      ::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0;  // it keeps the old file
+  if (!is_replaced && ::rename(path_.c_str(), target_.c_str()) != 0) {
     fail(given_, "cannot be replaced");
   }
   done_ = true;
-  forget(path_.native());
+  has_old_ = is_replaced;
+  if (!has_old_) {
+    forget(path_.native());
+  }
   folder.flush();
+}
+
+void OutputFile::take_back() noexcept {
+  if (!done_) {
+    return;
+  }
+  if (has_old_) {
+    ::rename(path_.c_str(), target_.c_str());
+    forget(path_.native());
+  } else if (is_new_name_) {
+    ::unlink(target_.c_str());
+  }
+  has_old_ = false;
+  is_new_name_ = false;
 }
 
 void OutputFile::begin_commits() noexcept {

@@ -34,8 +34,12 @@ class OutputFile {
   void prepare();
 
   /// Puts the file in the target's place, ready as prepare() makes it. After a power cut there is the old file or all
-  /// of the new one. Throws WriteError.
+  /// of the new one. Until this object goes, the old file lies under the temporary name. Throws WriteError.
   void commit();
+
+  /// Where several files belong together and a later one has failed: undoes a commit(). Only file systems that cannot
+  /// exchange names (NFS) have no old file any more; there the new one stays. What was written directly stays too.
+  void take_back() noexcept;
 
   /// For files of several processes that belong together: from now on it is as if a commit was begun. When every
   /// process has called this, and not before, they commit: whoever is told to end until then puts nothing in its place,
@@ -71,7 +75,9 @@ class OutputFile {
   std::optional<Attributes> old_;  ///< of the target
   bool direct_ = false;
   bool prepared_ = false;
-  bool done_ = false;
+  bool done_ = false;     ///< the new file is in its place; nothing is left under the temporary name, or the old file
+  bool has_old_ = false;  ///< under the temporary name
+  bool is_new_name_ = false;                               ///< there was no old file
   std::optional<BrokenPipeIsError> broken_pipe_is_error_;  ///< where it is written directly
 };
 

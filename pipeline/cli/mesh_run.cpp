@@ -113,6 +113,14 @@ class RunOutputs {
       : settings_(settings),
         environment_(environment),
         record_{environment.command, date_text(std::chrono::system_clock::now()), {}} {}
+  RunOutputs(const RunOutputs&) = delete;
+  RunOutputs& operator=(const RunOutputs&) = delete;
+  /// Where not everything came into its place the old reports are there again.
+  ~RunOutputs() {
+    for (WrittenAside& report : reports_) {
+      report.take_back();
+    }
+  }
 
   /// Writes the reports under other names, then prints the table. Throws WriteError.
   void prepare(const PipelineResult& result) {
@@ -132,8 +140,10 @@ class RunOutputs {
     for (WrittenAside& report : reports_) {
       report.commit();
     }
-    reports_.clear();
   }
+
+  /// The mesh is in its place, too.
+  void keep() { reports_.clear(); }
 
   bool is_prepared() const { return is_prepared_; }
   const std::vector<GateOutcome>& gates() const { return record_.gates; }
@@ -378,6 +388,7 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     outputs.prepare(result);
     outputs.place();
   }
+  outputs.keep();
   if (verbosity != Verbosity::quiet) {
     if (const auto& written = settings.pipeline.written(); written && is_standard_stream(*written)) {
       environment.err << labelled_line("written:", shown_output(*written).string());

@@ -281,16 +281,23 @@ void write_pieces(PieceFiles& files, const std::filesystem::path& output, const 
     }
   });
   const std::size_t pieces = files.pieces.size();
-  agree(ranks, [&] {
-    for (std::size_t i = 0; i < pieces; ++i) {
-      written[i]->commit();
+  try {
+    agree(ranks, [&] {
+      for (std::size_t i = 0; i < pieces; ++i) {
+        written[i]->commit();
+      }
+    });
+    agree(ranks, [&] {
+      if (ranks.rank() == 0) {
+        written.back()->commit();
+      }
+    });
+  } catch (...) {
+    for (const std::unique_ptr<OutputFile>& file : written) {
+      file->take_back();
     }
-  });
-  agree(ranks, [&] {
-    if (ranks.rank() == 0) {
-      written.back()->commit();
-    }
-  });
+    throw;
+  }
 }
 
 }  // namespace trismooth

@@ -251,6 +251,32 @@ class OtherRefusals(FullDiskTest):
         self.assert_told(outcome, "disk/old.off", "Permission denied")
         self.assertEqual(self.read("disk/old.off"), b"precious")
 
+    def assert_reports_survive(self, reason, user=None):
+        """The mesh cannot take its place, which shows at the last moment: the old reports are there, and no new one."""
+        before = {name: self.read(f"disk/{name}") for name in self.disk.names()}
+        outcome = self.run_tool("smooth", "plate.off", "disk/old.off", "--report", "disk/old.json", "--report",
+                                "disk/new.json", "--report", "disk/old.html", user=user, expect=None)
+        self.assert_told(outcome, "disk/old.off", reason)
+        self.assertEqual({name: self.read(f"disk/{name}") for name in self.disk.names()}, before)
+
+    def test_reports_of_a_mesh_whose_place_is_a_mount_point(self):
+        self.write("disk/other.off", "precious")
+        private_mounts.mount("--bind", self.path("disk/other.off"), self.path("disk/old.off"))
+        self.addCleanup(private_mounts.unmount, self.path("disk/old.off"))
+        self.assert_reports_survive("Device or resource busy")
+
+    def test_reports_of_a_mesh_of_somebody_else_whose_folder_is_sticky(self):
+        nobody = 65534
+        os.chmod(self.folder, 0o777)
+        os.chmod(self.disk.folder, 0o1777)
+        os.chmod(self.path("disk/old.off"), 0o666)
+        for report in ("disk/old.json", "disk/old.html"):
+            shutil.chown(self.path(report), nobody, nobody)
+        try:
+            self.assert_reports_survive("Operation not permitted", user=nobody)
+        except (PermissionError, OSError) as error:
+            self.skipTest(f"nobody else can run the program: {error}")
+
 
 class SystemCalls(tool.ToolTest):
     """What no disk of ours does: system calls made to fail, or looked at, by strace."""

@@ -240,6 +240,28 @@ TEST_CASE("a commit fails where the target has become a folder, or its folder is
   CHECK(message_of<WriteError>([&] { output.commit(); }).find((folder / "link.off").string() + ": cannot be ") == 0);
 }
 
+TEST_CASE("what is taken back leaves the file that was there, and no new one") {
+  const ScratchFolder folder;
+  const fs::path old = folder.write("old.off", "old");
+  fs::permissions(old, fs::perms::owner_read | fs::perms::owner_write);
+  {
+    OutputFile replacing(old);
+    OutputFile fresh(folder / "fresh.off");
+    for (OutputFile* const file : {&replacing, &fresh}) {
+      put(*file, "new");
+      file->commit();
+      CHECK(bytes_of(file == &fresh ? folder / "fresh.off" : old) == "new");
+    }
+    replacing.take_back();
+    fresh.take_back();
+    fresh.take_back();
+    CHECK(bytes_of(old) == "old");
+  }
+  CHECK(bytes_of(old) == "old");
+  CHECK(mode_of(old) == 0600);
+  CHECK(folder.size() == 1);
+}
+
 TEST_CASE("a name without a folder is in the current one") {
   const ScratchFolder folder;
   const fs::path before = fs::current_path();
