@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
@@ -149,8 +150,8 @@ std::string describe_strips(const MeshDocument& document, const MeshDocument& ex
   std::ranges::transform(name, name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   const auto strips = std::ranges::count(document.cells.types, cell_type::triangle_strip);
   const std::size_t triangles = expanded.cells.size() + static_cast<std::size_t>(strips) - document.cells.size();
-  return name + " holds no triangle strips: " + std::to_string(strips) + (strips == 1 ? " is" : " are") +
-         " written as " + std::to_string(triangles) + (triangles == 1 ? " triangle" : " triangles");
+  return name + " holds no triangle strips: " + counted(strips, "is", "are") + " written as " +
+         counted(triangles, "triangle", "triangles");
 }
 
 /// What has_curved_cells() as a format holds it that has straight ones only.
@@ -160,16 +161,17 @@ std::string describe_straight(const MeshDocument& document, const MeshDocument& 
     cells += document.cells.types[cell] == straight.cells.types[cell] ? 0 : 1;
   }
   const std::size_t points = document.point_count() - straight.point_count();
-  return std::string(title_of(target)) + " holds straight cells only: " + std::to_string(cells) +
-         (cells == 1 ? " curved one is" : " curved ones are") + " written by their corners" +
+  return std::string(title_of(target)) +
+         " holds straight cells only: " + counted(cells, "curved one is", "curved ones are") +
+         " written by their corners" +
          (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
 }
 
 /// What a format that holds triangles only gets in place of that many quadrilaterals that repeat a corner.
 std::string describe_collapsed(std::size_t quads, FileFormat target) {
-  return std::string(title_of(target)) + " holds triangles only: " + std::to_string(quads) +
-         (quads == 1 ? " quadrilateral that repeats a corner is written as the triangle that it is"
-                     : " quadrilaterals that repeat a corner are written as the triangles that they are");
+  return std::string(title_of(target)) + " holds triangles only: " +
+         counted(quads, "quadrilateral that repeats a corner is written as the triangle that it is",
+                 "quadrilaterals that repeat a corner are written as the triangles that they are");
 }
 
 /// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals or cells of any

@@ -1,5 +1,7 @@
 #include "trismooth/mesh_io/document/cell_size.h"
 
+#include "trismooth/base/counted.h"
+
 namespace trismooth {
 
 namespace {
@@ -78,9 +80,8 @@ CellSize cell_size_of(std::uint8_t type) {
 
 std::string describe_wrong_size(std::uint8_t type, std::size_t vertices) {
   const CellSize size = cell_size_of(type);
-  return "of type " + std::to_string(type) + " has " + std::to_string(vertices) +
-         (vertices == 1 ? " vertex" : " vertices") + "; expected " + std::to_string(size.least) +
-         (size.least == size.most ? "" : " or more");
+  return "of type " + std::to_string(type) + " has " + counted(vertices, "vertex", "vertices") + "; expected " +
+         std::to_string(size.least) + (size.least == size.most ? "" : " or more");
 }
 
 }  // namespace trismooth

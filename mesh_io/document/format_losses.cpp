@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "trismooth/base/counted.h"
+
 namespace trismooth {
 
 namespace {
@@ -130,8 +132,8 @@ std::vector<std::string> describe_lost_cells(std::string_view format, std::strin
   std::size_t total = 0;
   for (std::size_t type = 0; type < counts.size(); ++type) {
     if (counts[type] > 0) {
-      lost.append(lost.empty() ? "" : ", ").append(std::to_string(counts[type]));
-      lost.append(counts[type] == 1 ? " cell" : " cells").append(" of type ").append(type_name(type));
+      lost.append(lost.empty() ? "" : ", ").append(counted(counts[type], "cell of type ", "cells of type "));
+      lost.append(type_name(type));
       total += counts[type];
     }
   }

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "trismooth/base/counted.h"
+
 namespace trismooth {
 
 namespace {
@@ -38,7 +40,7 @@ std::string describe(std::size_t count, std::size_t type) {
   if (known == cell_names.end()) {
     return std::to_string(count) + " of VTK's cell type " + std::to_string(type);
   }
-  return std::to_string(count) + " " + std::string(count == 1 ? known->one : known->several);
+  return counted(count, known->one, known->several);
 }
 
 }  // namespace

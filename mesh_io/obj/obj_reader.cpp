@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/obj/obj_plain_reader.h"
@@ -75,8 +76,8 @@ class ObjReader {
     }
     if (count != 3 && count != 4 && count != 6 && count != 7) {
       scanner_.fail("vertex " + std::to_string(vertex + 1) +
-                    ": expected 3 coordinates (and a weight, a colour or both), got " + std::to_string(count) +
-                    (count == 1 ? " number" : " numbers"));
+                    ": expected 3 coordinates (and a weight, a colour or both), got " +
+                    counted(count, "number", "numbers"));
     }
     if (count > 3) {
       statements_.add_colours_or_weights();

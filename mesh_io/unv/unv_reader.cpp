@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -370,7 +371,7 @@ class UnvReader {
           break;
         }
         names.append(names.empty() ? "" : ", ")
-            .append(std::to_string(descriptor) + " with " + std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"));
+            .append(std::to_string(descriptor) + " with " + counted(nodes, "node", "nodes"));
       }
       document_.notes.push_back("Elements of descriptors that are not known hold their nodes: " + names + ".");
     }

@@ -25,6 +25,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
@@ -387,8 +388,8 @@ std::vector<std::string> lost_in_poly_data(const MeshDocument& document) {
   }
   std::vector<std::string> sentences = lost_descriptions(document);
   for (const auto& [type, count] : dropped) {
-    sentences.push_back("VTP holds no cells of type " + std::to_string(type) + ": " + std::to_string(count) +
-                        (count == 1 ? " cell is" : " cells are") + " not written");
+    sentences.push_back("VTP holds no cells of type " + std::to_string(type) + ": " +
+                        counted(count, "cell is", "cells are") + " not written");
   }
   if (!std::ranges::is_sorted(joined(group_cells(document.cells)))) {
     sentences.emplace_back("VTP holds vertices, lines, polygons and strips apart: the order of the cells changes");

@@ -18,6 +18,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/bytes/exact_integers.h"
 #include "trismooth/mesh_io/document/array_limits.h"
 #include "trismooth/mesh_io/errors.h"
@@ -182,8 +183,7 @@ MemoryBlock Reader::as_float64(ScalarType type, const MemoryBlock& numbers, std:
 /// Pieces that do not share their points are apart from each other.
 void Reader::note_cuts(vtkPoints& points) {
   if (const std::size_t shared = pieces_.size() > 1 ? count_shared_places(pieces_, points) : 0; shared > 0) {
-    file_.notes.push_back("the pieces have points of their own in " + std::to_string(shared) +
-                          (shared == 1 ? " place" : " places") +
+    file_.notes.push_back("the pieces have points of their own in " + counted(shared, "place", "places") +
                           " where they meet: the cuts between them are boundaries, whose vertices are held");
   }
 }

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/quality/report_text.h"
 
 namespace trismooth::experiments {
 
 std::string runs_text(int runs) {
-  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
+  return counted(runs, "run", "runs");
 }
 
 std::string sweeps_text(const Spread& sweeps) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/counted.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 
@@ -98,9 +99,9 @@ void take_out_copies(PlanarMesh& mesh, Workers& workers) {
   }
   const auto [triangle, first] = repeated.front();
   mesh.notes.push_back(fmt::format(
-      "{} triangle{} listed again (the first is cell {}, which has the corners of cell {}): {} and smoothed once, as "
+      "{} listed again (the first is cell {}, which has the corners of cell {}): {} and smoothed once, as "
       "it is listed first; the file keeps all",
-      repeated.size(), repeated.size() == 1 ? " is" : "s are", mesh.cells[static_cast<std::size_t>(triangle)],
+      counted(repeated.size(), "triangle is", "triangles are"), mesh.cells[static_cast<std::size_t>(triangle)],
       mesh.cells[static_cast<std::size_t>(first)], repeated.size() == 1 ? "it is counted" : "each is counted"));
   if (others > 0) {
     mesh.notes.push_back(

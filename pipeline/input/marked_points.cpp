@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/base/splitmix64.h"
 #include "trismooth/mesh_io/document/region_names.h"
 
@@ -117,11 +118,6 @@ void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> gr
   }
 }
 
-/// "1 vertex", "2 vertices"
-std::string counted_vertices(std::int64_t count) {
-  return std::to_string(count) + (count == 1 ? " vertex" : " vertices");
-}
-
 }  // namespace
 
 bool may_be_markers(std::string_view name, ScalarType type, std::uint64_t components) {
@@ -178,13 +174,13 @@ std::vector<std::string> notes_of_marked_points(const std::string& array, const 
   std::vector<std::string> notes;
   if (const auto count = std::ssize(points.vertices); count > 0) {
     const std::string them = count == 1 ? "it" : "them";
-    notes.push_back(counted_vertices(count) + " inside, which '" + array + "' marks otherwise than what surrounds " +
-                    them + ": held fixed; " + words.free + " frees " + them);
+    notes.push_back(counted(count, "vertex", "vertices") + " inside, which '" + array +
+                    "' marks otherwise than what surrounds " + them + ": held fixed; " + words.free + " frees " + them);
   }
   if (points.others > 0) {
-    notes.push_back(
-        counted_vertices(points.others) + " inside " + (points.others == 1 ? "has" : "have") + " values of '" + array +
-        "' that are no marks, being too many or of whole areas: held by nothing; " + words.hold + " holds vertices");
+    notes.push_back(counted(points.others, "vertex inside has", "vertices inside have") + " values of '" + array +
+                    "' that are no marks, being too many or of whole areas: held by nothing; " + words.hold +
+                    " holds vertices");
   }
   return notes;
 }

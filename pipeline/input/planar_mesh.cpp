@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/document/collapsed_quads.h"
@@ -35,14 +36,6 @@ bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {
 
 bool repeats_a_vertex(std::span<const std::int32_t> triangle) {
   return triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
-}
-
-std::string counted(std::int64_t count, const std::string& one, const std::string& several) {
-  return std::to_string(count) + " " + (count == 1 ? one : several);
-}
-
-std::string counted(std::int64_t count, const std::string& noun) {
-  return counted(count, noun, noun + "s");
 }
 
 /// Adds the triangles of a strip; false where it has none.
@@ -124,9 +117,8 @@ void sort_cells(const MeshDocument& document, PlanarMesh& mesh, Workers& workers
   mesh.triangles = mesh.triangles_of_cells;
   mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating_triangles, first_repeating);
   if (quads > 0) {
-    mesh.notes.push_back(counted(quads, "quadrilateral") +
-                         (quads == 1 ? " repeats a corner: it is smoothed as the triangle that it is"
-                                     : " repeat a corner: they are smoothed as the triangles that they are"));
+    mesh.notes.push_back(counted(quads, "quadrilateral repeats a corner: it is smoothed as the triangle that it is",
+                                 "quadrilaterals repeat a corner: they are smoothed as the triangles that they are"));
   }
   if (mesh.high_order_triangles > 0) {
     mesh.notes.push_back(
@@ -145,7 +137,7 @@ void hold_named_sides(const MeshDocument& document, PlanarMesh& mesh) {
   }
   if (sides.count() > 0) {
     mesh.notes.push_back("named boundaries on sides of triangles (" + sides.names + "; " +
-                         counted(sides.count(), "side") +
+                         counted(sides.count(), "side", "sides") +
                          "): their vertices are held, or slide along them with --slide");
   }
 }
@@ -215,7 +207,7 @@ std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> ve
 void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path,
                        std::int64_t high_order) {
   if (triangles == 0 && cells > 0) {
-    throw ReadError(path, "holds " + counted(cells, "cell") + " but no triangle" +
+    throw ReadError(path, "holds " + counted(cells, "cell", "cells") + " but no triangle" +
                               (high_order > 0 ? " of three or six nodes; " + counted(high_order, "has", "have") +
                                                     " seven, ten or more (cubic triangles and the like), which are not "
                                                     "smoothed: save the mesh with elements of order 1 or 2"
@@ -265,12 +257,12 @@ std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int
   std::vector<std::string> notes;
   if (repeating_triangles > 0) {
     notes.push_back(
-        counted(repeating_triangles, "triangle") + " repeating a vertex" +
+        counted(repeating_triangles, "triangle", "triangles") + " repeating a vertex" +
         (first_repeating ? " (the first is cell " + std::to_string(*first_repeating) + ")" : std::string()) +
         ": kept as they are, their vertices held fixed");
   }
   if (other_cells > repeating_triangles) {
-    notes.push_back(counted(other_cells - repeating_triangles, "cell") +
+    notes.push_back(counted(other_cells - repeating_triangles, "cell", "cells") +
                     " of other types than triangle: kept as they are, their vertices held fixed");
   }
   return notes;

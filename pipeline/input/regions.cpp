@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
@@ -178,9 +179,9 @@ class RegionFinder {
   Regions take() {
     if (const auto several = std::ranges::count(has_several_, 1); several > 0) {
       regions_.notes.push_back(
-          fmt::format("{} triangle{} listed in several regions: what these share is a region of its own, whose border "
+          fmt::format("{} listed in several regions: what these share is a region of its own, whose border "
                       "is held; --region-array none switches regions off",
-                      several, several == 1 ? " is" : "s are"));
+                      counted(several, "triangle is", "triangles are")));
     }
     std::unordered_map<std::string, int> uses;
     for (const std::int32_t triangle : numbers_.example) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/errors.h"
@@ -37,8 +38,8 @@ std::string text_of_array(const PieceArray& array) {
     return "coordinates of type " + std::string(to_string(array.type));
   }
   return std::string("the ") + (array.of == PieceArray::Of::points ? "point" : "cell") + " array '" + array.name +
-         "' of type " + std::string(to_string(array.type)) + " and " + std::to_string(array.components) +
-         (array.components == 1 ? " component" : " components");
+         "' of type " + std::string(to_string(array.type)) + " and " +
+         counted(array.components, "component", "components");
 }
 
 /// As bytes for other ranks, names ending in zeros.

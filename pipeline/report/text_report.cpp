@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/labelled_line.h"
@@ -16,10 +17,6 @@
 namespace trismooth {
 
 namespace {
-
-std::string counted(std::int64_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 std::string input_lines(const InputSummary& input, TextDetail detail) {
   std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/fields/field_choice.h"
@@ -112,10 +113,10 @@ void report_transferred(RunState& run, const TransferredField& field, std::int64
   run.result.fields.push_back({field.array.name, found - kept});
   if (kept > 0) {
     run.note(
-        fmt::format("{} that moved {} as read in '{}': at {} there is no value ({}), with which none is interpolated; "
+        fmt::format("{} as read in '{}': at {} there is no value ({}), with which none is interpolated; "
                     "fill them in first, or keep all values as read with --fields keep",
-                    kept == 1 ? "1 vertex" : fmt::format("{} vertices", kept), kept == 1 ? "stays" : "stay",
-                    field.array.name, kept == 1 ? "a corner of its place" : "corners of their places", field.missing));
+                    counted(kept, "vertex that moved stays", "vertices that moved stay"), field.array.name,
+                    kept == 1 ? "a corner of its place" : "corners of their places", field.missing));
   }
 }
 

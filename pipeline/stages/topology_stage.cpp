@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/geographic/map_mesh.h"
@@ -123,7 +124,7 @@ void merge_near_corners(RunState& run) {
   }
   const std::int64_t merged = merge_corners(run.mesh, *options.merge);
   run.result.input.merged_vertices = merged;
-  run.note(std::to_string(merged) + (merged == 1 ? " vertex goes" : " vertices go") +
+  run.note(counted(merged, "vertex goes", "vertices go") +
            " with another one within the distance of --merge; the file keeps all of them");
 }
 
@@ -245,7 +246,7 @@ void connect_mesh(RunState& run) {
   settle_sliding(run);
   const SlideLines lines = slide_lines_of(run);
   if (lines.cells > 0) {
-    run.note(std::to_string(lines.cells) + " of these cells " + (lines.cells == 1 ? "is a line" : "are lines") +
+    run.note(counted(lines.cells, "of these cells is a line", "of these cells are lines") +
              ": their vertices slide where nothing else holds them");
   }
   run.found = rings_of(run, {.fixed = fixed,
@@ -287,7 +288,7 @@ std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts)
   std::vector<std::string> notes;
   const auto note = [&](std::int64_t count, const std::string& where) {
     if (count > 0) {
-      notes.push_back(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + where + ": held fixed");
+      notes.push_back(counted(count, "vertex ", "vertices ") + where + ": held fixed");
     }
   };
   note(non_manifold, "on edges of three triangles or more");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/quality/coarse_boundary.h"
 #include "trismooth/quality/precision_loss.h"
@@ -100,9 +101,9 @@ std::string note_of_layers(const LayersResult& layers) {
   const std::int64_t held = layers.kept + layers.kept_on_lines;
   return held == 0 ? std::string()
                    : fmt::format(
-                         "{} {} of layers that are flat on purpose (aspect {:.3g} at most) and {} held{}; "
+                         "{} of layers that are flat on purpose (aspect {:.3g} at most) and {} held{}; "
                          "--layers smooth moves {}",
-                         held, held == 1 ? "vertex is" : "vertices are", layers.kept_aspect, held == 1 ? "is" : "are",
+                         counted(held, "vertex is", "vertices are"), layers.kept_aspect, held == 1 ? "is" : "are",
                          layers.kept_on_lines > 0 ? fmt::format(", {} of which would slide", layers.kept_on_lines) : "",
                          held == 1 ? "it" : "them");
 }
@@ -111,10 +112,10 @@ std::string warning_of_layers(const LayersResult& layers) {
   return layers.left == 0
              ? std::string()
              : fmt::format(
-                   "{} {} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
+                   "{} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
                    "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
                    "--target input-shape keeps the shapes",
-                   layers.left, layers.left == 1 ? "vertex is" : "vertices are", layers.left_aspect,
+                   counted(layers.left, "vertex is", "vertices are"), layers.left_aspect,
                    layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
 }
 
@@ -122,10 +123,11 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
   if (result.after && result.after->inverted > 0) {
     const bool is_untangled = result.smoothing && result.smoothing->untangling;
-    warnings.push_back(fmt::format("{} inverted triangle{} ({} before){}", result.after->inverted,
-                                   result.after->inverted == 1 ? " remains" : "s remain", result.before.inverted,
-                                   is_untangled ? "; what held vertices fold nothing mends: let some of them go"
-                                                : "; --untangle on mends what can be mended"));
+    warnings.push_back(fmt::format(
+        "{} ({} before){}", counted(result.after->inverted, "inverted triangle remains", "inverted triangles remain"),
+        result.before.inverted,
+        is_untangled ? "; what held vertices fold nothing mends: let some of them go"
+                     : "; --untangle on mends what can be mended"));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;
