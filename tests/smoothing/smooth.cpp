@@ -329,7 +329,7 @@ TEST_CASE("vertices that the caller fixes do not move, and the others move as if
   });
 }
 
-TEST_CASE("triangles that are listed again free no vertex and are not inverted, whichever they are and however listed") {
+TEST_CASE("triangles that are listed again free no vertex and are not inverted, however they are listed") {
   const Mesh mesh = test_meshes::jittered_grid(6, 5, 0.2, 7);
   const auto is_inside = [](std::int32_t v) { return v % 6 > 0 && v % 6 < 5 && v / 6 > 0 && v / 6 < 4; };
   test_meshes::Random random(11);
