@@ -43,7 +43,7 @@ void require_one_height(const HeightExtents& extents) {
     throw MeshError(
         "points: z runs from " + shortest_text(low[2]) + " to " + shortest_text(high[2]) +
         ", and must be the same everywhere to within 1e-6 of the mesh's extent; a mesh in a tilted plane is "
-        "for smooth() of mesh_io");
+        "smoothed as a file, or by its coordinates in that plane");
   }
 }
 

@@ -180,6 +180,14 @@ def test_a_plan_needs_a_number_of_points(count):
         trismooth.Plan(TRIANGLES, count)
 
 
+def test_what_is_no_mesh_is_told_in_words_of_the_user(tmp_path):
+    for name in ("plate.msh", tmp_path / "plate.msh"):
+        with pytest.raises(TypeError, match=r"is the name of a file; trismooth\.read\(\) reads"):
+            trismooth.smooth(name)
+    with pytest.raises(TypeError, match=r"^points: dict is no mesh that trismooth knows"):
+        trismooth.smooth({})
+
+
 def test_a_plan_refuses_points_of_another_mesh():
     plan = trismooth.Plan(TRIANGLES, len(POINTS))
     with pytest.raises(ValueError, match="^points"):

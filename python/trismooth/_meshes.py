@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
@@ -16,11 +17,12 @@ def _adapter_of(mesh: Any) -> Any:
     adapter = adapters.find(mesh)
     if adapter is None and (isinstance(mesh, (list, tuple)) or hasattr(mesh, "__array__") or hasattr(mesh, "__dlpack__")):
         raise TypeError("triangles: are needed beside an array of points")
+    if isinstance(mesh, (str, os.PathLike)):
+        raise TypeError(f"points: {mesh!r} is the name of a file; trismooth.read() reads the mesh in it")
     if adapter is None:
-        raise TypeError(
-            f"points: {type(mesh).__module__}.{type(mesh).__qualname__} is no mesh that trismooth knows; "
-            "give points and triangles"
-        )
+        module = type(mesh).__module__
+        kind = type(mesh).__qualname__ if module == "builtins" else f"{module}.{type(mesh).__qualname__}"
+        raise TypeError(f"points: {kind} is no mesh that trismooth knows; give points and triangles")
     return adapter
 
 

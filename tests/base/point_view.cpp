@@ -412,7 +412,7 @@ TEST_CASE("a third number is a height: the same everywhere, to 1e-6 of the exten
         smooth(points, mesh.indices());
       }) ==
       "mesh: points: z runs from 5 to 7.5, and must be the same everywhere to within 1e-6 of the mesh's extent; a mesh "
-      "in a tilted plane is for smooth() of mesh_io");
+      "in a tilted plane is smoothed as a file, or by its coordinates in that plane");
   auto unknown = lifted(std::numeric_limits<double>::quiet_NaN(), 1);
   CHECK(refusal([&] { smooth(unknown, mesh.indices()); }) == "mesh: vertex 11 has a coordinate that is not finite");
 
