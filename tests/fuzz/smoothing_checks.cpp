@@ -153,6 +153,12 @@ NaiveTopology naive_topology(std::span<const Point2<double>> points, std::span<c
       topology.used[static_cast<std::size_t>(triangles[t][i])] = 1;
     }
   }
+  for (auto& [ends, sides] : edges) {
+    // Two triangles of the same corners are not beside each other.
+    if (sides.size() == 2 && std::ranges::is_permutation(triangles[sides[0]], triangles[sides[1]])) {
+      sides.clear();
+    }
+  }
   for (const auto& [ends, sides] : edges) {
     const bool between_regions = !constraints.regions.empty() && sides.size() == 2 &&
                                  constraints.regions[sides[0]] != constraints.regions[sides[1]];
