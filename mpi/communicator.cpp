@@ -79,7 +79,7 @@ int say_failure(int rank) {
   try {
     const Failure failure = failure_of(std::current_exception(), {});
     std::cerr << "trismooth: rank " << rank << ": "
-              << (failure.kind == Failure::of_memory ? "out of memory" : failure.message.c_str()) << std::endl;
+              << (failure.kind == Failure::of_memory ? "out of memory" : failure.message.c_str()) << '\n';
   } catch (...) {
     std::fputs("trismooth: a rank has failed, and has no memory left to say why\n", stderr);
   }

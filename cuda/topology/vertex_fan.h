@@ -114,7 +114,7 @@ struct FanLinks {
     // come back to any corner but the first.
     for (int start = 1; start >= 0; --start) {
       for (int record = start; partners[record] >= 0;) {
-        record = partners[record];
+        record = static_cast<int>(partners[record]);
         if (record / 2 == 0) {
           return reached == degree;
         }
