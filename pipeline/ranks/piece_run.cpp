@@ -275,11 +275,11 @@ class PieceRun {
     ranks_->sum(reasons);
     input.vertices = ranks_->sum(vertices);
     input.fixed_array = constraints_.fixed_array;
-    input.fixed_array_vertices = count_own(topology_->of_vertices<std::uint8_t>(constraints_.by_array));
+    input.fixed_array_vertices = topology_->count_vertices(constraints_.by_array);
     input.fixed_ids = options_.fixed_ids.value_or(std::filesystem::path{});
     input.fixed_ids_vertices = constraints_.listed;
     for (const LabelledVertices& set : constraints_.sets) {
-      input.point_sets.push_back({set.name, count_own(topology_->of_vertices<std::uint8_t>(set.flags)), false, true});
+      input.point_sets.push_back({set.name, topology_->count_vertices(set.flags), false, true});
     }
     input.free_vertices = reasons[0];
     input.fixed_vertices = input.vertices - input.free_vertices;
@@ -307,15 +307,6 @@ class PieceRun {
     if (options_.fixed_ids && constraints_.listed == 0) {
       say_warning(options_.fixed_ids->string() + ": names no vertices, so it holds none");
     }
-  }
-
-  /// How many vertices of the whole mesh have the flag, of those of the overlap. Collective.
-  std::int64_t count_own(std::span<const std::uint8_t> flags) const {
-    std::int64_t count = 0;
-    for (std::int32_t v = 0; v < topology_->overlap().vertex_count(); ++v) {
-      count += topology_->overlap().is_own(v) && flags[static_cast<std::size_t>(v)] != 0 ? 1 : 0;
-    }
-    return ranks_->sum(count);
   }
 
   /// Whether triangles are listed again, which are not taken out in pieces.

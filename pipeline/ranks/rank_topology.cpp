@@ -87,6 +87,15 @@ std::vector<std::uint8_t> RankTopology::held(std::span<const std::int32_t> regio
   return held;
 }
 
+std::int64_t RankTopology::count_vertices(std::span<const std::uint8_t> flags) const {
+  const std::vector<std::uint8_t> all = of_vertices<std::uint8_t>(flags);
+  std::int64_t count = 0;
+  for (std::int32_t v = 0; v < overlap_.vertex_count(); ++v) {
+    count += overlap_.is_own(v) && all[static_cast<std::size_t>(v)] != 0 ? 1 : 0;
+  }
+  return ranks_->sum(count);
+}
+
 LocalFrame RankTopology::frame_of(std::span<const Point2<double>> points, std::span<const std::uint8_t> held) const {
   return mpi::shared_frame(points, held, *ranks_);
 }

@@ -49,6 +49,9 @@ class RankTopology {
     return all;
   }
 
+  /// How many vertices of the whole mesh have a flag that is not zero. `flags`: one a vertex of the rank's mesh.
+  std::int64_t count_vertices(std::span<const std::uint8_t> flags) const;
+
   /// Triangles of the whole mesh.
   std::int64_t triangle_count() const { return triangle_count_; }
   /// Triangles of the rank's mesh that are no copies. Not collective, like the following two.
