@@ -36,16 +36,26 @@ void* memory_of_system(std::size_t bytes) {
   }
   ::munmap(begin + before + mapped, large_page - before);
   std::byte* const memory = begin + before;
-#ifdef MADV_HUGEPAGE
-  // A system that has no large pages says so, and gives its usual ones. Whole pages alone: the rest is never used.
-  static_cast<void>(::madvise(memory, bytes / large_page * large_page, MADV_HUGEPAGE));
-#endif
+  prefer_large_pages(memory, bytes);
   return memory;
 }
 
 #endif
 
 }  // namespace
+
+void prefer_large_pages([[maybe_unused]] void* first, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  // Whole pages alone: what is before and behind them is no larger than one.
+  const auto begin = reinterpret_cast<std::uintptr_t>(first);
+  const std::uintptr_t aligned = (begin + large_page - 1) / large_page * large_page;
+  if (aligned + large_page <= begin + bytes) {
+    // A system that has no large pages says so, and gives its usual ones.
+    static_cast<void>(::madvise(reinterpret_cast<void*>(aligned), (begin + bytes - aligned) / large_page * large_page,
+                                MADV_HUGEPAGE));
+  }
+#endif
+}
 
 void* bulk_memory(std::size_t bytes) {
   if (bytes < many_bytes) {

@@ -16,6 +16,10 @@ void* bulk_memory(std::size_t bytes);
 /// Releases what bulk_memory() gave for so many bytes.
 void release_bulk_memory(void* memory, std::size_t bytes) noexcept;
 
+/// Asks the system for large pages for memory that somebody else has reserved and not written to yet: `bytes` bytes
+/// from `first` on. Nothing but speed depends on it.
+void prefer_large_pages(void* first, std::size_t bytes) noexcept;
+
 /// Gives containers bulk_memory(), and leaves elements that are made without a value as the memory is.
 template <class T>
 struct BulkAllocator {

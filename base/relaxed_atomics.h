@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <type_traits>
 
 #include "trismooth/base/host_device.h"
 
@@ -38,8 +39,9 @@ inline TRISMOOTH_HOST_DEVICE std::uint32_t exchange_if_equal(std::uint32_t* word
 }
 
 /// Sets bits that others may set too. On the host. Looks first: most are set already.
-inline void set_bits_relaxed(std::uint8_t& byte, std::uint8_t bits) {
-  const std::atomic_ref shared(byte);
+template <class Word>
+void set_bits_relaxed(Word& word, std::type_identity_t<Word> bits) {
+  const std::atomic_ref shared(word);
   if ((shared.load(std::memory_order_relaxed) & bits) != bits) {
     shared.fetch_or(bits, std::memory_order_relaxed);
   }

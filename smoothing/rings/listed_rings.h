@@ -28,4 +28,10 @@ struct ListedRings {
 std::optional<ListedRings> find_listed_rings(std::int32_t vertex_count, std::span<const Triangle> triangles,
                                              Workers& workers);
 
+/// What connect_triangles() finds, in every number, of such meshes: the triangles around a vertex know their neighbours
+/// there. None where find_listed_rings() gives none. Complexity: linear; takes 48 bytes a triangle on the way, of large
+/// meshes a quarter of that.
+std::optional<TriangleTopology> find_listed_topology(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                                                     Workers& workers);
+
 }  // namespace trismooth

@@ -50,8 +50,8 @@ class LinkBegins {
 };
 
 /// walk_link() of no more than `Size` edges.
-template <std::size_t Size>
-Fan walk_link_of(std::span<const LinkEdge> link, std::int32_t* ring) {
+template <std::size_t Size, class Meet>
+Fan walk_link_of(std::span<const LinkEdge> link, const Meet& meet) {
   const LinkBegins<Size> begins(link);
   const auto size = static_cast<std::int32_t>(link.size());
   std::int32_t met = 0;
@@ -60,16 +60,19 @@ Fan walk_link_of(std::span<const LinkEdge> link, std::int32_t* ring) {
   const auto walk_from = [&](std::int32_t begin) {
     met = 0;
     vertex = begin;
-    for (auto edges = begins.at(vertex); std::has_single_bit(edges); edges = begins.at(vertex)) {
-      ring[met++] = vertex;
-      vertex = link[static_cast<std::size_t>(std::countr_zero(edges))].to;
+    // (std::has_single_bit() counts all bits, by a call where the processor may have no instruction for it.)
+    for (auto edges = begins.at(vertex); edges != 0 && (edges & (edges - 1)) == 0; edges = begins.at(vertex)) {
+      const std::int32_t edge = std::countr_zero(edges);
+      meet(met++, vertex, edge);
+      vertex = link[static_cast<std::size_t>(edge)].to;
       if (vertex == begin || met == size) {
         return;
       }
     }
   };
-  walk_from(std::ranges::min(link, {}, &LinkEdge::from).from);
-  if (met == size && vertex == ring[0]) {
+  const std::int32_t smallest = std::ranges::min(link, {}, &LinkEdge::from).from;
+  walk_from(smallest);
+  if (met == size && vertex == smallest) {
     return size > 2 ? Fan::closed : Fan::other;
   }
   // An open fan begins at the one vertex to which no edge runs. (Two such make two walks, neither over all edges.)
@@ -82,12 +85,15 @@ Fan walk_link_of(std::span<const LinkEdge> link, std::int32_t* ring) {
   return met == size && begins.at(vertex) == 0 ? Fan::open : Fan::other;
 }
 
-/// Walks along the link of a vertex (one edge at least, no more than most_link_edges). Where it is closed, writes its
-/// vertices to `ring`, one for each edge, from the smallest on. Elsewhere `ring` is left with anything.
-inline Fan walk_link(std::span<const LinkEdge> link, std::int32_t* ring) {
-  return link.size() <= 8    ? walk_link_of<8>(link, ring)
-         : link.size() <= 16 ? walk_link_of<16>(link, ring)
-                             : walk_link_of<most_link_edges>(link, ring);
+/// Walks along the link of a vertex (one edge at least, no more than most_link_edges) and calls meet(i, vertex, edge)
+/// for what it meets at place i: a vertex, and the number of the link's edge that begins there. Where the link is
+/// closed, these are all of its vertices, from the smallest on; where it is open, the beginnings of all of its edges,
+/// from one end to the other. Elsewhere they mean nothing. Places may be met twice: the last time counts.
+template <class Meet>
+Fan walk_link(std::span<const LinkEdge> link, const Meet& meet) {
+  return link.size() <= 8    ? walk_link_of<8>(link, meet)
+         : link.size() <= 16 ? walk_link_of<16>(link, meet)
+                             : walk_link_of<most_link_edges>(link, meet);
 }
 
 }  // namespace trismooth

@@ -56,8 +56,7 @@ Mesh many_pieces(int count) {
 }
 
 Fan fan_of(const std::vector<LinkEdge>& link) {
-  std::array<std::int32_t, 64> ring{};
-  return trismooth::walk_link(link, ring.data());
+  return trismooth::walk_link(link, [](int /*place*/, std::int32_t /*vertex*/, std::int32_t /*edge*/) {});
 }
 
 }  // namespace
@@ -65,8 +64,13 @@ Fan fan_of(const std::vector<LinkEdge>& link) {
 TEST_CASE("a closed link is walked from its smallest vertex, in the direction of its edges") {
   std::array<std::int32_t, 4> ring{};
   const std::vector<LinkEdge> link{{7, 3}, {9, 5}, {3, 9}, {5, 7}};
-  REQUIRE(trismooth::walk_link(link, ring.data()) == Fan::closed);
+  std::array<std::int32_t, 4> edges{};
+  REQUIRE(trismooth::walk_link(link, [&](int place, std::int32_t vertex, std::int32_t edge) {
+            ring[static_cast<std::size_t>(place)] = vertex;
+            edges[static_cast<std::size_t>(place)] = edge;
+          }) == Fan::closed);
   CHECK(ring == std::array<std::int32_t, 4>{3, 9, 5, 7});
+  CHECK(edges == std::array<std::int32_t, 4>{2, 1, 3, 0});
 }
 
 TEST_CASE("links that are one path, and links that are neither a circle nor a path, are told apart") {

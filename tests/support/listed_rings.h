@@ -32,7 +32,8 @@ inline bool same(const trismooth::OneRings& a, const trismooth::OneRings& b) {
   return a.offsets == b.offsets && a.neighbours == b.neighbours;
 }
 
-/// Requires that the rings of a mesh, or that it has none to be told, are those of its matched sides. Whether it has.
+/// Requires that the rings and the sides of a mesh, as they are listed, or that they cannot be told so, are those of
+/// its matched sides. Whether they can.
 inline bool require_those_of_matched_sides(std::int32_t vertex_count, const std::vector<trismooth::Triangle>& triangles,
                                            int threads) {
   trismooth::Workers workers(threads);
@@ -46,6 +47,20 @@ inline bool require_those_of_matched_sides(std::int32_t vertex_count, const std:
     REQUIRE(listed->components.component == topology.component);
     REQUIRE(listed->components.parity == topology.parity);
     REQUIRE(same(listed->rings, trismooth::one_rings(topology, triangles, topology.parity, topology.hold, workers)));
+  }
+  const std::optional<trismooth::TriangleTopology> sides =
+      trismooth::find_listed_topology(vertex_count, triangles, workers);
+  REQUIRE(sides.has_value() == listed.has_value());
+  if (sides) {
+    REQUIRE(sides->vertex_count == topology.vertex_count);
+    REQUIRE(sides->twins == topology.twins);
+    REQUIRE(sides->corner == topology.corner);
+    REQUIRE(sides->degree == topology.degree);
+    REQUIRE(sides->hold == topology.hold);
+    REQUIRE(sides->alike);
+    REQUIRE(sides->components == topology.components);
+    REQUIRE(sides->component == topology.component);
+    REQUIRE(sides->parity == topology.parity);
   }
   return listed.has_value();
 }
