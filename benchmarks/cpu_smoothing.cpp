@@ -18,7 +18,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
-#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/rings/listed_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "run_reporting.h"
@@ -67,17 +67,16 @@ void bench_topology(const RandomMesh& mesh, int runs) {
     xyz.insert(xyz.end(), {p.x, p.y, 0.0});
   }
   Workers workers(1);
-  Series match("match sides of triangles");
+  Series match("connect triangles");
   Series fill("fill halfedge mesh");
   Series rings("one-rings from halfedges");
   for (int run = 0; run < runs; ++run) {
-    MatchedSides sides;
-    match.add(milliseconds([&] { sides = match_sides(n, mesh.triangles, workers); }));
-    const Orientation orientation = orient(sides, mesh.triangles, mesh.points);
-    HalfedgeMesh halfedges;
-    fill.add(milliseconds(
-        [&] { halfedges = build_halfedge_mesh(xyz, mesh.triangles, sides, orientation.reversed, workers); }));
-    rings.add(milliseconds([&] { one_rings(halfedges.mesh, halfedges.hold, {}, workers); }));
+    TriangleTopology topology;
+    match.add(milliseconds([&] { topology = *find_listed_topology(n, mesh.triangles, workers); }));
+    const Stopwatch watch;
+    const HalfedgeMesh halfedges = build_halfedge_mesh(xyz, mesh.triangles, topology, topology.parity, workers);
+    fill.add(watch.milliseconds());
+    rings.add(milliseconds([&] { one_rings(halfedges, topology.degree, topology.hold, {}, workers); }));
   }
   fmt::print(" topology, one thread\n");
   match.print();

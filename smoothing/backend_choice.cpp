@@ -22,6 +22,7 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
     try {
       if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
         Workers workers(options.threads);
+        found->found_by = Topology::device;
         found->slidable = find_slidable(triangles, found->fixed, constraints, workers);
         return *std::move(found);
       }

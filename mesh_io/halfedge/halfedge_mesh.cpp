@@ -1,14 +1,18 @@
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 
 #include <algorithm>
-#include <atomic>
+#include <bit>
 #include <limits>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
+#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/prefetch.h"
 #include "trismooth/base/prefix_sums.h"
+#include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
@@ -43,54 +47,68 @@ void for_each_of_fan(const TriangleMesh& mesh, HalfedgeHandle first, Visit visit
 
 class Builder {
  public:
-  Builder(std::span<const Triangle> triangles, const MatchedSides& sides, std::span<const std::uint8_t> reversed,
+  Builder(std::span<const Triangle> triangles, TriangleTopology& topology, std::span<const std::uint8_t> reversed,
           HalfedgeMesh& result, Workers& workers)
       : triangles_(triangles),
-        sides_(sides),
+        topology_(topology),
         reversed_(reversed),
         result_(result),
         mesh_(result.mesh),
         workers_(workers) {}
 
   void build(std::span<const double> xyz) {
-    check_halfedge_mesh_size(sides_.vertex_count, std::ssize(triangles_), count_unpaired());
-    number_edges();
-    mesh_.resize(static_cast<std::size_t>(sides_.vertex_count), edge_count_, triangles_.size());
+    const std::int64_t edges = number_edges();
+    // Each edge has two halfedges: those of its triangles, or of its only triangle and the outer one beside it.
+    check_halfedge_mesh_size(topology_.vertex_count, std::ssize(triangles_), 2 * edges - std::ssize(halfedges_));
+    make_room(static_cast<std::size_t>(edges));
     fill_faces();
     fill_vertices(xyz);
-    result_.hold = sides_.hold;
-    mark_fans(mesh_, result_.hold, workers_);
-    if (std::ranges::any_of(result_.hold, [](std::uint8_t reasons) { return (reasons & hold::bow_tie) != 0; })) {
+    if (std::ranges::any_of(topology_.hold, [](std::uint8_t reasons) { return (reasons & hold::bow_tie) != 0; })) {
       split_fans();
     }
     close_boundaries();
   }
 
  private:
-  std::int64_t count_unpaired() {
-    std::atomic<std::int64_t> unpaired{0};
-    workers_.for_blocks(std::ssize(sides_.twins), grain, [&](std::int64_t begin, std::int64_t end) {
-      unpaired.fetch_add(std::count_if(sides_.twins.begin() + begin, sides_.twins.begin() + end,
-                                       [](std::int32_t twin) { return twin < 0; }),
-                         std::memory_order_relaxed);
-    });
-    return unpaired;
+  /// Numbers the edges in the order in which triangles first meet them, and returns how many there are. The sides'
+  /// twins are not needed any more then, and go.
+  std::int64_t number_edges() {
+    const BulkVector<std::int32_t> twins = std::move(topology_.twins);
+    halfedges_.resize(twins.size());
+    return for_each_numbered(
+        std::ssize(halfedges_), [&](std::int64_t h) { return twins[h] < 0 || twins[h] > h; },
+        [&](std::int64_t number, std::int64_t h) {
+          const auto first = static_cast<std::int32_t>(2 * number);
+          if (twins[h] < 0) {
+            halfedges_[h] = beside_outer(first);
+          } else {
+            halfedges_[h] = first;
+            halfedges_[twins[h]] = first + 1;
+          }
+        },
+        workers_);
   }
 
-  /// Numbers the edges in the order in which triangles first meet them.
-  void number_edges() {
-    const auto is_first = [this](std::int64_t h) { return sides_.twins[h] < 0 || sides_.twins[h] > h; };
-    halfedges_.resize(sides_.twins.size());
-    edge_count_ = static_cast<std::size_t>(for_each_numbered(
-        std::ssize(halfedges_), is_first,
-        [&](std::int64_t number, std::int64_t h) { halfedges_[h] = static_cast<std::int32_t>(2 * number); }, workers_));
-    workers_.for_blocks(std::ssize(halfedges_), grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t h = begin; h < end; ++h) {
-        if (!is_first(h)) {
-          halfedges_[h] = halfedges_[sides_.twins[h]] + 1;
-        }
-      }
-    });
+  /// How halfedges_ says that the halfedge has an outer one beside it; and back.
+  static std::int32_t beside_outer(std::int32_t halfedge) { return ~halfedge; }
+  static bool is_beside_outer(std::int32_t halfedge) { return halfedge < 0; }
+  HalfedgeHandle inner(std::int64_t side) const {
+    const std::int32_t halfedge = halfedges_[side];
+    return HalfedgeHandle(is_beside_outer(halfedge) ? ~halfedge : halfedge);
+  }
+
+  /// The elements, in large pages where the system has them: what follows reads them here and there.
+  void make_room(std::size_t edges) {
+    const auto vertices = static_cast<std::size_t>(topology_.vertex_count);
+    if (vertices == 0 || edges == 0) {
+      mesh_.resize(vertices, edges, triangles_.size());
+      return;
+    }
+    mesh_.reserve(vertices, edges, triangles_.size());
+    mesh_.resize(1, 1, 1);
+    prefer_large_pages(&mesh_.edge(OpenMesh::EdgeHandle(0)), edges * sizeof(mesh_.edge(OpenMesh::EdgeHandle(0))));
+    prefer_large_pages(&mesh_.point(VertexHandle(0)), vertices * sizeof(TriangleMesh::Point));
+    mesh_.resize(vertices, edges, triangles_.size());
   }
 
   /// Every halfedge of the mesh is one triangle's: that of a side, or the outer one beside it.
@@ -106,29 +124,29 @@ class Builder {
     const bool reversed = reversed_[t] != 0;
     const FaceHandle face(t);
     for (std::int32_t i = 0; i < 3; ++i) {
-      const HalfedgeHandle inner(halfedges_[3 * t + i]);
+      const HalfedgeHandle side = inner(3 * std::int64_t{t} + i);
       const VertexHandle from(triangles_[t][reversed ? (i + 1) % 3 : i]);
       const VertexHandle to(triangles_[t][reversed ? i : (i + 1) % 3]);
-      mesh_.set_vertex_handle(inner, to);
-      mesh_.set_face_handle(inner, face);
-      mesh_.set_next_halfedge_handle(inner, HalfedgeHandle(halfedges_[3 * t + (i + (reversed ? 2 : 1)) % 3]));
-      if (sides_.twins[3 * t + i] < 0) {
-        const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
+      mesh_.set_vertex_handle(side, to);
+      mesh_.set_face_handle(side, face);
+      mesh_.set_next_halfedge_handle(side, inner(3 * std::int64_t{t} + (i + (reversed ? 2 : 1)) % 3));
+      if (is_beside_outer(halfedges_[3 * std::int64_t{t} + i])) {
+        const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(side);
         mesh_.set_vertex_handle(outer, from);
         mesh_.set_boundary(outer);
       }
     }
-    mesh_.set_halfedge_handle(face, HalfedgeHandle(halfedges_[3 * static_cast<std::size_t>(t)]));
+    mesh_.set_halfedge_handle(face, inner(3 * std::int64_t{t}));
   }
 
   /// A vertex begins with the halfedge that leaves it in its lowest triangle.
   void fill_vertices(std::span<const double> xyz) {
-    workers_.for_blocks(sides_.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(topology_.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         const VertexHandle vertex(v);
         const double* const point = xyz.data() + 3 * static_cast<std::size_t>(v);
         mesh_.set_point(vertex, {point[0], point[1], point[2]});
-        if (const std::int32_t corner = sides_.corner[v]; corner >= 0) {
+        if (const std::int32_t corner = topology_.corner[v]; corner >= 0) {
           mesh_.set_halfedge_handle(vertex, leaving(corner));
         }
       }
@@ -138,7 +156,7 @@ class Builder {
   /// The halfedge that leaves the vertex of a triangle's corner within the triangle.
   HalfedgeHandle leaving(std::int32_t corner) const {
     const std::int32_t t = corner / 3;
-    return HalfedgeHandle(halfedges_[reversed_[t] != 0 ? 3 * t + (corner + 2) % 3 : corner]);
+    return inner(reversed_[t] != 0 ? 3 * std::int64_t{t} + (corner + 2) % 3 : corner);
   }
 
   /// Gives every fan of a vertex but the first a vertex of its own.
@@ -149,7 +167,7 @@ class Builder {
       const std::int32_t t = corner / 3;
       const std::int32_t v = triangles_[t][corner % 3];
       const HalfedgeHandle first = leaving(corner);
-      if ((result_.hold[v] & hold::bow_tie) == 0 || done.contains(first.idx())) {
+      if ((topology_.hold[v] & hold::bow_tie) == 0 || done.contains(first.idx())) {
         continue;
       }
       const VertexHandle vertex = begun.insert(v).second ? VertexHandle(v) : copy_of(v);
@@ -176,10 +194,9 @@ class Builder {
     // An outer halfedge is the one that leaves its vertex, and the one before its next.
     workers_.for_blocks(std::ssize(halfedges_), grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t h = begin; h < end; ++h) {
-        if (sides_.twins[h] < 0) {
-          const HalfedgeHandle inner(halfedges_[h]);
-          const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner);
-          HalfedgeHandle leaving = inner;
+        if (is_beside_outer(halfedges_[h])) {
+          const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner(h));
+          HalfedgeHandle leaving = inner(h);
           while (!mesh_.is_boundary(leaving)) {
             leaving = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(leaving));
           }
@@ -191,13 +208,12 @@ class Builder {
   }
 
   std::span<const Triangle> triangles_;
-  const MatchedSides& sides_;
+  TriangleTopology& topology_;
   std::span<const std::uint8_t> reversed_;
   HalfedgeMesh& result_;
   TriangleMesh& mesh_;
   Workers& workers_;
-  BulkVector<std::int32_t> halfedges_;  ///< the mesh's halfedge of each triangle halfedge
-  std::size_t edge_count_ = 0;
+  BulkVector<std::int32_t> halfedges_;  ///< the mesh's halfedge of each side of a triangle: see beside_outer()
 };
 
 }  // namespace
@@ -217,94 +233,57 @@ void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std
 }
 
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
-                                 const MatchedSides& sides, std::span<const std::uint8_t> reversed, Workers& workers) {
+                                 TriangleTopology& topology, std::span<const std::uint8_t> reversed, Workers& workers) {
   HalfedgeMesh result;
-  Builder(triangles, sides, reversed, result, workers).build(xyz);
+  Builder(triangles, topology, reversed, result, workers).build(xyz);
   return result;
 }
 
-void mark_fans(const TriangleMesh& mesh, std::span<std::uint8_t> hold, Workers& workers) {
-  workers.for_blocks(std::ssize(hold), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto v = static_cast<int>(begin); v < end; ++v) {
-      hold[static_cast<std::size_t>(v)] |= mesh.is_isolated(VertexHandle(v)) ? hold::isolated : std::uint8_t{0};
-    }
-  });
-  std::atomic<std::int64_t> in_fans{0};
-  // In the order of the halfedges, as in one_rings().
-  const auto for_first_fans = [&](const auto& visit) {
-    workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
-      std::int64_t corners = 0;
-      for (auto h = static_cast<int>(begin); h < end; ++h) {
-        const VertexHandle v = mesh.from_vertex_handle(HalfedgeHandle(h));
-        if (mesh.halfedge_handle(v).idx() == h) {
-          const HalfedgeHandle first = mesh.is_boundary(HalfedgeHandle(h))
-                                           ? mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(HalfedgeHandle(h)))
-                                           : HalfedgeHandle(h);
-          std::int32_t size = 0;
-          for_each_of_fan(mesh, first, [&](HalfedgeHandle) { ++size; });
-          corners += size;
-          visit(static_cast<std::size_t>(v.idx()), size);
-        }
-      }
-      in_fans.fetch_add(corners, std::memory_order_relaxed);
-    });
-  };
-  for_first_fans([](std::size_t /*v*/, std::int32_t /*size*/) {});
-  if (in_fans == 3 * static_cast<std::int64_t>(mesh.n_faces())) {
-    return;
-  }
-  // There are corners outside of the first fans of their vertices.
-  std::vector<std::int32_t> faces(hold.size(), 0);
-  workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto h = static_cast<int>(begin); h < end; ++h) {
-      if (!mesh.is_boundary(HalfedgeHandle(h))) {
-        std::atomic_ref(faces[static_cast<std::size_t>(mesh.from_vertex_handle(HalfedgeHandle(h)).idx())])
-            .fetch_add(1, std::memory_order_relaxed);
-      }
-    }
-  });
-  for_first_fans([&](std::size_t v, std::int32_t size) {
-    if (size != faces[v]) {
-      hold[v] |= hold::bow_tie;
-    }
-  });
-}
-
-OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
-                   std::span<const std::uint8_t> reversed, Workers& workers, std::span<const std::int32_t> copies_of) {
-  // In the order of the halfedges, which lie as the file lists its triangles: with more locality than its vertices.
-  const auto for_free_vertices = [&](const auto& visit) {
-    workers.for_blocks(static_cast<std::int64_t>(mesh.n_halfedges()), grain, [&](std::int64_t begin, std::int64_t end) {
-      for (auto h = static_cast<int>(begin); h < end; ++h) {
-        const HalfedgeHandle first(h);
-        const int v = mesh.from_vertex_handle(first).idx();
-        if (static_cast<std::size_t>(v) < fixed.size() && fixed[v] == 0 &&
-            mesh.halfedge_handle(VertexHandle(v)) == first) {
-          visit(v, first);
-        }
-      }
-    });
-  };
-  const auto rotated = [&](HalfedgeHandle h) { return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h)); };
-
-  // A free vertex is an interior one: it has as many neighbours as outgoing halfedges.
-  std::vector<std::int32_t> sizes(fixed.size(), 0);
-  for_free_vertices([&](int v, HalfedgeHandle first) {
-    HalfedgeHandle h = first;
-    do {
-      ++sizes[static_cast<std::size_t>(v)];
-      h = rotated(h);
-    } while (h != first);
-  });
+OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::int32_t> degree,
+                   std::span<const std::uint8_t> fixed, std::span<const std::uint8_t> reversed, Workers& workers) {
+  const TriangleMesh& mesh = halfedges.mesh;
   OneRings rings = OneRings::with_sizes(
-      static_cast<std::int32_t>(fixed.size()), [&](std::int32_t v) { return sizes[v]; }, workers);
-  for_free_vertices([&](int v, HalfedgeHandle first) {
+      static_cast<std::int32_t>(fixed.size()), [&](std::int32_t v) { return fixed[v] == 0 ? degree[v] : 0; }, workers);
+  // In the order of the halfedges, which lie as the file lists its triangles: with more locality than its vertices.
+  constexpr std::int64_t bits = 64;
+  std::vector<std::uint64_t> is_first(mesh.n_halfedges() / bits + 1, 0);
+  workers.for_blocks(std::ssize(fixed), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<int>(begin); v < end; ++v) {
+      if (fixed[v] == 0) {
+        const int first = mesh.halfedge_handle(VertexHandle(v)).idx();
+        set_bits_relaxed(is_first[first / bits], std::uint64_t{1} << static_cast<unsigned>(first % bits));
+      }
+    }
+  });
+  const auto fill = [&](HalfedgeHandle first) {
     const bool clockwise = !reversed.empty() && reversed[mesh.face_handle(first).idx()] != 0;
-    rings.fill(v, [&, h = first]() mutable {
+    rings.fill(mesh.from_vertex_handle(first).idx(), [&, h = first]() mutable {
       const auto neighbour = static_cast<std::size_t>(mesh.to_vertex_handle(h).idx());
-      h = clockwise ? mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(h)) : rotated(h);
-      return neighbour < fixed.size() ? static_cast<std::int32_t>(neighbour) : copies_of[neighbour - fixed.size()];
+      h = mesh.opposite_halfedge_handle(clockwise ? h : mesh.prev_halfedge_handle(h));
+      h = clockwise ? mesh.next_halfedge_handle(h) : h;
+      return neighbour < fixed.size() ? static_cast<std::int32_t>(neighbour)
+                                      : halfedges.copies_of[neighbour - fixed.size()];
     });
+  };
+  const auto for_word = [&](std::int64_t word, const auto& visit) {
+    for (std::uint64_t left = is_first[word]; left != 0; left &= left - 1) {
+      visit(HalfedgeHandle(static_cast<int>(bits * word + std::countr_zero(left))));
+    }
+  };
+  const auto offset = [&](HalfedgeHandle first) -> const std::int64_t& {
+    return rings.offsets[static_cast<std::size_t>(mesh.from_vertex_handle(first).idx())];
+  };
+  workers.for_blocks(std::ssize(is_first), grain / bits, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t word = begin; word < end; ++word) {
+      // Vertices may be numbered at random: what is of them alone is asked for before it is needed.
+      if (word + 2 < end) {
+        for_word(word + 2, [&](HalfedgeHandle first) { prefetch(&offset(first)); });
+      }
+      if (word + 1 < end) {
+        for_word(word + 1, [&](HalfedgeHandle first) { prefetch(rings.neighbours.data() + offset(first)); });
+      }
+      for_word(word, fill);
+    }
   });
   return rings;
 }

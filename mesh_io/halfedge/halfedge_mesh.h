@@ -16,7 +16,6 @@ namespace trismooth {
 struct HalfedgeMesh {
   TriangleMesh mesh;
   std::vector<std::int32_t> copies_of;  ///< the input vertex of mesh vertex vertex_count + i
-  std::vector<std::uint8_t> hold;       ///< per input vertex: bits boundary, non_manifold, bow_tie, isolated
 };
 
 /// Throws MeshError where a halfedge mesh of so many vertices (copies included) and triangles, of whose edges so many
@@ -24,23 +23,17 @@ struct HalfedgeMesh {
 /// 2,147,483,647. Such an edge has two halfedges for each of its triangles, every other one two.
 void check_halfedge_mesh_size(std::int64_t vertices, std::int64_t triangles, std::int64_t unpaired_sides);
 
-/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex; `reversed` is 1
-/// for each triangle whose face runs the other way round than the triangle is listed: MatchedSides::parity, or that
-/// with whole components turned over. Throws MeshError for a mesh that is too large, see check_halfedge_mesh_size().
-/// Complexity: linear.
+/// Builds the halfedge mesh in bulk, not face by face. `xyz` holds three coordinates of every vertex; `topology` is
+/// that of the triangles, and has no twins afterwards; `reversed` is 1 for each triangle whose face runs the other way
+/// round than the triangle is listed: MatchedSides::parity, or that with whole components turned over. Throws MeshError
+/// for a mesh that is too large, see check_halfedge_mesh_size(). Complexity: linear.
 HalfedgeMesh build_halfedge_mesh(std::span<const double> xyz, std::span<const Triangle> triangles,
-                                 const MatchedSides& sides, std::span<const std::uint8_t> reversed, Workers& workers);
+                                 TriangleTopology& topology, std::span<const std::uint8_t> reversed, Workers& workers);
 
-/// Marks the vertices of `mesh` that no face has (hold::isolated) and those whose faces form several fans
-/// (hold::bow_tie). There is a byte for each vertex. Complexity: linear.
-void mark_fans(const TriangleMesh& mesh, std::span<std::uint8_t> hold, Workers& workers);
-
-/// The one-rings, in the input's numbering, of the vertices whose `fixed` byte is 0; those must be interior vertices of
-/// `mesh`. There is a byte for each vertex of the input; further vertices of the mesh are the copies that `copies_of`
-/// lists, and fixed. `reversed`, one byte a face, tells faces of components that `mesh` orients clockwise; empty: there
-/// are none. Complexity: linear.
-OneRings one_rings(const TriangleMesh& mesh, std::span<const std::uint8_t> fixed,
-                   std::span<const std::uint8_t> reversed, Workers& workers,
-                   std::span<const std::int32_t> copies_of = {});
+/// The one-rings, in the input's numbering, of the vertices whose `fixed` byte is 0; those must be interior vertices.
+/// There is a byte for each vertex of the input, and in `degree` how many triangles it has. `reversed`, one byte a
+/// face, tells faces of components that the mesh orients clockwise; empty: there are none. Complexity: linear.
+OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::int32_t> degree,
+                   std::span<const std::uint8_t> fixed, std::span<const std::uint8_t> reversed, Workers& workers);
 
 }  // namespace trismooth

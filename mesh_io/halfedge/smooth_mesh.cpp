@@ -90,7 +90,7 @@ SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const
 
   Workers workers(options.threads);
   MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
-    return read_halfedge_rings(mesh, placed.local.points, triangles, constraints, workers, options.used_layers());
+    return find_mesh_rings(placed.local.points, triangles, constraints, workers, options.used_layers());
   });
   if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
     placed = InPlane(*fit, xyz, in_cell);

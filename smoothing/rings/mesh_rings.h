@@ -30,6 +30,7 @@ struct MeshRings {
   Slidable slidable;                      ///< the fixed vertices that may slide
   LayersResult layers;                    ///< what was held since it is flat on purpose
   std::shared_ptr<const MeshPart> part;   ///< where the mesh is a part of another one; null: it is not
+  Topology found_by = Topology::host;     ///< who found it: host, halfedge or device
   std::string note;                       ///< what the user is to know of how they were found, or empty
 };
 

@@ -70,7 +70,8 @@ class DelaunayMesh final : public TestMesh {
     for (const Point2<double> p : mesh_.points) {
       xyz.insert(xyz.end(), {p.x, p.y, 0.0});
     }
-    by_halfedges_ = find_halfedge_rings(xyz, local_.points, mesh_.triangles, {}, workers);
+    by_halfedges_ = read_halfedge_rings(connect_halfedges(xyz, mesh_.triangles, workers), local_.points,
+                                        mesh_.triangles, {}, workers);
     SmoothingOptions options;
     in_parallel_ = *cuda::backend().find_rings(local_.points, mesh_.triangles, {}, options);
     options.execution = Execution::single_block;

@@ -73,7 +73,9 @@ OneRings halfedge_rings(const Mesh& mesh, const Constraints& constraints = {}) {
   for (const Point2<double> p : mesh.points) {
     xyz.insert(xyz.end(), {p.x, p.y, 0});
   }
-  return trismooth::find_halfedge_rings(xyz, mesh.points, mesh.triangles, constraints, workers).rings;
+  return trismooth::read_halfedge_rings(trismooth::connect_halfedges(xyz, mesh.triangles, workers), mesh.points,
+                                        mesh.triangles, constraints, workers)
+      .rings;
 }
 
 void require_halfedge_rings(const Mesh& mesh) {

@@ -115,8 +115,9 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   }
   require(naive.orientable, "a mesh that cannot be oriented is accepted");
   require(prepared.found.reversed == naive.reversed, "triangles are oriented otherwise than their majority");
-  const trismooth::MeshRings other = trismooth::find_halfedge_rings(document.points, prepared.local.points,
-                                                                    mesh.triangles, prepared.constraints(), workers);
+  const trismooth::MeshRings other =
+      trismooth::read_halfedge_rings(trismooth::connect_halfedges(document.points, mesh.triangles, workers),
+                                     prepared.local.points, mesh.triangles, prepared.constraints(), workers);
   require(other.fixed == prepared.found.fixed && other.reversed == prepared.found.reversed &&
               other.rings.offsets == prepared.found.rings.offsets &&
               other.rings.neighbours == prepared.found.rings.neighbours,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <random>
+#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -45,9 +46,15 @@ Built build(const Sample& sample) {
     points.push_back({sample.xyz[i], sample.xyz[i + 1]});
   }
   built.orientation = trismooth::orient(built.topology, sample.triangles, points);
+  TriangleTopology topology = built.topology;
   built.halfedge =
-      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, built.orientation.reversed, workers);
+      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, topology, built.orientation.reversed, workers);
   return built;
+}
+
+/// The one-rings of these vertices, read from the halfedges.
+OneRings read_rings(const Built& built, std::span<const std::uint8_t> fixed, Workers& workers) {
+  return trismooth::one_rings(built.halfedge, built.topology.degree, fixed, {}, workers);
 }
 
 /// The triangle as the consistent orientation runs through it.
@@ -255,7 +262,7 @@ TEST_CASE("one-rings read from the halfedge mesh are those read from the triangl
       Workers workers(threads);
       const OneRings expected =
           trismooth::one_rings(built.topology, sample.triangles, built.orientation.reversed, fixed, workers);
-      const OneRings rings = trismooth::one_rings(built.halfedge.mesh, fixed, {}, workers, built.halfedge.copies_of);
+      const OneRings rings = read_rings(built, fixed, workers);
       CHECK(rings.offsets == expected.offsets);
       CHECK(rings.neighbours == expected.neighbours);
     }
@@ -272,7 +279,7 @@ TEST_CASE("one-rings of a large mesh do not depend on the number of threads") {
       trismooth::one_rings(built.topology, sample.triangles, built.orientation.reversed, fixed, one);
   for (const int threads : {1, 2, 5}) {
     Workers workers(threads);
-    const OneRings rings = trismooth::one_rings(built.halfedge.mesh, fixed, {}, workers, built.halfedge.copies_of);
+    const OneRings rings = read_rings(built, fixed, workers);
     CHECK(rings.offsets == expected.offsets);
     CHECK(rings.neighbours == expected.neighbours);
   }
@@ -284,13 +291,14 @@ TEST_CASE("a mesh whose faces run clockwise gives the same one-rings, counter-cl
   const Built built = build(sample);
   const auto fixed = trismooth::fixed_vertices(built.topology, sample.triangles, {});
   Workers workers(1);
-  const OneRings expected = trismooth::one_rings(built.halfedge.mesh, fixed, {}, workers, built.halfedge.copies_of);
+  const OneRings expected = read_rings(built, fixed, workers);
 
   const std::vector<std::uint8_t> turned(sample.triangles.size(), 1);
+  TriangleTopology topology = built.topology;
   const HalfedgeMesh clockwise =
-      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, built.topology, turned, workers);
+      trismooth::build_halfedge_mesh(sample.xyz, sample.triangles, topology, turned, workers);
   CHECK(is_consistent(clockwise.mesh));
-  const OneRings rings = trismooth::one_rings(clockwise.mesh, fixed, turned, workers);
+  const OneRings rings = trismooth::one_rings(clockwise, built.topology.degree, fixed, turned, workers);
   CHECK(rings.offsets == expected.offsets);
   CHECK(rings.neighbours == expected.neighbours);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,7 +20,6 @@ using trismooth::Constraints;
 using trismooth::MeshRings;
 using trismooth::Point2;
 using trismooth::Triangle;
-using trismooth::TriangleMesh;
 using trismooth::Workers;
 
 namespace halfedge_rings_test {
@@ -40,6 +40,15 @@ void require_same(const MeshRings& found, const MeshRings& expected) {
   REQUIRE(found.rings.offsets == expected.rings.offsets);
   REQUIRE(found.rings.neighbours == expected.rings.neighbours);
   REQUIRE(found.note.empty());
+  REQUIRE(found.found_by == trismooth::Topology::halfedge);
+  REQUIRE(expected.found_by == trismooth::Topology::host);
+}
+
+/// By way of a halfedge mesh.
+MeshRings halfedge_rings(std::span<const double> xyz, std::span<const Point2<double>> points,
+                         std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
+  return trismooth::read_halfedge_rings(trismooth::connect_halfedges(xyz, triangles, workers), points, triangles,
+                                        constraints, workers);
 }
 
 /// Some vertices named, some of other cells, and regions that change here and there.
@@ -88,8 +97,7 @@ TEST_CASE("halfedges give what the triangle list gives, in every number, for eve
       for (const int threads : {1, 3}) {
         Workers workers(threads);
         const MeshRings expected = trismooth::find_mesh_rings(points, sample.triangles, constraints, workers);
-        require_same(trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, constraints, workers),
-                     expected);
+        require_same(halfedge_rings(sample.xyz, points, sample.triangles, constraints, workers), expected);
       }
     }
   }
@@ -104,7 +112,7 @@ TEST_CASE("a component whose first triangle is listed clockwise is read the othe
   std::swap(sample.triangles[7][1], sample.triangles[7][2]);
   const auto points = points_of(sample);
   Workers workers(1);
-  const MeshRings found = trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, {}, workers);
+  const MeshRings found = halfedge_rings(sample.xyz, points, sample.triangles, {}, workers);
   CHECK(found.reoriented_triangles == 1);
   CHECK(std::ranges::count(found.reversed, 1) == static_cast<std::ptrdiff_t>(sample.triangles.size()) - 1);
   require_same(found, trismooth::find_mesh_rings(points, sample.triangles, {}, workers));
@@ -119,58 +127,8 @@ TEST_CASE("a large mesh gives the same with any number of threads") {
   const MeshRings expected = trismooth::find_mesh_rings(points, sample.triangles, named.view(), one);
   for (const int threads : {1, 2, 5}) {
     Workers workers(threads);
-    require_same(trismooth::find_halfedge_rings(sample.xyz, points, sample.triangles, named.view(), workers), expected);
+    require_same(halfedge_rings(sample.xyz, points, sample.triangles, named.view(), workers), expected);
   }
-}
-
-TEST_CASE("a halfedge mesh of the caller's is read as its triangle list is, bow ties and components among it") {
-  std::mt19937_64 random(34);
-  int meshes = 0;
-  for (const Sample& sample : planar_samples::samples()) {
-    CAPTURE(sample.name);
-    TriangleMesh mesh;
-    for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
-      mesh.add_vertex({sample.xyz[i], sample.xyz[i + 1], sample.xyz[i + 2]});
-    }
-    // add_face() takes what it can: no third triangle of an edge, none that runs the other way. It complains of the
-    // others.
-    omerr().disable();
-    for (const auto& [a, b, c] : sample.triangles) {
-      mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
-    }
-    omerr().enable();
-    const std::vector<Triangle> triangles = trismooth::face_list(mesh);
-    Sample held = sample;
-    held.triangles = triangles;
-    const RandomConstraints named(held, random);
-    const auto points = points_of(sample);
-    for (const int threads : {1, 3}) {
-      Workers workers(threads);
-      for (const Constraints& constraints : {Constraints{}, named.view()}) {
-        require_same(trismooth::read_halfedge_rings(mesh, points, triangles, constraints, workers),
-                     trismooth::find_mesh_rings(points, triangles, constraints, workers));
-      }
-    }
-    ++meshes;
-  }
-  CHECK(meshes > 3);
-}
-
-TEST_CASE("two fans of a caller's mesh that meet in a point are a bow tie") {
-  TriangleMesh mesh;
-  const std::vector<Point2<double>> points{{0, 0}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}, {5, 5}};
-  for (const Point2<double> p : points) {
-    mesh.add_vertex({p.x, p.y, 0});
-  }
-  mesh.add_face(mesh.vertex_handle(0), mesh.vertex_handle(1), mesh.vertex_handle(2));
-  mesh.add_face(mesh.vertex_handle(0), mesh.vertex_handle(3), mesh.vertex_handle(4));
-  REQUIRE(mesh.n_faces() == 2);
-  Workers workers(1);
-  const MeshRings found = trismooth::read_halfedge_rings(mesh, points, trismooth::face_list(mesh), {}, workers);
-  using namespace trismooth::hold;
-  const std::uint8_t tie = boundary | bow_tie;
-  CHECK(found.fixed == std::vector<std::uint8_t>{tie, boundary, boundary, boundary, boundary, isolated});
-  CHECK(found.components == 2);
 }
 
 TEST_CASE("halfedges refuse what the triangle list refuses, with the same words") {
@@ -194,8 +152,6 @@ TEST_CASE("halfedges refuse what the triangle list refuses, with the same words"
     const std::string expected =
         thrown_by([&] { trismooth::find_mesh_rings(points, refused.triangles, refused.constraints, workers); });
     CHECK(expected.find(refused.words) != std::string::npos);
-    CHECK(thrown_by([&] {
-            trismooth::find_halfedge_rings(xyz, points, refused.triangles, refused.constraints, workers);
-          }) == expected);
+    CHECK(thrown_by([&] { halfedge_rings(xyz, points, refused.triangles, refused.constraints, workers); }) == expected);
   }
 }

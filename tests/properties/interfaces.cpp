@@ -30,7 +30,7 @@ bool is_along_an_axis(const std::vector<Point2<double>>& points) {
 std::optional<Run> run_in_space(const RandomMesh& mesh, const SmoothingOptions& options, std::array<int, 2> axes,
                                 double across) {
   trismooth::Workers workers(1);
-  const auto topology = trismooth::connect_triangles(mesh.mesh.vertex_count(), mesh.mesh.triangles, workers);
+  auto topology = trismooth::connect_triangles(mesh.mesh.vertex_count(), mesh.mesh.triangles, workers);
   const trismooth::LocalFrame frame = trismooth::local_frame(mesh.mesh.points);
   std::vector<Point2<double>> local;
   std::vector<double> xyz;
