@@ -37,6 +37,7 @@
 #endif
 #if __has_include("trismooth/pipeline/pipeline.h")
 #include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/halfedge_stage.h"
 #include "trismooth/pipeline/pipeline.h"
 #endif
 #if __has_include("trismooth/cuda/backend.h") && __has_include(<cuda_runtime_api.h>)

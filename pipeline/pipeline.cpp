@@ -1,8 +1,10 @@
 #include "trismooth/pipeline/pipeline.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -105,6 +107,7 @@ class Run {
     if (drops) {
       drop_annotations(state_.document);
     }
+    std::ranges::move(state_.stage_arrays, std::back_inserter(state_.document.point_arrays));
     document = std::move(state_.document);
     return std::move(state_.result);
   }

@@ -43,6 +43,7 @@ struct EnumText<Stage> {
 };
 
 struct PipelineResult;
+struct HalfedgeStage;
 
 /// What belongs to the mesh that a run writes and is to be there with it or not at all, as reports. Both are called
 /// where the run writes a mesh alone, by rank 0 alone; `prepare` by smooth_document() too. Empty: there is nothing.
@@ -102,7 +103,12 @@ struct PipelineOptions {
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
   bool annotated_size_ratio = false;                     ///< they show that one, too
   bool size_ratio = false;                               ///< reports have it, which takes a while
-  std::function<Progress(Stage)> stage_started;          ///< may answer stop: Cancelled is thrown then
+  /// A stage of the program's own between reading and smoothing, which has the mesh as OpenMesh halfedges
+  /// (halfedge_stage.h): it may hold vertices and give the output arrays. Called once by the topology stage, of every
+  /// run of the functions below; what it throws, the run does. The host connects the mesh by halfedges then, whatever
+  /// its size: smoothing.topology is Topology::automatic or halfedge, else std::invalid_argument. Empty: there is none.
+  std::function<void(HalfedgeStage&)> halfedge_stage;
+  std::function<Progress(Stage)> stage_started;    ///< may answer stop: Cancelled is thrown then
   std::function<void(const std::string&)> warned;  ///< is told each warning of the result before the smoothing starts
   BesideOutput beside;                             ///< what belongs to the mesh that the run writes
 
@@ -142,6 +148,7 @@ struct InputSummary {
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them
+  Topology topology = Topology::host;      ///< who found the neighbours: host, halfedge or device
   LayersResult layers;                     ///< triangles that are flat in one direction
 };
 

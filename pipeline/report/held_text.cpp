@@ -94,4 +94,15 @@ std::string_view describe(RegionReason reason) {
   return "looks like regions";
 }
 
+std::string_view topology_text(const InputSummary& input) {
+  switch (input.topology) {
+    case Topology::halfedge:
+      return "found by OpenMesh halfedges";
+    case Topology::device:
+      return "found by the device, from the triangle list";
+    default:
+      return "found by the host, from the triangle list";
+  }
+}
+
 }  // namespace trismooth

@@ -14,6 +14,9 @@ namespace trismooth {
 /// Reasons that hold no vertex are left out, but arrays that were obeyed are named, also where they hold none.
 std::string held_text(const InputSummary& input);
 
+/// Who found the neighbours of vertices: "found by OpenMesh halfedges".
+std::string_view topology_text(const InputSummary& input);
+
 /// The lines that the file has names for and how many vertices they hold: "12 'inlet', 40 'wall'"; empty without any.
 std::string line_groups_text(const InputSummary& input);
 

@@ -71,6 +71,7 @@ Json input_json(const InputSummary& input) {
           {"free_vertices", input.free_vertices},
           {"merged_vertices", input.merged_vertices},
           {"reoriented_triangles", input.reoriented_triangles},
+          {"topology", name_of(input.topology)},
           {"region_arrays", std::move(region_arrays)},
           {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
           {"fixed_array_vertices", input.fixed_array_vertices},

@@ -37,6 +37,9 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
     text += labelled_line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
                                           counted(input.reoriented_triangles, "triangle is", "triangles are")));
   }
+  if (detail == TextDetail::all) {
+    text += labelled_line("topology:", topology_text(input));
+  }
   if (!input.region_array.empty() && detail == TextDetail::all) {
     text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
                                                   input.region_arrays.size() > 1 ? "s" : "", input.region_array));

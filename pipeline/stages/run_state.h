@@ -32,6 +32,7 @@ struct RunState {
   Regions regions;
   Slide slide = Slide::off;  ///< of the options, where this mesh can
   MeshRings found;
+  std::vector<DataArray> stage_arrays;    ///< point arrays for the output, of the program's own stage
   std::vector<std::size_t> fields;        ///< point arrays of the document that follow the mesh
   std::vector<double> input_points;       ///< for annotations of a smoothing
   std::vector<DataArray> metrics_before;  ///< likewise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/geographic/map_mesh.h"
+#include "trismooth/pipeline/halfedge_stage.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/line_groups.h"
 #include "trismooth/pipeline/input/near_corners.h"
@@ -165,19 +167,74 @@ Sliding sliding_of(const RunState& run, const SlideLines& lines) {
   return slide;
 }
 
-MeshRings rings_of(RunState& run, const Constraints& constraints) {
-  const PlanarMesh& mesh = run.mesh;
+/// Calls what connects triangles, whose errors are the file's.
+template <class Connect>
+auto connected(const RunState& run, const Connect& connect) {
   try {
-    return rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, [&] {
-      return run.smoothing.topology == Topology::halfedge
-                 ? find_halfedge_rings(run.document.points, run.local.points, mesh.triangles, constraints, run.workers,
-                                       run.smoothing.used_layers())
-                 : find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers,
-                                   run.smoothing.used_layers());
-    });
+    return connect();
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());
   }
+}
+
+/// (OpenMesh's meshes cannot be moved: this one is made where it stays.)
+std::unique_ptr<const ConnectedMesh> halfedges_of(RunState& run) {
+  return connected(run, [&] {
+    return std::unique_ptr<const ConnectedMesh>(
+        new ConnectedMesh(connect_halfedges(run.document.points, run.mesh.triangles, run.workers)));
+  });
+}
+
+/// Runs the program's own stage, and answers one flag a vertex that it holds, or none.
+std::vector<std::uint8_t> run_halfedge_stage(RunState& run, const HalfedgeMesh& halfedges) {
+  HalfedgeStage stage{halfedges.mesh, halfedges.copies_of, run.mesh.cells, run.regions.of_triangle, run.document};
+  run.options.halfedge_stage(stage);
+  const std::size_t points = run.document.point_count();
+  const auto require_rows = [&](std::size_t rows, const std::string& what) {
+    if (rows != points) {
+      throw std::invalid_argument("halfedge_stage: " + what + " has " + std::to_string(rows) + " rows for " +
+                                  counted(static_cast<std::int64_t>(points), "point", "points"));
+    }
+  };
+  for (const DataArray& array : stage.point_arrays) {
+    require_rows(array.rows(), "the array '" + array.name + "'");
+    if (find_array(run.document.point_arrays, array.name) != nullptr) {
+      throw std::invalid_argument("halfedge_stage: the file has a point array '" + array.name + "' already");
+    }
+  }
+  if (!stage.fixed.empty()) {
+    require_rows(stage.fixed.size(), "fixed");
+  }
+  run.stage_arrays = std::move(stage.point_arrays);
+  return std::move(stage.fixed);
+}
+
+/// Whether the host goes by halfedges. Beyond so many triangles their memory is more than it is worth, and the handles
+/// of OpenMesh come to their end.
+bool goes_by_halfedges(const RunState& run) {
+  constexpr std::size_t most_triangles = 16'000'000;
+  return run.smoothing.topology == Topology::halfedge ||
+         (run.smoothing.topology != Topology::host && run.mesh.triangles.size() <= most_triangles);
+}
+
+/// `halfedges`: where the mesh has been connected by them already.
+MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_ptr<const ConnectedMesh> halfedges) {
+  const PlanarMesh& mesh = run.mesh;
+  const Layers layers = run.smoothing.used_layers();
+  const auto on_host = [&] {
+    if (halfedges == nullptr && !goes_by_halfedges(run)) {
+      return find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers);
+    }
+    if (halfedges == nullptr) {
+      halfedges = halfedges_of(run);
+    }
+    return read_halfedge_rings(*halfedges, run.local.points, mesh.triangles, constraints, run.workers, layers);
+  };
+  return connected(run, [&] {
+    return halfedges != nullptr
+               ? on_host()
+               : rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, on_host);
+  });
 }
 
 void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
@@ -198,12 +255,17 @@ void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   input.reoriented_triangles = run.found.reoriented_triangles;
   input.held = count_held(reasons, run.found.layers);
   input.layers = run.found.layers;
+  input.topology = run.found.found_by;
 }
 
 }  // namespace
 
 void connect_mesh(RunState& run) {
   const PipelineOptions& options = run.options;
+  if (options.halfedge_stage && options.smoothing.topology != Topology::automatic &&
+      options.smoothing.topology != Topology::halfedge) {
+    throw std::invalid_argument("halfedge_stage is for meshes connected by halfedges: topology 'auto' or 'halfedge'");
+  }
   const MeshDocument& document = run.document;
   PlanarMesh& mesh = run.mesh;
   PipelineResult& result = run.result;
@@ -228,6 +290,11 @@ void connect_mesh(RunState& run) {
                                  options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
+  std::unique_ptr<const ConnectedMesh> halfedges;
+  if (options.halfedge_stage) {
+    halfedges = halfedges_of(run);
+    fixed = united(fixed, run_halfedge_stage(run, halfedges->halfedges));
+  }
   std::vector<std::int32_t> ids = ids_of_file(run);
   input.fixed_ids_vertices = count_different(ids);
   if (options.fixed_ids && ids.empty()) {
@@ -249,11 +316,13 @@ void connect_mesh(RunState& run) {
     run.note(counted(lines.cells, "of these cells is a line", "of these cells are lines") +
              ": their vertices slide where nothing else holds them");
   }
-  run.found = rings_of(run, {.fixed = fixed,
-                             .fixed_ids = ids,
-                             .other_cells = run.slide != Slide::off ? lines.in_other_cell : mesh.in_other_cell,
-                             .regions = run.regions.of_triangle,
-                             .slide = sliding_of(run, lines)});
+  run.found = rings_of(run,
+                       {.fixed = fixed,
+                        .fixed_ids = ids,
+                        .other_cells = run.slide != Slide::off ? lines.in_other_cell : mesh.in_other_cell,
+                        .regions = run.regions.of_triangle,
+                        .slide = sliding_of(run, lines)},
+                       std::move(halfedges));
   if (!options.project && !mesh.map && settle_plane(mesh, document, run.found.fixed, options.input, run.workers)) {
     run.enter_frame();
     // (On the way it may have become a tilted one.)

@@ -83,8 +83,15 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
   if (!dropped.empty() && target == FileFormat::ply && run.document.format == target) {
     run.note("the PLY file is made anew without its old annotations: binary, and without comments");
   }
-  return write_mesh_aside(path, run.document, annotates ? annotations_of(run) : AddedArrays{},
-                          FileOptions{run.options.smoothing.threads, run.options.format});
+  AddedArrays added = annotates ? annotations_of(run) : AddedArrays{};
+  if (takes_added_arrays(run.document, target)) {
+    std::ranges::copy(run.stage_arrays, std::back_inserter(added.point_arrays));
+  } else if (!run.stage_arrays.empty()) {
+    run.note(std::string(title_of(target)) +
+             " output does not take the point arrays of the program's own stage; write " +
+             (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
+  }
+  return write_mesh_aside(path, run.document, added, FileOptions{run.options.smoothing.threads, run.options.format});
 }
 
 }  // namespace trismooth
