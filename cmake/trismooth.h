@@ -33,7 +33,10 @@
 #endif
 #if __has_include("trismooth/mesh_io/halfedge/smooth_mesh.h") && \
     __has_include(<OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>) && __has_include(<Eigen/Core>)
+#include "trismooth/mesh_io/halfedge/mesh_constraints.h"
+#include "trismooth/mesh_io/halfedge/mesh_quality.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #endif
 #if __has_include("trismooth/pipeline/pipeline.h")
 #include "trismooth/pipeline/auto_backend.h"

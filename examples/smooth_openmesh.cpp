@@ -1,24 +1,32 @@
-// Smoothing a halfedge mesh (OpenMesh with Eigen points) of one's own, with a progress callback.
-// Usage: smooth_openmesh MESH. Link with trismooth::mesh_io.
+// Smoothing an OpenMesh mesh of one's own type, with a progress callback.
+// Usage: smooth_openmesh MESH. Link with trismooth::halfedge (and trismooth::mesh_io, for the file).
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <exception>
 
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include "trismooth/mesh_io/halfedge/mesh_quality.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/quality/triangle_quality.h"
 
 namespace {
+
+/// Whatever a program has: here points of double, with a status that can lock vertices.
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status);
+};
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 /// For the Cancel button of a program with windows; its thread would set it.
 std::atomic<bool> cancel_pressed{false};
 
 /// Any program fills its mesh like this, from whatever it has; here from a file, for the sake of the example.
-trismooth::TriangleMesh load(const char* path) {
+Mesh load(const char* path) {
   const trismooth::MeshDocument document = trismooth::read_mesh(path);
-  trismooth::TriangleMesh mesh;
+  Mesh mesh;
   for (std::size_t v = 0; v < document.point_count(); ++v) {
     mesh.add_vertex({document.points[3 * v], document.points[3 * v + 1], document.points[3 * v + 2]});
   }
@@ -31,17 +39,9 @@ trismooth::TriangleMesh load(const char* path) {
   return mesh;
 }
 
-/// The smallest shape of the mesh's triangles, which lie in the xy plane: 1 is equilateral, 0 degenerate.
-double worst_shape(const trismooth::TriangleMesh& mesh) {
-  const auto point = [&](std::int32_t v) {
-    const Eigen::Vector3d& p = mesh.point(mesh.vertex_handle(v));
-    return trismooth::Point2<double>{p.x(), p.y()};
-  };
-  double worst = 1;
-  for (const auto& [a, b, c] : trismooth::face_list(mesh)) {
-    worst = std::min(worst, trismooth::shape(point(a), point(b), point(c)));
-  }
-  return worst;
+/// The smallest shape of the mesh's triangles: 1 is equilateral, 0 degenerate.
+double worst_shape(const Mesh& mesh) {
+  return trismooth::quality(mesh)[trismooth::Metric::shape].min;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    trismooth::TriangleMesh mesh = load(argv[1]);
+    Mesh mesh = load(argv[1]);
     const double before = worst_shape(mesh);
 
     trismooth::SmoothingOptions options;

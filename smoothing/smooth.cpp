@@ -12,13 +12,10 @@
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
-#include "trismooth/smoothing/layers/layers.h"
-#include "trismooth/smoothing/rings/mesh_connectivity.h"
-#include "trismooth/smoothing/rings/mesh_rings.h"
+#include "trismooth/smoothing/rings/analysed_mesh.h"
 
 namespace trismooth {
 
@@ -49,11 +46,7 @@ class SmoothingPlan::Implementation {
     if (listed.data() != triangles_.data()) {
       triangles_.assign(listed.begin(), listed.end());
     }
-    connectivity_ = MeshConnectivity(vertex_count_, triangles_, workers_);
-    mesh_.fixed = connectivity_.fixed_vertices(triangles_, constraints, workers_);
-    if (constraints.slide.along != Slide::off) {
-      slide_ = SlideCopy(constraints);
-    }
+    mesh_.emplace(vertex_count_, triangles_, constraints, workers_);
   }
 
   SmoothingResult smooth(const PointView& points, Storage storage) {
@@ -64,7 +57,8 @@ class SmoothingPlan::Implementation {
     }
     std::vector<Point2<double>> copy = points.read(workers_);
     if (points.components() == 3) {
-      require_one_height(points, copy, [this] { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_.fixed; });
+      require_one_height(points, copy,
+                         [this] { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_->fixed(); });
     }
     SmoothingResult result =
         is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt) : smooth_oriented(copy, stored);
@@ -74,31 +68,6 @@ class SmoothingPlan::Implementation {
   }
 
  private:
-  /// What constraints say of sliding, in memory of our own: who may slide is known when layers are, from the first
-  /// points.
-  class SlideCopy {
-   public:
-    explicit SlideCopy(const Constraints& constraints)
-        : slide_(constraints.slide),
-          regions_(constraints.regions.begin(), constraints.regions.end()),
-          lines_(slide_.lines.begin(), slide_.lines.end()),
-          line_tags_(slide_.line_tags.begin(), slide_.line_tags.end()),
-          links_(slide_.links.begin(), slide_.links.end()) {}
-
-    /// Valid for as long as this object.
-    Constraints constraints() const {
-      Constraints copy{.regions = regions_, .slide = slide_};
-      copy.slide.lines = lines_;
-      copy.slide.line_tags = line_tags_;
-      copy.slide.links = links_;
-      return copy;
-    }
-
-   private:
-    Sliding slide_;
-    std::vector<std::int32_t> regions_, lines_, line_tags_, links_;
-  };
-
   static const SmoothingOptions& checked(const SmoothingOptions& options) {
     options.validate();
     return options;
@@ -116,28 +85,18 @@ class SmoothingPlan::Implementation {
 
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
   SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage) {
-    const LocalPoints local = entered(local_frame_of_cells(points, mesh_.fixed), points);
-    Orientation orientation = orient(connectivity_.components(), triangles_, local.points, workers_);
-    if (!std::exchange(has_found_layers_, true)) {
-      mesh_.layers = hold_layers(local.points, triangles_, orientation.reversed, options_.used_layers(),
-                                 slide_ && slide_->constraints().slide.along != Slide::off, mesh_.fixed, workers_);
-      if (slide_) {
-        mesh_.slidable = find_slidable(triangles_, mesh_.fixed, slide_->constraints(), workers_);
-        slide_.reset();
-      }
-    }
-    if (smoother_ == nullptr || orientation.reversed != mesh_.reversed) {
+    const LocalPoints local = entered(local_frame_of_cells(points, mesh_->fixed()), points);
+    if (mesh_->look_at(local.points, triangles_, options_.used_layers(), workers_) || smoother_ == nullptr) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
-      mesh_.reversed = std::move(orientation.reversed);
-      mesh_.rings = connectivity_.one_rings(triangles_, mesh_.reversed, mesh_.fixed, workers_);
-      smoother_ = backend_of(options_).prepare(with_rings_of(mesh_), triangles_, local.points, options_);
+      smoother_ =
+          backend_of(options_).prepare(mesh_->with_rings(triangles_, workers_), triangles_, local.points, options_);
     }
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
-    result.layers = mesh_.layers;
+    result.layers = mesh_->layers();
     count_invalid(
-        triangles_, mesh_.reversed, [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
+        triangles_, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
     return result;
   }
 
@@ -148,10 +107,7 @@ class SmoothingPlan::Implementation {
   bool is_analysed_by_backend_ = false;  ///< what follows is empty then
   std::string note_;                     ///< what the user is to know of who found the topology
   std::vector<Triangle> triangles_;
-  MeshConnectivity connectivity_;
-  MeshRings mesh_;  ///< but for the rings, which the smoother has
-  bool has_found_layers_ = false;
-  std::optional<SlideCopy> slide_;  ///< until what may slide is found
+  std::optional<AnalysedMesh> mesh_;
 };
 
 SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,

@@ -1,115 +1,197 @@
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/errors.h"
-#include "trismooth/base/local_points.h"
+#include "trismooth/base/mesh_size.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
+#include "trismooth/mesh_io/halfedge/flat_mesh.h"
+#include "trismooth/mesh_io/halfedge/mesh_place.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/invalid_triangles.h"
+#include "trismooth/smoothing/rings/analysed_mesh.h"
+#include "trismooth/smoothing/smooth.h"
 
 namespace trismooth {
 
 namespace {
 
-void require_no_deleted_elements(const TriangleMesh& mesh) {
-  const bool vertices = mesh.has_vertex_status() && std::ranges::any_of(mesh.all_vertices(), [&](auto v) {
-                          return mesh.status(OpenMesh::VertexHandle(v.idx())).deleted();
-                        });
-  const bool faces = mesh.has_face_status() && std::ranges::any_of(mesh.all_faces(), [&](auto f) {
-                       return mesh.status(OpenMesh::FaceHandle(f.idx())).deleted();
-                     });
-  if (vertices || faces) {
-    throw std::invalid_argument("the mesh has deleted elements; call garbage_collection() first");
-  }
+const SmoothingOptions& checked(const SmoothingOptions& options) {
+  options.validate();
+  return options;
 }
-
-/// One flag a vertex. Flags of a wrong length are refused later, with the other constraints.
-std::vector<std::uint8_t> used_vertices(std::size_t count, std::span<const Triangle> triangles,
-                                        std::span<const std::uint8_t> other_cells) {
-  std::vector<std::uint8_t> used(count, 0);
-  for (const Triangle& t : triangles) {
-    for (const std::int32_t v : t) {
-      used[static_cast<std::size_t>(v)] = 1;
-    }
-  }
-  for (std::size_t v = 0; v < std::min(count, other_cells.size()); ++v) {
-    used[v] |= other_cells[v] != 0 ? std::uint8_t{1} : std::uint8_t{0};
-  }
-  return used;
-}
-
-CellList cells_of(std::span<const Triangle> triangles) {
-  CellList cells;
-  for (const Triangle& t : triangles) {
-    cells.append(cell_type::triangle, t);
-  }
-  return cells;
-}
-
-/// A mesh laid into a plane.
-struct InPlane {
-  Plane plane;
-  BulkVector<Point2<double>> points;
-  LocalPoints local;
-
-  InPlane(const PlaneFit& fit, std::span<const double> xyz, std::span<const std::uint8_t> in_cell) : plane(fit.plane) {
-    if (!fit.is_planar()) {
-      throw MeshError(fit.fault());
-    }
-    Workers one(1);
-    auto projected = project(plane, xyz, in_cell, one);
-    if (!projected) {
-      throw MeshError("the mesh is too large: coordinates along its tilted plane are beyond the range of double");
-    }
-    points = *std::move(projected);
-    local = entered(local_frame(points, [&](std::size_t v) { return in_cell[v] != 0; }), points);
-  }
-};
 
 }  // namespace
 
-SmoothingResult smooth(TriangleMesh& mesh, const Constraints& constraints, const SmoothingOptions& options) {
-  options.validate();
-  require_no_deleted_elements(mesh);
-  std::vector<double> xyz(3 * mesh.n_vertices());
-  for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
-    Eigen::Map<Eigen::Vector3d>(xyz.data() + 3 * v) = mesh.point(OpenMesh::VertexHandle(static_cast<int>(v)));
+/// Two ways lead to the result: a plan of flat arrays where the points can be smoothed where they are, and in all other
+/// planes a copy of them that is laid into their plane. Which one it is, the points say; what a way needs is made when
+/// it is first gone.
+class MeshPlan::Implementation {
+ public:
+  Implementation(const ConstOpenMeshView& view, const MeshConstraints& constraints, const SmoothingOptions& options)
+      : options_(checked(options)),
+        workers_(options.threads),
+        mesh_(flat_mesh(*view.mesh)),
+        constraints_(flat_constraints(*view.mesh, mesh_, constraints)) {
+    check_mesh_size(mesh_.vertices, std::ssize(mesh_.triangles));
+    check_constraints(constraints_.view(), vertex_count(), std::ssize(mesh_.triangles));
+    const Constraints held = constraints_.view();
+    std::ranges::transform(
+        mesh_.in_a_cell, held.other_cells, mesh_.in_a_cell.begin(),
+        [](std::uint8_t face, std::uint8_t other) { return static_cast<std::uint8_t>(face | (other != 0 ? 1 : 0)); });
+    if (std::visit([this](const auto& points) { return exact_axes(points, mesh_.in_a_cell); }, view.points)) {
+      make_flat();
+    } else {
+      make_in_space();
+    }
   }
-  if (!std::ranges::all_of(xyz, [](double x) { return std::isfinite(x); })) {
-    throw MeshError("the mesh has a coordinate that is not finite");
-  }
-  const std::vector<Triangle> triangles = face_list(mesh);
-  const std::vector<std::uint8_t> in_cell = used_vertices(xyz.size() / 3, triangles, constraints.other_cells);
-  InPlane placed(fit_plane(xyz, in_cell, cells_of(triangles)), xyz, in_cell);
 
-  Workers workers(options.threads);
-  MeshRings found = rings_for(options, placed.local.points, triangles, constraints, [&] {
-    return find_mesh_rings(placed.local.points, triangles, constraints, workers, options.used_layers());
-  });
-  if (const auto fit = plane_of_fixed(placed.plane, xyz, in_cell, found.fixed)) {
-    placed = InPlane(*fit, xyz, in_cell);
+  SmoothingResult smooth(const OpenMeshView& view) {
+    const auto vertices = static_cast<std::int64_t>(view.mesh->n_vertices());
+    const auto faces = static_cast<std::int64_t>(view.mesh->n_faces());
+    if (vertices != mesh_.vertices || faces != mesh_.all_faces) {
+      throw std::invalid_argument("the mesh has " + std::to_string(vertices) + " vertices and " +
+                                  std::to_string(faces) + " faces, the plan is for one of " +
+                                  std::to_string(mesh_.vertices) + " and " + std::to_string(mesh_.all_faces) +
+                                  ", deleted ones counted");
+    }
+    SmoothingResult result = std::visit([this](const auto& points) { return smooth_points(points); }, view.points);
+    if (result.untangling && !result.untangling->turned.empty()) {
+      result.untangling->turned = of_faces(result.untangling->turned);
+    }
+    return result;
   }
-  SmoothingResult result =
-      smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, Storage::float64, options);
-  result.layers = found.layers;
-  result.backend_note = joined_notes(found.note, result.backend_note);
-  count_invalid(
-      triangles, found.reversed, [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); }, workers,
-      result);
-  for (std::size_t v = 0; v < placed.points.size(); ++v) {
-    mesh.set_point(OpenMesh::VertexHandle(static_cast<int>(v)), Eigen::Map<const Eigen::Vector3d>(xyz.data() + 3 * v));
+
+ private:
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(mesh_.vertices); }
+
+  void make_flat() {
+    if (!flat_) {
+      flat_ = plan(vertex_count(), mesh_.triangles, constraints_.view(), options_);
+    }
   }
-  return result;
+
+  /// Where a device finds the rings, it does so in every call, and nothing is made before.
+  void make_in_space() {
+    if (cells_.size() != mesh_.triangles.size()) {
+      cells_ = cells_of(mesh_.triangles);
+    }
+    if (!options_.prefers_topology_of_device()) {
+      analyse();
+    }
+  }
+
+  void analyse() {
+    if (!analysed_) {
+      analysed_.emplace(vertex_count(), mesh_.triangles, constraints_.view(), workers_);
+    }
+  }
+
+  template <class T>
+  SmoothingResult smooth_points(const NumberRows<T>& points) {
+    const NumberRows<const T> read = constant(points);
+    const bool are_all_finite = require_finite(read, mesh_.in_a_cell);
+    const auto axes = exact_axes(read, mesh_.in_a_cell);
+    if (!axes) {
+      return smooth_in_space(points, read);
+    }
+    make_flat();
+    const NumberRows<T> pairs = along(points, *axes);
+    if (are_all_finite) {
+      return flat_->smooth(PointView(pairs));
+    }
+    std::vector<Point2<double>> copy = pairs_of(along(read, *axes), mesh_.in_a_cell);
+    SmoothingResult result = flat_->smooth(copy, storage_of<T>);
+    for (std::size_t v = 0; v < copy.size(); ++v) {
+      write(pairs, v, std::array{copy[v].x, copy[v].y});
+    }
+    return result;
+  }
+
+  template <class T>
+  SmoothingResult smooth_in_space(const NumberRows<T>& points, const NumberRows<const T>& read) {
+    constexpr Storage storage = storage_of<T>;
+    make_in_space();
+    std::vector<double> xyz = triples_of(read);
+    const std::vector<std::uint8_t>& in_a_cell = mesh_.in_a_cell;
+    const std::vector<Triangle>& triangles = mesh_.triangles;
+    InPlane placed(fit_plane(xyz, in_a_cell, cells_, storage, workers_), xyz, in_a_cell, workers_);
+    MeshRings found = rings_for(options_, placed.local.points, triangles, constraints_.view(), [&] {
+      analyse();
+      analysed_->look_at(placed.local.points, triangles, options_.used_layers(), workers_);
+      return std::as_const(*analysed_).with_rings(triangles, workers_);
+    });
+    if (const auto fit = plane_of_fixed(placed.plane, xyz, in_a_cell, found.fixed, storage)) {
+      placed = InPlane(*fit, xyz, in_a_cell, workers_);
+    }
+    SmoothingResult result =
+        smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, storage, options_);
+    result.layers = found.layers;
+    result.backend_note = joined_notes(found.note, result.backend_note);
+    count_invalid(
+        triangles, found.reversed, [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); }, workers_,
+        result);
+    for (std::size_t v = 0; v < points.rows; ++v) {
+      write(points, v, std::array{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
+    }
+    return result;
+  }
+
+  /// What is in no cell has not moved, and may be no number.
+  template <class T, std::size_t n>
+  void write(const NumberRows<T>& points, std::size_t v, const std::array<double, n>& numbers) const {
+    if (mesh_.in_a_cell[v] != 0) {
+      for (std::size_t k = 0; k < n; ++k) {
+        number_at(points, v, k) = static_cast<T>(numbers[k]);
+      }
+    }
+  }
+
+  /// A byte for each face, deleted ones as well, of what has one for each triangle.
+  std::vector<std::uint8_t> of_faces(const std::vector<std::uint8_t>& of_triangles) const {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(mesh_.all_faces), 0);
+    for (std::size_t t = 0; t < of_triangles.size(); ++t) {
+      bytes[static_cast<std::size_t>(mesh_.faces[t])] = of_triangles[t];
+    }
+    return bytes;
+  }
+
+  SmoothingOptions options_;
+  Workers workers_;
+  FlatMesh mesh_;
+  KeptConstraints constraints_;
+  std::optional<SmoothingPlan> flat_;     ///< the one way
+  CellList cells_;                        ///< the other one
+  std::optional<AnalysedMesh> analysed_;  ///< likewise
+};
+
+MeshPlan::MeshPlan(const ConstOpenMeshView& mesh, const MeshConstraints& constraints, const SmoothingOptions& options)
+    : implementation_(std::make_unique<Implementation>(mesh, constraints, options)) {}
+
+MeshPlan::MeshPlan(MeshPlan&&) noexcept = default;
+MeshPlan& MeshPlan::operator=(MeshPlan&&) noexcept = default;
+MeshPlan::~MeshPlan() = default;
+
+SmoothingResult MeshPlan::smooth_view(const OpenMeshView& mesh) {
+  if (implementation_ == nullptr) {
+    throw std::logic_error("this plan has been moved from");
+  }
+  return implementation_->smooth(mesh);
 }
 
-SmoothingResult smooth(TriangleMesh& mesh, const SmoothingOptions& options) {
-  return smooth(mesh, {}, options);
+SmoothingResult smooth_open_mesh(const OpenMeshView& mesh, const MeshConstraints& constraints,
+                                 const SmoothingOptions& options) {
+  const ConstOpenMeshView read{
+      mesh.mesh, std::visit([](const auto& points) -> decltype(ConstOpenMeshView::points) { return constant(points); },
+                            mesh.points)};
+  return MeshPlan(read, constraints, options).smooth_view(mesh);
 }
 
 }  // namespace trismooth

@@ -15,8 +15,9 @@
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
+#include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "support/fake_backend.h"
@@ -145,7 +146,7 @@ TEST_CASE("constraints hold in a halfedge mesh as they do in flat arrays") {
   std::vector<double> xy = sample.xy();
   const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.triangles, constraints);
   TriangleMesh mesh = mesh_of(sample);
-  const SmoothingResult result = trismooth::smooth(mesh, constraints, {});
+  const SmoothingResult result = trismooth::smooth(mesh, {.fixed = fixed, .fixed_ids = ids, .regions = regions}, {});
   CHECK(result.free_vertices == expected.free_vertices);
   CHECK(result.free_vertices < 13 * 13);
   CHECK(result.moved_vertices > 0);
@@ -159,22 +160,25 @@ TEST_CASE("constraints hold in a halfedge mesh as they do in flat arrays") {
   }
 }
 
-TEST_CASE("a backend that can finds the rings of a halfedge mesh, and the bits are the same") {
+TEST_CASE("a backend that can analyses a halfedge mesh, tilted or not, and the bits are the same") {
   std::mt19937_64 random(40);
+  const bool is_tilted = GENERATE(false, true);
   const Sample sample = planar_samples::shuffled(planar_samples::grid(14, 0.4, random), random);
-  TriangleMesh mesh = mesh_of(sample);
-  TriangleMesh by_halfedges = mesh_of(sample);
+  const Eigen::Matrix3d rotation = is_tilted ? random_rotation(random) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  TriangleMesh mesh = mesh_of(sample, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return rotation * p; });
+  TriangleMesh by_host = mesh;
   const fakes::FakeBackend device;
   SmoothingOptions options;
   options.backend = &device;
   options.topology = trismooth::Topology::host;
-  trismooth::smooth(by_halfedges, options);
+  trismooth::smooth(by_host, options);
   CHECK(device.rings_found == 0);
   options.topology = trismooth::Topology::automatic;
   const SmoothingResult result = trismooth::smooth(mesh, options);
-  CHECK(device.rings_found == 1);
+  CHECK(device.rings_found == (is_tilted ? 1 : 0));  // else it keeps the mesh, rings and all
+  CHECK(device.prepared == 2);
   CHECK(result.backend == "cuda");
-  CHECK(points_of(mesh) == points_of(by_halfedges));
+  CHECK(points_of(mesh) == points_of(by_host));
 }
 
 TEST_CASE("in a tilted plane vertices stay in the plane, boundaries where they are, and nothing gets worse") {
@@ -329,28 +333,6 @@ TEST_CASE("connectivity and what the caller attached to the mesh are left alone"
   CHECK(mesh.status(mesh.vertex_handle(20)).selected());
 }
 
-TEST_CASE("deleted elements are refused until they are collected") {
-  std::mt19937_64 random(35);
-  const Sample sample = planar_samples::grid(8, 0.4, random);
-  TriangleMesh mesh = mesh_of(sample);
-  mesh.request_vertex_status();
-  mesh.request_edge_status();
-  mesh.request_halfedge_status();
-  mesh.request_face_status();
-  CHECK_NOTHROW(trismooth::smooth(mesh));
-  const bool whole_vertex = GENERATE(false, true);
-  if (whole_vertex) {
-    mesh.delete_vertex(mesh.vertex_handle(30));
-  } else {
-    mesh.delete_face(mesh.face_handle(30), false);
-  }
-  const Points before = points_of(mesh);
-  CHECK_THROWS_AS(trismooth::smooth(mesh), std::invalid_argument);
-  CHECK(points_of(mesh) == before);
-  mesh.garbage_collection();
-  CHECK_NOTHROW(trismooth::smooth(mesh));
-}
-
 TEST_CASE("points that are not finite or lie in no plane are refused, the mesh is left as it was") {
   std::mt19937_64 random(36);
   const Sample sample = planar_samples::grid(6, 0.3, random);
@@ -382,17 +364,11 @@ TEST_CASE("options and constraints that do not fit are refused") {
   options.max_sweeps = -1;
   CHECK_THROWS_AS(trismooth::smooth(mesh, options), std::invalid_argument);
   const std::vector<std::uint8_t> flags(24, 0);
-  trismooth::Constraints too_few_flags;
-  too_few_flags.fixed = flags;
-  CHECK_THROWS_AS(trismooth::smooth(mesh, too_few_flags, {}), std::invalid_argument);
+  CHECK_THROWS_AS(trismooth::smooth(mesh, {.fixed = flags}), std::invalid_argument);
   const std::vector<std::int32_t> ids{25};
-  trismooth::Constraints no_such_vertex;
-  no_such_vertex.fixed_ids = ids;
-  CHECK_THROWS_AS(trismooth::smooth(mesh, no_such_vertex, {}), std::invalid_argument);
+  CHECK_THROWS_AS(trismooth::smooth(mesh, {.fixed_ids = ids}), std::invalid_argument);
   const std::vector<std::int32_t> regions(31, 0);
-  trismooth::Constraints too_few_regions;
-  too_few_regions.regions = regions;
-  CHECK_THROWS_AS(trismooth::smooth(mesh, too_few_regions, {}), std::invalid_argument);
+  CHECK_THROWS_AS(trismooth::smooth(mesh, {.regions = regions}), std::invalid_argument);
 }
 
 TEST_CASE("an empty mesh and points without faces have nothing to smooth") {

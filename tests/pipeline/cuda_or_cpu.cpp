@@ -10,6 +10,7 @@
 
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -153,12 +154,12 @@ namespace {
 constexpr const char* rings_note =
     "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test";
 
-/// A grid of the halfedge kind, smoothed as programs with such a mesh do.
+/// A grid of the halfedge kind, smoothed as programs with such a mesh do. It is tilted: of others the device keeps all.
 SmoothingResult smooth_halfedges(const CudaOrCpu& automatic, std::int32_t columns) {
   trismooth::TriangleMesh mesh;
   const test_meshes::Mesh grid = test_meshes::jittered_grid(columns, 8, 0.45, 3);
   for (const auto& p : grid.points) {
-    mesh.add_vertex({p.x, p.y, 0});
+    mesh.add_vertex({p.x, p.y, p.x});
   }
   for (const auto& [a, b, c] : grid.triangles) {
     mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));

@@ -47,7 +47,13 @@ std::optional<Run> run_in_space(const RandomMesh& mesh, const SmoothingOptions& 
     return std::nullopt;
   }
   Run run;
-  run.result = trismooth::smooth(halfedges.mesh, mesh.constraints(), options);
+  run.result = trismooth::smooth(halfedges.mesh,
+                                 {.fixed = mesh.fixed,
+                                  .fixed_ids = mesh.fixed_ids,
+                                  .other_cells = mesh.other_cells,
+                                  .regions = mesh.regions,
+                                  .slide = mesh.slide},
+                                 options);
   for (std::size_t v = 0; v < mesh.mesh.points.size(); ++v) {
     const Eigen::Vector3d point = halfedges.mesh.point(OpenMesh::VertexHandle(static_cast<int>(v)));
     run.xy.insert(run.xy.end(), {point[axes[0]], point[axes[1]]});

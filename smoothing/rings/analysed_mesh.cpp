@@ -1,0 +1,52 @@
+#include "trismooth/smoothing/rings/analysed_mesh.h"
+
+#include <utility>
+
+#include "trismooth/base/workers.h"
+#include "trismooth/quality/orientation.h"
+#include "trismooth/smoothing/layers/layers.h"
+
+namespace trismooth {
+
+AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                           const Constraints& constraints, Workers& workers)
+    : connectivity_(vertex_count, triangles, workers) {
+  mesh_.fixed = connectivity_.fixed_vertices(triangles, constraints, workers);
+  mesh_.components = connectivity_.components().components;
+  if (constraints.slide.along != Slide::off) {
+    slide_ = KeptConstraints({.regions = constraints.regions, .slide = constraints.slide});
+  }
+}
+
+bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
+                           Workers& workers) {
+  Orientation orientation = orient(connectivity_.components(), triangles, local, workers);
+  const bool is_first = !std::exchange(has_found_layers_, true);
+  if (is_first) {
+    mesh_.layers =
+        hold_layers(local, triangles, orientation.reversed, layers, slide_.has_value(), mesh_.fixed, workers);
+    if (slide_) {
+      mesh_.slidable = find_slidable(triangles, mesh_.fixed, slide_->view(), workers);
+      slide_.reset();
+    }
+  }
+  mesh_.reoriented_triangles = orientation.reoriented_triangles;
+  if (!is_first && orientation.reversed == mesh_.reversed) {
+    return false;
+  }
+  mesh_.reversed = std::move(orientation.reversed);
+  return true;
+}
+
+MeshRings AnalysedMesh::with_rings(std::span<const Triangle> triangles, Workers& workers) const& {
+  MeshRings copy = mesh_;
+  copy.rings = connectivity_.one_rings(triangles, mesh_.reversed, mesh_.fixed, workers);
+  return copy;
+}
+
+MeshRings AnalysedMesh::with_rings(std::span<const Triangle> triangles, Workers& workers) && {
+  mesh_.rings = std::move(connectivity_).one_rings(triangles, mesh_.reversed, mesh_.fixed, workers);
+  return std::move(mesh_);
+}
+
+}  // namespace trismooth
