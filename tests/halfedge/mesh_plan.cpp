@@ -1,0 +1,230 @@
+// plan(mesh) and quality(mesh).
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/errors.h"
+#include "trismooth/mesh_io/halfedge/mesh_quality.h"
+#include "trismooth/mesh_io/halfedge/smooth_mesh.h"
+#include "trismooth/mesh_io/halfedge/triangle_mesh.h"
+#include "trismooth/quality/quality.h"
+#include "trismooth/smoothing/smooth.h"
+
+#include "catch.h"
+#include "support/own_meshes.h"
+
+namespace own_meshes {
+
+using planar_samples::Sample;
+using trismooth::Metric;
+using trismooth::QualityReport;
+using trismooth::SmoothingOptions;
+using trismooth::SmoothingResult;
+
+namespace {
+
+/// Moves the inner points within their plane, `by` of the squares' size.
+template <class Mesh>
+void stir(Mesh& mesh, double by, bool is_tilted) {
+  const Point3 along = is_tilted ? Point3{0.48, 0.64, 0.6} : Point3{1, 0, 0};
+  for (const auto v : mesh.vertices()) {
+    if (!mesh.is_boundary(v)) {
+      for (std::size_t k = 0; k < numbers_of<Mesh>; ++k) {
+        mesh.point(v)[k] += static_cast<NumberOf<Mesh>>(by * std::sin(v.idx()) * along[k]);
+      }
+    }
+  }
+}
+
+void check_same(const QualityReport& found, const QualityReport& expected) {
+  CHECK(found.triangles == expected.triangles);
+  CHECK(found.inverted == expected.inverted);
+  CHECK(found.degenerate == expected.degenerate);
+  CHECK(found.shape_histogram == expected.shape_histogram);
+  for (std::size_t m = 0; m < trismooth::metric_count; ++m) {
+    CHECK(found.metrics[m].min == expected.metrics[m].min);
+    CHECK(found.metrics[m].mean == expected.metrics[m].mean);
+    CHECK(found.metrics[m].max == expected.metrics[m].max);
+  }
+  REQUIRE(found.worst.size() == expected.worst.size());
+  for (std::size_t i = 0; i < found.worst.size(); ++i) {
+    CHECK(found.worst[i].triangle == expected.worst[i].triangle);
+    CHECK(found.worst[i].shape == expected.worst[i].shape);
+    CHECK(found.worst[i].centroid == expected.worst[i].centroid);
+  }
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a plan over points that move gives what smooth() gives", "", FloatMesh, FullMesh, PairMesh,
+                   trismooth::TriangleMesh) {
+  const bool is_tilted = numbers_of<TestType> == 3 && GENERATE(false, true);
+  const Sample sample = shuffled_grid(12, 31);
+  auto mesh = mesh_of<TestType>(sample, [&](const Point3& p) { return is_tilted ? tilted(p) : p; });
+  std::vector<std::int32_t> regions;
+  for (const auto& t : sample.triangles) {
+    regions.push_back(sample.xyz[3 * t[0]] < 5 ? 1 : 2);
+  }
+  SmoothingOptions options;
+  options.form = trismooth::Form::in_place;
+  auto plan = trismooth::plan(mesh, {.regions = regions}, options);
+  for (int step = 0; step < 4; ++step) {
+    stir(mesh, 0.3, is_tilted);
+    auto other = mesh;
+    const SmoothingResult expected = trismooth::smooth(other, {.regions = regions}, options);
+    const SmoothingResult result = plan.smooth(mesh);
+    CHECK(numbers_in(mesh) == numbers_in(other));
+    CHECK(result.moved_vertices == expected.moved_vertices);
+    CHECK(result.moved_vertices > 0);
+    CHECK(result.sweeps == expected.sweeps);
+    CHECK(result.inverted == expected.inverted);
+  }
+}
+
+TEST_CASE("a plan follows a mesh out of the plane of two axes and back, and outlives the mesh that it was made of") {
+  const Sample sample = shuffled_grid(12, 32);
+  auto plan = [&] {
+    const auto mesh = mesh_of<FullMesh>(sample);
+    return trismooth::plan(mesh);
+  }();
+  for (const bool is_tilted : {true, false, true, false}) {
+    const auto place = [&](const Point3& p) { return is_tilted ? tilted(p) : p; };
+    auto mesh = mesh_of<FullMesh>(sample, place);
+    auto other = mesh;
+    trismooth::smooth(other);
+    CHECK(plan.smooth(mesh).moved_vertices > 0);
+    CHECK(numbers_in(mesh) == numbers_in(other));
+  }
+}
+
+TEST_CASE("a plan of which a component is turned over smooths it so") {
+  const Sample sample = shuffled_grid(12, 33);
+  const bool is_tilted = GENERATE(false, true);
+  const auto mirrored = [&](const Point3& p) {
+    const Point3 turned{-p[0], p[1], p[2]};
+    return is_tilted ? tilted(turned) : turned;
+  };
+  auto mesh = mesh_of<FullMesh>(sample, [&](const Point3& p) { return is_tilted ? tilted(p) : p; });
+  auto plan = trismooth::plan(mesh);
+  plan.smooth(mesh);
+  auto other = mesh_of<FullMesh>(sample, mirrored);
+  auto expected = other;
+  trismooth::smooth(expected);
+  CHECK(plan.smooth(other).inverted == 0);
+  CHECK(numbers_in(other) == numbers_in(expected));
+}
+
+TEST_CASE("a plan takes the locked vertices of the mesh that it was made of, and another mesh not at all") {
+  const Sample sample = shuffled_grid(10, 34);
+  auto mesh = mesh_of<FullMesh>(sample);
+  for (const auto v : mesh.vertices()) {
+    mesh.status(v).set_locked(true);
+  }
+  auto plan = trismooth::plan(mesh);
+  for (const auto v : mesh.vertices()) {
+    mesh.status(v).set_locked(false);
+  }
+  CHECK(plan.smooth(mesh).moved_vertices == 0);
+  auto larger = mesh_of<FullMesh>(shuffled_grid(11, 34));
+  const auto before = numbers_in(larger);
+  CHECK_THROWS_AS(plan.smooth(larger), std::invalid_argument);
+  CHECK(error_of([&] { plan.smooth(larger); }) ==
+        "the mesh has 144 vertices and 242 faces, the plan is for one of 121 and 200, deleted ones counted");
+  CHECK(numbers_in(larger) == before);
+
+  trismooth::MeshPlan moved = std::move(plan);
+  CHECK(moved.smooth(mesh).moved_vertices == 0);
+  CHECK_THROWS_AS(plan.smooth(mesh), std::logic_error);  // NOLINT(bugprone-use-after-move): what is promised of it
+  STATIC_REQUIRE_FALSE(std::is_copy_constructible_v<trismooth::MeshPlan>);
+}
+
+TEST_CASE("a plan made of points that are no numbers yet smooths them when they are") {
+  const Sample sample = shuffled_grid(10, 35);
+  const bool is_tilted = GENERATE(false, true);
+  auto mesh = mesh_of<FullMesh>(sample, [&](const Point3& p) { return is_tilted ? tilted(p) : p; });
+  auto unset = mesh;
+  for (const auto v : unset.vertices()) {
+    unset.point(v) = OpenMesh::Vec3d(std::nan(""));
+  }
+  auto plan = trismooth::plan(unset);
+  CHECK_THROWS_AS(plan.smooth(unset), trismooth::MeshError);
+  auto expected = mesh;
+  trismooth::smooth(expected);
+  plan.smooth(mesh);
+  CHECK(numbers_in(mesh) == numbers_in(expected));
+}
+
+TEMPLATE_TEST_CASE("the quality of a mesh with traits of one's own is that of its flat arrays", "", FloatMesh, FullMesh,
+                   PairMesh, EigenMesh, NodeMesh, PolyMesh) {
+  for (const Sample& sample : planar_samples::manifold_samples()) {
+    CAPTURE(sample.name);
+    auto mesh = mesh_of<TestType>(sample);
+    for (const auto v : mesh.vertices()) {  // some are inverted
+      if (!mesh.is_boundary(v) && v.idx() % 5 == 0) {
+        mesh.point(v)[0] += NumberOf<TestType>{1};
+      }
+    }
+    const auto xy = xy_in(mesh);
+    const QualityReport expected = trismooth::quality(trismooth::xy_points(xy), sample.triangles);
+    check_same(trismooth::quality(std::as_const(mesh)), expected);
+    CHECK(trismooth::quality(mesh, {.worst_count = 3}).worst.size() ==
+          std::min<std::size_t>(3, sample.triangles.size()));
+  }
+}
+
+TEST_CASE("the quality along other axes is that of the two, in a tilted plane nearly that of the flat mesh") {
+  const Sample sample = shuffled_grid(12, 36);
+  const std::vector<double> xy = sample.xy();
+  const QualityReport flat = trismooth::quality(trismooth::xy_points(xy), sample.triangles);
+  check_same(trismooth::quality(mesh_of<FullMesh>(sample,
+                                                  [](const Point3& p) {
+                                                    return Point3{p[0], 7, p[1]};
+                                                  })),
+             flat);
+  check_same(trismooth::quality(mesh_of<FullMesh>(sample,
+                                                  [](const Point3& p) {
+                                                    return Point3{7, p[0], p[1]};
+                                                  })),
+             flat);
+  const QualityReport report = trismooth::quality(mesh_of<FullMesh>(sample, tilted));
+  CHECK(report.triangles == flat.triangles);
+  CHECK(report.inverted == 0);
+  CHECK(report[Metric::shape].min == Approx(flat[Metric::shape].min));
+  CHECK(report[Metric::area].mean == Approx(flat[Metric::area].mean));
+  CHECK(report.worst.front().triangle == flat.worst.front().triangle);
+  auto bent = mesh_of<FullMesh>(sample);
+  bent.point(OpenMesh::VertexHandle(50))[2] += 0.5;
+  CHECK_THROWS_AS(trismooth::quality(bent), trismooth::MeshError);
+}
+
+TEST_CASE("of deleted faces quality knows nothing, and names the others by their own numbers") {
+  const Sample sample = shuffled_grid(12, 37);
+  auto mesh = mesh_of<FullMesh>(sample);
+  const QualityReport whole = trismooth::quality(mesh);
+  const auto worst = static_cast<int>(whole.worst[0].triangle);
+  mesh.delete_face(OpenMesh::FaceHandle(0), true);
+  mesh.delete_face(OpenMesh::FaceHandle(worst), true);
+  mesh.delete_vertex(OpenMesh::VertexHandle(0), true);
+  mesh.point(OpenMesh::VertexHandle(0)) = OpenMesh::Vec3d(std::nan(""));
+  const QualityReport report = trismooth::quality(mesh);
+  CHECK(report.triangles == std::distance(mesh.faces_sbegin(), mesh.faces_end()));
+  CHECK(report.triangles < whole.triangles - 2);
+  std::size_t at = 0;
+  for (const trismooth::WorstElement& element : whole.worst) {
+    if (!mesh.status(OpenMesh::FaceHandle(static_cast<int>(element.triangle))).deleted()) {
+      CHECK(report.worst[at].triangle == element.triangle);
+      CHECK(report.worst[at].shape == element.shape);
+      ++at;
+    }
+  }
+  CHECK(at > 3);
+}
+
+}  // namespace own_meshes
