@@ -58,7 +58,7 @@ def errors_of(statement):
 
 def sentences(errors):
     """What is said after the place in the source: ours begin with the name of the project."""
-    return sorted(error.partition(" trismooth: ")[2][:24] or error for error in errors)
+    return sorted(error.partition("trismooth: ")[2][:24] or error for error in errors)
 
 
 # All in one run, which takes 3 s: an error that is not ours, or that comes twice, is one too many.

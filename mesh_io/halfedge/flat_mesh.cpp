@@ -75,15 +75,15 @@ void mark_held(const PolyConnectivity& mesh, const FlatMesh& flat, Marks& marks)
       }
     }
   }
-  for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
-    const HalfedgeHandle h = mesh.halfedge_handle(EdgeHandle(e), 0);
-    if (is_deleted(mesh, EdgeHandle(e))) {
-      continue;
-    }
-    const bool by_halfedges = mesh.has_halfedge_status() &&
-                              (holds(mesh.status(h)) || holds(mesh.status(mesh.halfedge_handle(EdgeHandle(e), 1))));
-    if (by_halfedges || (mesh.has_edge_status() && holds(mesh.status(EdgeHandle(e))))) {
-      marks.add_ends(h);
+  if (mesh.has_edge_status() || mesh.has_halfedge_status()) {
+    for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
+      const HalfedgeHandle one = mesh.halfedge_handle(EdgeHandle(e), 0);
+      const HalfedgeHandle other = mesh.halfedge_handle(EdgeHandle(e), 1);
+      const bool is_held = (mesh.has_edge_status() && holds(mesh.status(EdgeHandle(e)))) ||
+                           (mesh.has_halfedge_status() && (holds(mesh.status(one)) || holds(mesh.status(other))));
+      if (is_held && !is_deleted(mesh, EdgeHandle(e))) {
+        marks.add_ends(one);
+      }
     }
   }
   if (mesh.has_face_status()) {

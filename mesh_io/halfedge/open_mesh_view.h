@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -47,16 +48,18 @@ concept PlainPoint = (std::same_as<NumberOfPoint<Point>, float> ||
   { point[0] } -> std::same_as<NumberOfPoint<Point>&>;
 };
 
+/// Whether these are its points; of what is no mesh something else is wrong.
 template <class Mesh>
 constexpr bool has_plain_points() {
   if constexpr (ArrayKernelMesh<Mesh>) {
     return PlainPoint<typename Mesh::Point>;
   } else {
-    return true;  // something else is wrong with it
+    return true;
   }
 }
 
-/// The points of a mesh; of numbers that are const where `Number` is.
+/// The points of a mesh; of numbers that are const where `Number` is. Throws std::invalid_argument where the numbers of
+/// a point are not the same distance apart.
 template <class Number, class Mesh>
 NumberRows<Number> points_of(const Mesh& mesh) {
   using Point = typename Mesh::Point;
@@ -67,22 +70,29 @@ NumberRows<Number> points_of(const Mesh& mesh) {
   // operator[] of a const point may give a copy. Nothing is written here.
   auto& first = const_cast<Point&>(mesh.point(OpenMesh::VertexHandle(0)));
   const auto step = reinterpret_cast<const std::byte*>(&first[1]) - reinterpret_cast<const std::byte*>(&first[0]);
+  if (reinterpret_cast<const std::byte*>(&first[numbers - 1]) - reinterpret_cast<const std::byte*>(&first[0]) !=
+      static_cast<std::ptrdiff_t>(numbers - 1) * step) {
+    throw std::invalid_argument("points: the numbers of a point are to be the same distance apart");
+  }
   return {&first[0], mesh.n_vertices(), numbers, sizeof(Point), step};
 }
 
 /// The view of a mesh. What cannot be viewed does not compile: one sentence says why.
 template <class View, class Mesh>
 View view_of(Mesh& mesh) {
-  static_assert(ArrayKernelMesh<Mesh>,
+  constexpr bool is_mesh = ArrayKernelMesh<Mesh>;
+  static_assert(is_mesh,
                 "trismooth: this is no OpenMesh mesh with an array kernel, as TriMesh_ArrayKernelT and "
                 "PolyMesh_ArrayKernelT with any traits are; flat arrays are two arguments, points and triangles");
-  static_assert(has_plain_points<Mesh>(),
+  constexpr bool has_points = has_plain_points<Mesh>();
+  static_assert(has_points,
                 "trismooth: a point of this OpenMesh mesh is to be two or three numbers of float or double, which its "
                 "operator[] gives by reference");
   constexpr bool is_written = std::same_as<View, OpenMeshView>;
-  static_assert(!ArrayKernelMesh<Mesh> || !has_plain_points<Mesh>() || !is_written || !std::is_const_v<Mesh>,
+  constexpr bool may_be_written = !is_mesh || !has_points || !is_written || !std::is_const_v<Mesh>;
+  static_assert(may_be_written,
                 "trismooth: this OpenMesh mesh is const, and smoothing moves its points where they are");
-  if constexpr (ArrayKernelMesh<Mesh> && has_plain_points<Mesh>() && !(is_written && std::is_const_v<Mesh>)) {
+  if constexpr (is_mesh && has_points && may_be_written) {
     using Number = NumberOfPoint<typename Mesh::Point>;
     return {&mesh, points_of<std::conditional_t<is_written, Number, const Number>>(mesh)};
   } else {

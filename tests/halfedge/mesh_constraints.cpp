@@ -121,8 +121,10 @@ TEST_CASE("enumerations are taken by handle and from functions, properties from 
   const auto [of_vertices, of_faces] = c.add_properties<Material>("materials");
   const std::vector<double> expected = c.expected();
   CHECK(c.smoothed({.fixed = of_vertices, .regions = of_faces}) == expected);
-  CHECK(c.smoothed({.fixed = c.fixed,
-                    .regions = [&](OpenMesh::FaceHandle f) { return c.mesh.property(of_faces, f); }}) == expected);
+  const auto material = [&mesh = c.mesh, property = of_faces](OpenMesh::FaceHandle f) {
+    return mesh.property(property, f);
+  };
+  CHECK(c.smoothed({.fixed = c.fixed, .regions = material}) == expected);
   const OpenMesh::VProp<Material> vertices(c.mesh, "materials");
   const OpenMesh::FProp<Material> faces(c.mesh, "materials");
   const std::size_t properties = c.mesh.n_fprops();
