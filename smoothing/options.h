@@ -55,7 +55,7 @@ enum class Topology : std::uint8_t {
               ///< of up to 16,000,000 triangles; else the host
   host,       ///< the host, in parallel, from the triangle list
   halfedge,   ///< for files: the host, in parallel, by way of an OpenMesh mesh. Else as `host`
-  device,  ///< the device, in parallel, from the triangle list; where the backend has none, as `automatic` without it
+  device,     ///< the device, in parallel, from the triangle list; where the backend has none, as `automatic`
 };
 
 /// The working precision of the sweeps. The guard always evaluates in double.
