@@ -163,7 +163,9 @@ class FanSearch {
       hold_[v] = fan == Fan::open ? hold::boundary : std::uint8_t{0};
       const LinkEdge& any = link.front();
       tree_[v] = static_cast<std::uint32_t>(std::min({v, any.from, any.to})) << 1U;
-      vertices.take(v, fan, std::ssize(link), scratch.halfedges.data() + begin);
+      vertices.take(v, fan, std::ssize(link),
+                    std::span<const std::int32_t>(scratch.halfedges)
+                        .subspan(Taker::numbers > 3 ? static_cast<std::size_t>(begin) : 0));
       begin = end;
     }
     return true;
@@ -271,7 +273,7 @@ class RingTaker {
       return
           [ring = ring_ + written_](std::int32_t i, std::int32_t vertex, std::int32_t /*edge*/) { ring[i] = vertex; };
     }
-    void take(std::int32_t vertex, Fan fan, std::int64_t size, const std::int32_t* /*halfedges*/) {
+    void take(std::int32_t vertex, Fan fan, std::int64_t size, std::span<const std::int32_t> /*halfedges*/) {
       written_ += fan == Fan::closed ? size : 0;
       offsets_[vertex + 1] = written_;
     }
@@ -337,8 +339,8 @@ class SideTaker {
         met_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(edge);
       };
     }
-    /// `halfedges`: at the corners of the vertex, in the order of the triangles.
-    void take(std::int32_t vertex, Fan fan, std::int64_t size, const std::int32_t* halfedges) {
+    /// `halfedges` begin with those at the corners of the vertex, in the order of the triangles.
+    void take(std::int32_t vertex, Fan fan, std::int64_t size, std::span<const std::int32_t> halfedges) {
       topology_.corner[vertex] = halfedges[0];
       topology_.degree[vertex] = static_cast<std::int32_t>(size);
       std::int32_t before =
