@@ -48,16 +48,16 @@ std::function<std::int64_t(Handle)> read_numbers(const BaseProperty* property) {
                         unsigned long, long long, unsigned long long>(property);
 }
 
-/// The names of the properties, in quotes. Those that have none are called "<something>".
+/// The end of a message: which properties there are. Those that have no name are called "<something>".
 template <class Handle>
-std::string names_in(const Mesh& mesh) {
+std::string properties_told(const Mesh& mesh) {
   std::string names;
   for (const BaseProperty* property : properties_of<Handle>(mesh)) {
     if (property != nullptr && !property->name().starts_with('<')) {
       names += (names.empty() ? "\"" : ", \"") + property->name() + '"';
     }
   }
-  return names.empty() ? std::string("none with a name") : names;
+  return std::string("; its ") + element<Handle> + " properties: " + (names.empty() ? "none with a name" : names);
 }
 
 }  // namespace
@@ -79,12 +79,11 @@ std::function<std::int64_t(Handle)> named(const Mesh& mesh, const std::string& n
       }
     }
   }
-  throw std::invalid_argument(std::string(member) + ": " +
-                              (is_there
-                                   ? "the values of the " + std::string(element<Handle>) + " property \"" + name +
-                                         "\" are neither bool nor integers"
-                                   : "the mesh has no " + std::string(element<Handle>) + " property \"" + name + "\"") +
-                              "; its " + element<Handle> + " properties: " + names_in<Handle>(mesh));
+  const std::string property = std::string(element<Handle>) + " property \"" + name + '"';
+  throw std::invalid_argument(
+      std::string(member) + ": " +
+      (is_there ? "the values of the " + property + " are neither bool nor integers" : "the mesh has no " + property) +
+      properties_told<Handle>(mesh));
 }
 
 template <class Handle>
@@ -97,9 +96,10 @@ void require_one_each(const Mesh& mesh, std::size_t numbers, std::string_view me
   }
 }
 
-void refuse_handle(std::string_view member) {
-  throw std::invalid_argument(std::string(member) +
-                              ": the handle is that of no property of this mesh, or its type is another");
+template <class Handle>
+void refuse_handle(const Mesh& mesh, std::string_view member) {
+  throw std::invalid_argument(std::string(member) + ": the handle is that of no " + element<Handle> +
+                              " property of this mesh, or of one of another type" + properties_told<Handle>(mesh));
 }
 
 template const BaseProperty* property_at<VertexHandle>(const Mesh&, int);
@@ -107,6 +107,8 @@ template const BaseProperty* property_at<FaceHandle>(const Mesh&, int);
 template std::function<std::int64_t(VertexHandle)> named<VertexHandle>(const Mesh&, const std::string&,
                                                                        std::string_view);
 template std::function<std::int64_t(FaceHandle)> named<FaceHandle>(const Mesh&, const std::string&, std::string_view);
+template void refuse_handle<VertexHandle>(const Mesh&, std::string_view);
+template void refuse_handle<FaceHandle>(const Mesh&, std::string_view);
 template void require_one_each<VertexHandle>(const Mesh&, std::size_t, std::string_view);
 template void require_one_each<FaceHandle>(const Mesh&, std::size_t, std::string_view);
 

@@ -58,7 +58,8 @@ std::function<std::int64_t(Handle)> named(const Mesh& mesh, const std::string& n
 /// Throw std::invalid_argument.
 template <class Handle>
 void require_one_each(const Mesh& mesh, std::size_t numbers, std::string_view member);
-[[noreturn]] void refuse_handle(std::string_view member);
+template <class Handle>
+[[noreturn]] void refuse_handle(const Mesh& mesh, std::string_view member);
 
 }  // namespace element_numbers
 
@@ -134,7 +135,7 @@ class ElementNumbers {
       const auto* values =
           dynamic_cast<const OpenMesh::PropertyT<T>*>(element_numbers::property_at<Handle>(mesh, index));
       if (values == nullptr) {
-        element_numbers::refuse_handle(member);
+        element_numbers::refuse_handle<Handle>(mesh, member);
       }
       return [values](Handle h) { return static_cast<std::int64_t>((*values)[h.idx()]); };
     };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "trismooth/base/array_layout.h"
@@ -25,7 +26,8 @@ template <class T>
 T& number_at(const NumberRows<T>& points, std::size_t v, std::size_t k) {
   const auto offset =
       static_cast<std::ptrdiff_t>(v) * points.row_stride + static_cast<std::ptrdiff_t>(k) * points.column_stride;
-  return *reinterpret_cast<T*>(reinterpret_cast<std::uintptr_t>(points.first) + static_cast<std::uintptr_t>(offset));
+  using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
+  return *reinterpret_cast<T*>(reinterpret_cast<Byte*>(points.first) + offset);
 }
 
 /// For reading alone.

@@ -211,12 +211,12 @@ TEST_CASE("a property that is not there or holds no whole numbers is named, with
   const OpenMesh::FPropHandleT<int> none;
   const OpenMesh::FPropHandleT<int> elsewhere(1000);
   for (const auto& handle : {none, elsewhere}) {
-    CHECK(error({.regions = handle}).starts_with("MeshConstraints::regions: the handle is that of no property"));
+    CHECK(error({.regions = handle}).starts_with("MeshConstraints::regions: the handle is that of no face property"));
   }
   OpenMesh::FPropHandleT<float> heights;
   c.mesh.add_property(heights, "heights");
-  CHECK(error({.regions = OpenMesh::FPropHandleT<int>(heights.idx())}).find("its type is another") !=
-        std::string::npos);
+  CHECK(error({.regions = OpenMesh::FPropHandleT<int>(heights.idx())})
+            .find("or of one of another type; its face properties") != std::string::npos);
   const std::vector<std::uint8_t> few(c.mesh.n_vertices() - 1, 0);
   CHECK(error({.fixed = few}).starts_with("MeshConstraints::fixed has 168 entries, expected one for each of 169 vert"));
   const std::vector<std::int32_t> ids{169};
