@@ -18,6 +18,7 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "support/fake_backend.h"
 #include "support/own_meshes.h"
 
 namespace own_meshes {
@@ -159,6 +160,28 @@ TEST_CASE("a plan made of points that are no numbers yet smooths them when they 
   trismooth::smooth(expected);
   plan.smooth(mesh);
   CHECK(numbers_in(mesh) == numbers_in(expected));
+}
+
+TEST_CASE("with a device a plan along two axes is prepared once, in other planes the rings are asked for every time") {
+  const bool is_tilted = GENERATE(false, true);
+  auto mesh = mesh_of<FullMesh>(shuffled_grid(10, 38), [&](const Point3& p) { return is_tilted ? tilted(p) : p; });
+  mesh.status(OpenMesh::VertexHandle(60)).set_locked(true);
+  auto on_host = mesh;
+  const fakes::FakeBackend device;
+  SmoothingOptions options;
+  options.backend = &device;
+  options.topology = trismooth::Topology::device;
+  auto plan = trismooth::plan(mesh, options);
+  CHECK(device.rings_found == 0);
+  for (int step = 0; step < 3; ++step) {
+    stir(mesh, 0.3, is_tilted);
+    stir(on_host, 0.3, is_tilted);
+    CHECK(plan.smooth(mesh).backend == "cuda");
+    trismooth::smooth(on_host);
+    CHECK(numbers_in(mesh) == numbers_in(on_host));
+  }
+  CHECK(device.rings_found == (is_tilted ? 3 : 0));
+  CHECK(device.prepared == (is_tilted ? 3 : 1));
 }
 
 TEMPLATE_TEST_CASE("the quality of a mesh with traits of one's own is that of its flat arrays", "", FloatMesh, FullMesh,
