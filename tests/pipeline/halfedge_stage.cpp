@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_file.h"
@@ -201,7 +202,7 @@ TEST_CASE("vertices near an interface, found by circulating, are held, and the o
     const MeshDocument written = trismooth::read_mesh(*options.output);
     const trismooth::DataArray* const again = trismooth::find_array(written.point_arrays, "distance");
     REQUIRE(again != nullptr);
-    CHECK(again->bytes == distance->bytes);
+    CHECK(std::ranges::equal(again->bytes, distance->bytes));
     CHECK((trismooth::find_array(written.point_arrays, "trismooth:fixed") != nullptr) == annotate);
     options.output = folder / "out.off";
     const PipelineResult off = trismooth::run_pipeline(options);
