@@ -16,7 +16,7 @@ struct HalfedgeStage {
   /// Vertex v is point v of the document, face t is triangle t; faces run the same way within each component. Points
   /// are those of the file. A point whose triangles form several fans (at bow ties and edges of three triangles), which
   /// no halfedge mesh can hold, is there once for each fan; see `copies_of`. Points that no triangle uses, as the
-  /// middles of sides, are isolated vertices.
+  /// middles of sides, are isolated vertices, which OpenMesh calls boundary as well.
   const TriangleMesh& mesh;
   /// The point of each vertex beyond those of the document: vertex points + i is a further fan of point copies_of[i].
   std::span<const std::int32_t> copies_of;
@@ -27,11 +27,12 @@ struct HalfedgeStage {
   /// The mesh as its file states it.
   const MeshDocument& document;
 
-  /// To be filled in: one byte a point of the document, not 0: the vertex is held, as those that the user names are.
-  /// Empty: none.
+  /// To be filled in: one byte a point of the document, not 0: the vertex is held, as those that the user names are. To
+  /// hold the middle of a side holds its ends; a note says so. Empty: none.
   std::vector<std::uint8_t> fixed{};
   /// To be filled in: arrays of one row a point that the output gets beside those of the file, where its format takes
-  /// arrays; make_data_array() makes one. Not of a name that the document has.
+  /// arrays; make_data_array() makes one. Each has a name of its own, which no point array of the document has and
+  /// which does not begin with `trismooth:`. (One called "fixed" holds vertices when the output is read again.)
   std::vector<DataArray> point_arrays{};
 
   /// The point of the document that a vertex of the mesh is.

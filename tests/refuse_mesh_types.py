@@ -33,6 +33,7 @@ void use(Other& other, std::vector<double>& numbers, const std::vector<std::int3
 NO_MESH = "this is no OpenMesh mesh with an array kernel"
 POINTS = "a point of this OpenMesh mesh is to be two or three numbers"
 CONST = "this OpenMesh mesh is const"
+NUMBERS = "fixed, other_cells and regions of MeshConstraints"
 REFUSED = [
     ("smooth(other)", NO_MESH),
     ("smooth(numbers, MeshConstraints{}, SmoothingOptions{})", NO_MESH),
@@ -42,9 +43,18 @@ REFUSED = [
     ("smooth(four)", POINTS),
     ("(void)quality(whole)", POINTS),
     ("smooth(by_value, SmoothingOptions{})", POINTS),
+    ("smooth(mesh, {.regions = OpenMesh::FPropHandleT<float>()})", NUMBERS),
+    ("smooth(mesh, {.fixed = OpenMesh::FPropHandleT<char>()})", NUMBERS),
+    ("smooth(mesh, {.fixed = points})", NUMBERS),
+    ("smooth(mesh, {.regions = std::vector<long>(3)})", NUMBERS),
+    ("smooth(mesh, {.regions = [](OpenMesh::FaceHandle) { return 0.5F; }})", NUMBERS),
 ]
 TAKEN = """smooth(mesh); smooth(mesh, SmoothingOptions{}); smooth(mesh, MeshConstraints{}); smooth(mesh, {}, {});
-  smooth(mesh, {.fixed_ids = triangles}, {.max_sweeps = 3}); plan(constant).smooth(mesh); (void)quality(constant);
+  smooth(mesh, {.fixed_ids = triangles}, {.max_sweeps = 3}); std::vector<bool> flags; const auto& same = flags;
+  smooth(mesh, {.fixed = flags, .other_cells = same, .regions = triangles});
+  smooth(mesh, {.fixed = [](OpenMesh::SmartVertexHandle v) { return v.is_boundary(); },
+                .regions = [](OpenMesh::FaceHandle f) { return f.idx(); }});
+  smooth(mesh, {.fixed = "fixed", .regions = OpenMesh::FPropHandleT<bool>()}); plan(constant).smooth(mesh); (void)quality(constant);
   (void)quality(mesh, {.worst_count = 1}); smooth(points, triangles); smooth(xy_points(numbers), triangles, {}, {});
   smooth(points, triangles, SmoothingOptions{}); (void)quality(points, triangles); plan(3, triangles).smooth(points);
   smooth(points, triangles, Constraints{.fixed_ids = triangles}); (void)other; (void)four; (void)whole; (void)by_value"""

@@ -1,15 +1,21 @@
 #include "trismooth/mesh_io/halfedge/flat_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "trismooth/base/workers.h"
+
 namespace trismooth {
 
 namespace {
+
+/// Faces that a thread takes at a time.
+constexpr std::int64_t faces_grain = 16384;
 
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
@@ -155,6 +161,37 @@ FlatMesh flat_mesh(const PolyConnectivity& mesh) {
     }
   }
   return flat;
+}
+
+bool has_faces_of(const PolyConnectivity& mesh, const FlatMesh& flat, Workers& workers) {
+  if (static_cast<std::int64_t>(mesh.n_vertices()) != flat.vertices ||
+      static_cast<std::int64_t>(mesh.n_faces()) != flat.all_faces) {
+    return false;
+  }
+  std::atomic<bool> differs{false};
+  std::atomic<std::int64_t> deleted{0};
+  workers.for_blocks(flat.all_faces, faces_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t deleted_here = 0;
+    for (auto f = static_cast<int>(begin); f < end; ++f) {
+      deleted_here += is_deleted(mesh, FaceHandle(f)) ? 1 : 0;
+    }
+    deleted.fetch_add(deleted_here, std::memory_order_relaxed);
+  });
+  workers.for_blocks(std::ssize(flat.triangles), faces_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end && !differs; ++t) {
+      const FaceHandle f(flat.faces[t]);
+      HalfedgeHandle h = mesh.halfedge_handle(f);
+      const bool is_same = !is_deleted(mesh, f) && std::ranges::all_of(flat.triangles[t], [&](std::int32_t corner) {
+        const bool is_corner = mesh.from_vertex_handle(h).idx() == corner;
+        h = mesh.next_halfedge_handle(h);
+        return is_corner;
+      });
+      if (!is_same) {
+        differs = true;
+      }
+    }
+  });
+  return !differs && deleted == flat.all_faces - std::ssize(flat.triangles);
 }
 
 KeptConstraints flat_constraints(const PolyConnectivity& mesh, const FlatMesh& flat,

@@ -11,6 +11,8 @@
 
 namespace trismooth {
 
+class Workers;
+
 /// The faces of an OpenMesh mesh as triangles of flat arrays. Vertices have the numbers that they have in the mesh.
 struct FlatMesh {
   std::int64_t vertices = 0;
@@ -22,6 +24,9 @@ struct FlatMesh {
 
 /// Throws std::invalid_argument for a face that is no triangle. Complexity: linear.
 FlatMesh flat_mesh(const OpenMesh::PolyConnectivity& mesh);
+
+/// Whether the faces of `mesh` that are not deleted are those of `flat`, with the same corners. Complexity: linear.
+bool has_faces_of(const OpenMesh::PolyConnectivity& mesh, const FlatMesh& flat, Workers& workers);
 
 /// What the caller and the status of the mesh hold, for flat arrays of the triangles of `flat`. Throws
 /// std::invalid_argument as ElementNumbers::of() does. Complexity: linear, n log n for regions beyond 32 bits.

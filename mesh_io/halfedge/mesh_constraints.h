@@ -10,6 +10,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 #include <OpenMesh/Core/Utils/Property.hh>
@@ -41,9 +42,29 @@ concept Manager = requires(const P& property) {
   property.getRawProperty();
 };
 
+/// What functions are given: a handle that knows its mesh, and is one that does not as well.
+template <class Handle>
+using Smart = typename OpenMesh::SmartHandle<Handle>::type;
+
 template <class F, class Handle>
-concept Function = !Name<F> && !Manager<F> && std::invocable<const F&, Handle> &&
-                   Whole<std::remove_cvref_t<std::invoke_result_t<const F&, Handle>>>;
+concept Function = !Name<F> && !Manager<F> && std::invocable<const F&, Smart<Handle>> &&
+                   Whole<std::remove_cvref_t<std::invoke_result_t<const F&, Smart<Handle>>>>;
+
+/// Handles of the other elements, and of properties whose values are no whole numbers, are no numbers of `Handle`.
+template <class Handle, class T>
+inline constexpr bool is_property_of = false;
+template <class T>
+inline constexpr bool is_property_of<OpenMesh::VertexHandle, OpenMesh::VPropHandleT<T>> = Whole<T>;
+template <class T>
+inline constexpr bool is_property_of<OpenMesh::FaceHandle, OpenMesh::FPropHandleT<T>> = Whole<T>;
+
+/// A constructor of ElementNumbers takes it.
+template <class T, class Handle>
+concept Source =
+    Array<T> || Name<T> || Manager<std::remove_cvref_t<T>> || Function<std::remove_cvref_t<T>, Handle> ||
+    is_property_of<Handle, std::remove_cvref_t<T>> || std::same_as<std::remove_reference_t<T>, std::vector<bool>> ||
+    std::same_as < std::remove_reference_t<T>,
+const std::vector < bool >> ;
 
 using Mesh = OpenMesh::PolyConnectivity;
 
@@ -67,11 +88,11 @@ template <class Handle>
 /// it is made from stays the caller's, and is looked at while a function takes the constraints, not afterwards. Made by
 /// itself from
 ///
-/// - an array (std::vector, std::span, ...) of any integer type: a number for each handle.idx(), of deleted elements as
-///   well. A temporary does not compile;
+/// - an array (std::vector, std::span, ...) of bool, any integer type or an enumeration: a number for each
+///   handle.idx(), of deleted elements as well. A temporary does not compile;
 /// - a property by its handle, of bool, any integer type or an enumeration, or by OpenMesh's PropertyManager;
 /// - the name of a property of bool or any integer type;
-/// - a function that is given a handle and answers with a whole number, for what traits add:
+/// - a function that is given a handle, smart or not, and answers with a whole number, for what traits add:
 ///   `[&](auto f) { return mesh.data(f).material; }`. It is asked for elements that are not deleted.
 template <class Handle>
 class ElementNumbers {
@@ -83,15 +104,9 @@ class ElementNumbers {
   ElementNumbers() = default;
 
   template <element_numbers::Array R>
-  ElementNumbers(R&& array) {
-    const std::span numbers(std::ranges::data(array), std::ranges::size(array));
-    if (!numbers.empty()) {
-      source_ = [numbers](const element_numbers::Mesh& mesh, std::string_view member) -> Reader {
-        element_numbers::require_one_each<Handle>(mesh, numbers.size(), member);
-        return [numbers](Handle h) { return static_cast<std::int64_t>(numbers[static_cast<std::size_t>(h.idx())]); };
-      };
-    }
-  }
+  ElementNumbers(R&& array) : source_(source_of_array(std::span(std::ranges::data(array), std::ranges::size(array)))) {}
+  ElementNumbers(const std::vector<bool>& flags) : source_(source_of_array(std::ref(flags))) {}
+  ElementNumbers(std::vector<bool>&&) = delete;
 
   template <element_numbers::Whole T>
   requires std::same_as<Handle, OpenMesh::VertexHandle> ElementNumbers(OpenMesh::VPropHandleT<T> property)
@@ -111,10 +126,23 @@ class ElementNumbers {
 
   template <element_numbers::Function<Handle> F>
   ElementNumbers(F function)
-      : source_([function = std::move(function)](const element_numbers::Mesh& /*mesh*/,
-                                                 std::string_view /*member*/) -> Reader {
-          return [&function](Handle h) { return static_cast<std::int64_t>(function(h)); };
-        }) {}
+      : source_(
+            [function = std::move(function)](const element_numbers::Mesh& mesh, std::string_view /*member*/) -> Reader {
+              return [&function, &mesh](Handle h) {
+                return static_cast<std::int64_t>(function(OpenMesh::make_smart(h, mesh)));
+              };
+            }) {}
+
+  /// What cannot be taken: one sentence says so.
+  template <class T>
+  requires(!element_numbers::Source<T, Handle> && !std::same_as<std::remove_cvref_t<T>, ElementNumbers>)
+      ElementNumbers(T&& /*other*/) {
+    static_assert(
+        sizeof(T) == 0,
+        "trismooth: fixed, other_cells and regions of MeshConstraints are whole numbers of the vertices or the "
+        "faces that they are for: an array that outlives the call, a property by handle or by name, or a "
+        "function of a handle");
+  }
 
   /// Whether there are none.
   [[nodiscard]] bool empty() const { return source_ == nullptr; }
@@ -128,6 +156,23 @@ class ElementNumbers {
 
  private:
   using Source = std::function<Reader(const OpenMesh::PolyConnectivity&, std::string_view)>;
+
+  /// `array`: a span, or a reference to what is none. Empty: nothing.
+  template <class A>
+  static Source source_of_array(A array) {
+    const auto& numbers = static_cast<const std::unwrap_reference_t<A>&>(array);
+    if (numbers.empty()) {
+      return {};
+    }
+    return [array](const element_numbers::Mesh& mesh, std::string_view member) -> Reader {
+      const auto& of_elements = static_cast<const std::unwrap_reference_t<A>&>(array);
+      element_numbers::require_one_each<Handle>(mesh, of_elements.size(), member);
+      return [array](Handle h) {
+        const auto& values = static_cast<const std::unwrap_reference_t<A>&>(array);
+        return static_cast<std::int64_t>(values[static_cast<std::size_t>(h.idx())]);
+      };
+    };
+  }
 
   template <class T>
   static Source source_of(OpenMesh::BaseHandle property) {

@@ -62,6 +62,11 @@ class MeshPlan::Implementation {
                                   std::to_string(mesh_.vertices) + " and " + std::to_string(mesh_.all_faces) +
                                   ", deleted ones counted");
     }
+    if (!has_faces_of(*view.mesh, mesh_, workers_)) {
+      throw std::invalid_argument(
+          "the mesh has other faces than that of which the plan was made: a mesh whose edges are flipped, or of which "
+          "elements are deleted, collected or added, needs a new plan");
+    }
     SmoothingResult result = std::visit([this](const auto& points) { return smooth_points(points); }, view.points);
     if (result.untangling && !result.untangling->turned.empty()) {
       result.untangling->turned = of_faces(result.untangling->turned);
@@ -123,6 +128,10 @@ class MeshPlan::Implementation {
     const std::vector<std::uint8_t>& in_a_cell = mesh_.in_a_cell;
     const std::vector<Triangle>& triangles = mesh_.triangles;
     InPlane placed(fit_plane(xyz, in_a_cell, cells_, storage, workers_), xyz, in_a_cell, workers_);
+    if (!placed.plane.aligned && constraints_.view().slide.along != Slide::off) {
+      throw std::invalid_argument(
+          "slide: the mesh lies in a tilted plane, where rounding takes points off their lines; leave it out");
+    }
     MeshRings found = rings_for(options_, placed.local.points, triangles, constraints_.view(), [&] {
       analyse();
       analysed_->look_at(placed.local.points, triangles, options_.used_layers(), workers_);

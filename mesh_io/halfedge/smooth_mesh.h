@@ -52,11 +52,11 @@ class [[nodiscard]] MeshPlan {
   /// Smooths the points of the mesh in place: of that from which the plan was made, or of any other with that
   /// connectivity. Vertices that do not move keep their bits. Where the points lie along two coordinate axes the first
   /// call also orders the mesh in memory, and a later one repeats that only if the majority orientation of a component
-  /// has changed; in other planes every call does. Throws std::invalid_argument for a mesh with another number of
-  /// vertices or faces and for target lengths that do not fit, MeshError for a coordinate of a used vertex that is not
-  /// finite, in space or along the plane, and for points that lie in no plane, DeviceError; the points are untouched
-  /// then. Complexity: linear in each sweep and never more than the vertices whose neighbourhood changed; n log n where
-  /// the mesh is ordered.
+  /// has changed; in other planes every call does. Throws std::invalid_argument for a mesh with other vertices or
+  /// faces, for one in a tilted plane where vertices are to slide, and for target lengths that do not fit, MeshError
+  /// for a coordinate of a used vertex that is not finite, in space or along the plane, and for points that lie in no
+  /// plane, DeviceError; the points are untouched then. Complexity: linear in each sweep and never more than the
+  /// vertices whose neighbourhood changed; n log n where the mesh is ordered.
   template <class Mesh>
   SmoothingResult smooth(Mesh& mesh) {
     return smooth_view(open_mesh::view_of<OpenMeshView>(mesh));

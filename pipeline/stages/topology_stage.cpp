@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/counted.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/geographic/map_mesh.h"
@@ -196,10 +197,16 @@ std::vector<std::uint8_t> run_halfedge_stage(RunState& run, const HalfedgeMesh& 
                                   counted(static_cast<std::int64_t>(points), "point", "points"));
     }
   };
-  for (const DataArray& array : stage.point_arrays) {
+  for (std::size_t i = 0; i < stage.point_arrays.size(); ++i) {
+    const DataArray& array = stage.point_arrays[i];
     require_rows(array.rows(), "the array '" + array.name + "'");
-    if (find_array(run.document.point_arrays, array.name) != nullptr) {
-      throw std::invalid_argument("halfedge_stage: the file has a point array '" + array.name + "' already");
+    if (array.name.empty() || array.name.starts_with(annotation_prefix)) {
+      throw std::invalid_argument("halfedge_stage: an array needs a name that does not begin with '" +
+                                  std::string(annotation_prefix) + "'");
+    }
+    if (find_array(run.document.point_arrays, array.name) != nullptr ||
+        find_array(std::span(stage.point_arrays).first(i), array.name) != nullptr) {
+      throw std::invalid_argument("halfedge_stage: there is a point array '" + array.name + "' already");
     }
   }
   if (!stage.fixed.empty()) {
@@ -207,6 +214,19 @@ std::vector<std::uint8_t> run_halfedge_stage(RunState& run, const HalfedgeMesh& 
   }
   run.stage_arrays = std::move(stage.point_arrays);
   return std::move(stage.fixed);
+}
+
+/// To hold a middle holds the ends of its side, which who takes it for a vertex of the boundary may not want.
+void note_held_middles(RunState& run, std::span<const std::uint8_t> held) {
+  const std::int64_t middles =
+      held.empty() ? 0 : std::ranges::count_if(run.mesh.middles, [&](const MiddleNode& middle) {
+        return held[static_cast<std::size_t>(middle.vertex)] != 0;
+      });
+  if (middles > 0) {
+    run.note(
+        "the program's own stage holds " + counted(middles, "middle of a side", "middles of sides") +
+        ", and with them the ends of these sides; they are vertices without a face, which OpenMesh calls boundary");
+  }
 }
 
 /// Whether the host goes by halfedges. Beyond so many triangles their memory is more than it is worth, and the handles
@@ -293,7 +313,9 @@ void connect_mesh(RunState& run) {
   std::unique_ptr<const ConnectedMesh> halfedges;
   if (options.halfedge_stage) {
     halfedges = halfedges_of(run);
-    fixed = united(fixed, run_halfedge_stage(run, halfedges->halfedges));
+    const std::vector<std::uint8_t> held = run_halfedge_stage(run, halfedges->halfedges);
+    note_held_middles(run, held);
+    fixed = united(fixed, held);
   }
   std::vector<std::int32_t> ids = ids_of_file(run);
   input.fixed_ids_vertices = count_different(ids);

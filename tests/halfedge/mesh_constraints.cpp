@@ -187,6 +187,36 @@ TEST_CASE("vertices slide on a mesh of one's own as on flat arrays") {
   CHECK(result.sliding->slid > 0);
 }
 
+TEST_CASE("a mesh in a tilted plane, where nothing slides, is refused with what to do") {
+  Case c;
+  c.mesh = mesh_of<FullMesh>(c.sample, tilted);
+  const auto before = numbers_in(c.mesh);
+  const trismooth::Sliding slide{.along = trismooth::Slide::straight};
+  CHECK(error_of([&] { trismooth::smooth(c.mesh, {.slide = slide}); }) ==
+        "slide: the mesh lies in a tilted plane, where rounding takes points off their lines; leave it out");
+  CHECK(numbers_in(c.mesh) == before);
+}
+
+TEST_CASE("flags of bool and functions of smart handles say what arrays of numbers do") {
+  Case c;
+  std::vector<bool> flags(c.mesh.n_vertices());
+  std::vector<std::uint8_t> bytes(flags.size());
+  for (const auto v : c.mesh.vertices()) {
+    flags[static_cast<std::size_t>(v.idx())] = v.idx() % 5 == 0;
+    bytes[static_cast<std::size_t>(v.idx())] = v.idx() % 5 == 0 ? 3 : 0;
+  }
+  auto by_bytes = c.mesh;
+  auto by_flags = c.mesh;
+  auto by_handles = c.mesh;
+  const auto result = trismooth::smooth(by_bytes, {.fixed = bytes});
+  trismooth::smooth(by_flags, {.fixed = flags});
+  trismooth::smooth(by_handles,
+                    {.fixed = [](OpenMesh::SmartVertexHandle v) { return v.idx() % 5 == 0 && v.valence() > 0; }});
+  CHECK(result.free_vertices > 0);
+  CHECK(numbers_in(by_flags) == numbers_in(by_bytes));
+  CHECK(numbers_in(by_handles) == numbers_in(by_bytes));
+}
+
 TEST_CASE("a property that is not there or holds no whole numbers is named, with those that are there") {
   Case c;
   c.add_properties<int>("material");

@@ -140,6 +140,21 @@ TEST_CASE("a plan takes the locked vertices of the mesh that it was made of, and
         "the mesh has 144 vertices and 242 faces, the plan is for one of 121 and 200, deleted ones counted");
   CHECK(numbers_in(larger) == before);
 
+  const std::string other_faces = "the mesh has other faces than that of which the plan was made";
+  auto flipped = mesh;
+  for (const auto e : flipped.edges()) {
+    if (flipped.is_flip_ok(e)) {
+      flipped.flip(e);
+      break;
+    }
+  }
+  CHECK(error_of([&] { plan.smooth(flipped); }).starts_with(other_faces));
+  auto without = mesh;
+  without.delete_face(without.face_handle(7), false);
+  CHECK(error_of([&] { plan.smooth(without); }).starts_with(other_faces));
+  auto renumbered = mesh_of<FullMesh>(shuffled_grid(10, 35));
+  CHECK(error_of([&] { plan.smooth(renumbered); }).starts_with(other_faces));
+
   trismooth::MeshPlan moved = std::move(plan);
   CHECK(moved.smooth(mesh).moved_vertices == 0);
   // NOLINTNEXTLINE(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is the question

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -26,7 +27,7 @@ using trismooth::cell_type::triangle;
 
 namespace halfedge_stage_test {
 
-/// The mesh as a document, the triangles left of x = 4.5 in region 7 and the others in region 3.
+/// The mesh, of the unit square, as a document; triangles on the left are in region 7, the others in region 3.
 MeshDocument document_of(const test_meshes::Mesh& mesh) {
   MeshDocument document;
   for (const auto& p : mesh.points) {
@@ -35,7 +36,7 @@ MeshDocument document_of(const test_meshes::Mesh& mesh) {
   std::vector<std::int32_t> regions;
   for (const Triangle& t : mesh.triangles) {
     document.cells.append(triangle, t);
-    regions.push_back(mesh.points[t[0]].x + mesh.points[t[1]].x + mesh.points[t[2]].x < 13.5 ? 7 : 3);
+    regions.push_back(mesh.points[t[0]].x + mesh.points[t[1]].x + mesh.points[t[2]].x < 1.2 ? 7 : 3);
   }
   document.cell_arrays.push_back(trismooth::make_data_array("region", 1, std::move(regions)));
   document.format = trismooth::FileFormat::vtk;
@@ -58,7 +59,7 @@ std::vector<std::int32_t> distances(const MeshDocument& document) {
   for (std::size_t v = 0; v < found.size(); ++v) {
     found[v] = regions[v].size() > 1 ? 0 : -1;
   }
-  for (std::int32_t distance = 1; std::ranges::find(found, -1) != found.end(); ++distance) {
+  for (std::int32_t distance = 1; distance < std::ssize(found); ++distance) {
     for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
       const auto corners = document.cells[cell];
       const bool is_near = std::ranges::any_of(
@@ -239,6 +240,46 @@ TEST_CASE("a point where fans meet is a vertex of the stage's mesh for each of t
   CHECK(std::set(points.begin(), points.end()).size() == mesh.points.size());
 }
 
+TEST_CASE("middles of sides are vertices without a face, and a note tells who holds them what that holds") {
+  const test_meshes::Mesh mesh = grid();
+  MeshDocument document;
+  for (const auto& p : mesh.points) {
+    document.points.insert(document.points.end(), {p.x, p.y, 0.0});
+  }
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<std::int32_t, 6> nodes{t[0], t[1], t[2]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto side = std::minmax(t[i], t[(i + 1) % 3]);
+      const auto [place, is_new] = middles.emplace(side, static_cast<std::int32_t>(document.point_count()));
+      nodes[3 + i] = place->second;
+      if (is_new) {
+        const auto& a = mesh.points[static_cast<std::size_t>(side.first)];
+        const auto& b = mesh.points[static_cast<std::size_t>(side.second)];
+        document.points.insert(document.points.end(), {(a.x + b.x) / 2, (a.y + b.y) / 2, 0.0});
+      }
+    }
+    document.cells.append(trismooth::cell_type::quadratic_triangle, nodes);
+  }
+  document.format = trismooth::FileFormat::vtk;
+  const MeshDocument before = document;
+  const bool skips_middles = GENERATE(true, false);
+  const PipelineResult result =
+      trismooth::smooth_document(document, options_with([&](HalfedgeStage& stage) {
+                                   stage.fixed.resize(stage.document.point_count());
+                                   for (const auto v : stage.mesh.vertices()) {
+                                     CHECK(v.is_isolated() == (v.idx() >= static_cast<int>(mesh.points.size())));
+                                     stage.fixed[static_cast<std::size_t>(stage.point_of(v))] =
+                                         v.is_boundary() && !(skips_middles && v.is_isolated()) ? 1 : 0;
+                                   }
+                                 }));
+  const bool is_told = std::ranges::any_of(result.notes, [&](const std::string& note) {
+    return note.starts_with("the program's own stage holds " + std::to_string(middles.size()) + " middles of sides");
+  });
+  CHECK(is_told == !skips_middles);
+  CHECK((document.points != before.points) == skips_middles);
+}
+
 TEST_CASE("what a stage hands out is refused where it does not fit, and the mesh is as it was") {
   struct Case {
     std::function<void(HalfedgeStage&)> stage;
@@ -253,7 +294,17 @@ TEST_CASE("what a stage hands out is refused where it does not fit, and the mesh
       Case{[](HalfedgeStage& stage) {
              stage.point_arrays.push_back(trismooth::make_data_array("depth", 1, std::vector<double>(108)));
            },
-           "the file has a point array 'depth' already"},
+           "there is a point array 'depth' already"},
+      Case{[](HalfedgeStage& stage) {
+             for (int i = 0; i < 2; ++i) {
+               stage.point_arrays.push_back(trismooth::make_data_array("a", 1, std::vector<double>(108)));
+             }
+           },
+           "there is a point array 'a' already"},
+      Case{[](HalfedgeStage& stage) {
+             stage.point_arrays.push_back(trismooth::make_data_array("trismooth:a", 1, std::vector<double>(108)));
+           },
+           "a name that does not begin with 'trismooth:'"},
       Case{[](HalfedgeStage&) { throw std::runtime_error("of the caller's"); }, "of the caller's"});
   MeshDocument document = document_of(grid());
   document.point_arrays.push_back(trismooth::make_data_array("depth", 1, std::vector<double>(108)));

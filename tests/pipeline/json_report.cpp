@@ -50,6 +50,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "free_vertices",
                                          "merged_vertices",
                                          "reoriented_triangles",
+                                         "topology",
                                          "region_arrays",
                                          "fixed_array",
                                          "fixed_array_vertices",
