@@ -16,7 +16,8 @@ struct HalfedgeStage {
   /// Vertex v is point v of the document, face t is triangle t; faces run the same way within each component. Points
   /// are those of the file. A point whose triangles form several fans (at bow ties and edges of three triangles), which
   /// no halfedge mesh can hold, is there once for each fan; see `copies_of`. Points that no triangle uses, as the
-  /// middles of sides, are isolated vertices, which OpenMesh calls boundary as well.
+  /// middles of sides, are isolated vertices, which OpenMesh calls boundary as well. With PipelineOptions::merge
+  /// the corners of faces are the points that stay: those that go with them are isolated.
   const TriangleMesh& mesh;
   /// The point of each vertex beyond those of the document: vertex points + i is a further fan of point copies_of[i].
   std::span<const std::int32_t> copies_of;

@@ -107,7 +107,9 @@ class Run {
     if (drops) {
       drop_annotations(state_.document);
     }
-    std::ranges::move(state_.stage_arrays, std::back_inserter(state_.document.point_arrays));
+    if (options_.output) {
+      std::ranges::move(state_.stage_arrays, std::back_inserter(state_.document.point_arrays));
+    }
     document = std::move(state_.document);
     return std::move(state_.result);
   }

@@ -51,8 +51,8 @@ enum class Order : std::uint8_t {
 
 /// Who finds neighbours, orientation and constraints. The results are the same bit for bit.
 enum class Topology : std::uint8_t {
-  automatic,  ///< the device where it smooths by Execution::resident and its memory suffices; else halfedges, for files
-              ///< of up to 16,000,000 triangles; else the host
+  automatic,  ///< the device where it smooths by Execution::resident and its memory suffices; else halfedges, where
+              ///< files of up to 16,000,000 triangles are smoothed; else the host
   host,       ///< the host, in parallel, from the triangle list
   halfedge,   ///< for files: the host, in parallel, by way of an OpenMesh mesh. Else as `host`
   device,     ///< the device, in parallel, from the triangle list; where the backend has none, as `automatic`

@@ -49,6 +49,8 @@ class SmoothingPlan::Implementation {
     mesh_.emplace(vertex_count_, triangles_, constraints, workers_);
   }
 
+  std::vector<std::uint8_t> fixed() const { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_->fixed(); }
+
   SmoothingResult smooth(const PointView& points, Storage storage) {
     require_a_point_a_vertex(points);
     const Storage stored = points.storage() == Storage::float32 ? Storage::float32 : storage;
@@ -57,8 +59,7 @@ class SmoothingPlan::Implementation {
     }
     std::vector<Point2<double>> copy = points.read(workers_);
     if (points.components() == 3) {
-      require_one_height(points, copy,
-                         [this] { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_->fixed(); });
+      require_one_height(points, copy, [this] { return fixed(); });
     }
     SmoothingResult result =
         is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt) : smooth_oriented(copy, stored);
@@ -126,6 +127,13 @@ SmoothingResult SmoothingPlan::smooth(const PointView& points, Storage storage) 
     throw std::logic_error("this plan has been moved from");
   }
   return implementation_->smooth(points, storage);
+}
+
+std::vector<std::uint8_t> SmoothingPlan::fixed() const {
+  if (implementation_ == nullptr) {
+    throw std::logic_error("this plan has been moved from");
+  }
+  return implementation_->fixed();
 }
 
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "trismooth/base/array_layout.h"
 #include "trismooth/base/array_view.h"
@@ -52,6 +53,10 @@ class [[nodiscard]] SmoothingPlan {
   SmoothingResult smooth(R&& xy, Storage storage = Storage::float64) {
     return smooth(xy_points(xy), storage);
   }
+
+  /// Why each vertex is held: bits of namespace hold (base/hold.h), 0 where nothing holds it. What is flat on purpose
+  /// is known after the first smooth(). Throws std::logic_error where the plan has been moved from. Complexity: linear.
+  [[nodiscard]] std::vector<std::uint8_t> fixed() const;
 
  private:
   class Implementation;

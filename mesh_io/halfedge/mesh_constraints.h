@@ -88,7 +88,7 @@ template <class Handle>
 /// it is made from stays the caller's, and is looked at while a function takes the constraints, not afterwards. Made by
 /// itself from
 ///
-/// - an array (std::vector, std::span, ...) of bool, any integer type or an enumeration: a number for each
+/// - an array (std::vector, std::span, ...) of bool, any integer type but char, or an enumeration: a number for each
 ///   handle.idx(), of deleted elements as well. A temporary does not compile;
 /// - a property by its handle, of bool, any integer type or an enumeration, or by OpenMesh's PropertyManager;
 /// - the name of a property of bool or any integer type;

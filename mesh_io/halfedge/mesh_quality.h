@@ -16,7 +16,7 @@ namespace trismooth {
 ///
 /// Throws std::invalid_argument for a face that is no triangle and for a number of threads out of range; MeshError for
 /// a component that cannot be oriented, for a coordinate of a face that is not finite and for faces that lie in no
-/// plane, as smooth() does. Complexity: linear, but for sorting the edges of each vertex. The report is the same to the
+/// plane. Complexity: linear, but for sorting the edges of each vertex. The report is the same to the
 /// bit for every number of threads, and for points along two coordinate axes that of flat arrays.
 template <class Mesh>
 [[nodiscard]] QualityReport quality(const Mesh& mesh, const QualityOptions& options = {}) {

@@ -70,9 +70,15 @@ NumberRows<Number> points_of(const Mesh& mesh) {
   // operator[] of a const point may give a copy. Nothing is written here.
   auto& first = const_cast<Point&>(mesh.point(OpenMesh::VertexHandle(0)));
   const auto step = reinterpret_cast<const std::byte*>(&first[1]) - reinterpret_cast<const std::byte*>(&first[0]);
-  if (reinterpret_cast<const std::byte*>(&first[numbers - 1]) - reinterpret_cast<const std::byte*>(&first[0]) !=
-      static_cast<std::ptrdiff_t>(numbers - 1) * step) {
-    throw std::invalid_argument("points: the numbers of a point are to be the same distance apart");
+  const auto begin = reinterpret_cast<const std::byte*>(&first[0]) - reinterpret_cast<const std::byte*>(&first);
+  const auto last =
+      reinterpret_cast<const std::byte*>(&first[numbers - 1]) - reinterpret_cast<const std::byte*>(&first);
+  const auto is_within = [](std::ptrdiff_t place) {
+    return place >= 0 &&
+           place + static_cast<std::ptrdiff_t>(sizeof(Number)) <= static_cast<std::ptrdiff_t>(sizeof(Point));
+  };
+  if (last - begin != static_cast<std::ptrdiff_t>(numbers - 1) * step || !is_within(begin) || !is_within(last)) {
+    throw std::invalid_argument("points: the numbers of a point are to be in it, the same distance apart");
   }
   return {&first[0], mesh.n_vertices(), numbers, sizeof(Point), step};
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "trismooth/base/hold.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/flat_mesh.h"
@@ -68,6 +69,7 @@ class MeshPlan::Implementation {
           "elements are deleted, collected or added, needs a new plan");
     }
     SmoothingResult result = std::visit([this](const auto& points) { return smooth_points(points); }, view.points);
+    result.layers = *layers_;
     if (result.untangling && !result.untangling->turned.empty()) {
       result.untangling->turned = of_faces(result.untangling->turned);
     }
@@ -109,15 +111,32 @@ class MeshPlan::Implementation {
     }
     make_flat();
     const NumberRows<T> pairs = along(points, *axes);
+    SmoothingResult result;
     if (are_all_finite) {
-      return flat_->smooth(PointView(pairs));
+      result = flat_->smooth(PointView(pairs));
+    } else {
+      std::vector<Point2<double>> copy = pairs_of(along(read, *axes), mesh_.in_a_cell);
+      result = flat_->smooth(copy, storage_of<T>);
+      for (std::size_t v = 0; v < copy.size(); ++v) {
+        write(pairs, v, std::array{copy[v].x, copy[v].y});
+      }
     }
-    std::vector<Point2<double>> copy = pairs_of(along(read, *axes), mesh_.in_a_cell);
-    SmoothingResult result = flat_->smooth(copy, storage_of<T>);
-    for (std::size_t v = 0; v < copy.size(); ++v) {
-      write(pairs, v, std::array{copy[v].x, copy[v].y});
+    if (!layers_ && keep_layers(result.layers, flat_->fixed())) {
+      analysed_.reset();
     }
     return result;
+  }
+
+  /// What the first points say of layers holds for all later ones, whichever way these go; true where these are the
+  /// first. What is known of the other way is to go: it does not know of them.
+  bool keep_layers(const LayersResult& layers, std::span<const std::uint8_t> fixed) {
+    if (layers_) {
+      return false;
+    }
+    layers_ = layers;
+    constraints_.fix(fixed, hold::named);
+    options_.layers = Layers::smooth;
+    return true;
   }
 
   template <class T>
@@ -128,10 +147,6 @@ class MeshPlan::Implementation {
     const std::vector<std::uint8_t>& in_a_cell = mesh_.in_a_cell;
     const std::vector<Triangle>& triangles = mesh_.triangles;
     InPlane placed(fit_plane(xyz, in_a_cell, cells_, storage, workers_), xyz, in_a_cell, workers_);
-    if (!placed.plane.aligned && constraints_.view().slide.along != Slide::off) {
-      throw std::invalid_argument(
-          "slide: the mesh lies in a tilted plane, where rounding takes points off their lines; leave it out");
-    }
     MeshRings found = rings_for(options_, placed.local.points, triangles, constraints_.view(), [&] {
       analyse();
       analysed_->look_at(placed.local.points, triangles, options_.used_layers(), workers_);
@@ -140,9 +155,15 @@ class MeshPlan::Implementation {
     if (const auto fit = plane_of_fixed(placed.plane, xyz, in_a_cell, found.fixed, storage)) {
       placed = InPlane(*fit, xyz, in_a_cell, workers_);
     }
+    if (!placed.plane.aligned && constraints_.view().slide.along != Slide::off) {
+      throw std::invalid_argument(
+          "slide: the mesh lies in a tilted plane, where rounding takes points off their lines; leave it out");
+    }
     SmoothingResult result =
         smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, storage, options_);
-    result.layers = found.layers;
+    if (keep_layers(found.layers, found.fixed)) {
+      flat_.reset();
+    }
     result.backend_note = joined_notes(found.note, result.backend_note);
     count_invalid(
         triangles, found.reversed, [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); }, workers_,
@@ -179,6 +200,7 @@ class MeshPlan::Implementation {
   std::optional<SmoothingPlan> flat_;     ///< the one way
   CellList cells_;                        ///< the other one
   std::optional<AnalysedMesh> analysed_;  ///< likewise
+  std::optional<LayersResult> layers_;    ///< of the first points
 };
 
 MeshPlan::MeshPlan(const ConstOpenMeshView& mesh, const MeshConstraints& constraints, const SmoothingOptions& options)

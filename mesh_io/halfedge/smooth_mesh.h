@@ -18,14 +18,16 @@ namespace trismooth {
 ///
 /// The vertices of faces and of other cells lie in a plane, in any direction: to within 1e-6 of their extent, and to
 /// within a tenth of the size of the smallest face at the vertex. Points move within the plane, and each keeps its
-/// small offset from it. Points of two numbers, and those that lie along two coordinate axes exactly, are smoothed
-/// where they are, to the bits of flat arrays.
+/// small offset from it, but where free vertices far off had a say in the plane: they come home into that of the
+/// others. Points of two numbers, and those that lie along two coordinate axes exactly, are smoothed where they are, to
+/// the bits of flat arrays.
 ///
 /// Held are boundaries, what the constraints name, and what the mesh says by its status, where it has one: vertices
 /// that are locked or features, the ends of edges and halfedges that are, and the corners of locked faces. Deleted
 /// elements are passed over. A deleted vertex, and one without a face, may be anywhere, at NaN as well. Nothing of the
 /// mesh changes but the points of vertices that move. Numbers of triangles in results are those of faces, deleted ones
-/// counted.
+/// counted; places of vertices that went back are in the two coordinates along which the mesh lies, in a tilted plane
+/// along two axes in it.
 ///
 /// Owns copies of all it needs; the mesh may go, but for options.mean_ratio.target_lengths (one a vertex of the mesh),
 /// which stay the caller's and are read in every smooth(). A plan that has been moved from can only be assigned to and

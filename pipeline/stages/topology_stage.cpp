@@ -230,11 +230,12 @@ void note_held_middles(RunState& run, std::span<const std::uint8_t> held) {
 }
 
 /// Whether the host goes by halfedges. Beyond so many triangles their memory is more than it is worth, and the handles
-/// of OpenMesh come to their end.
+/// of OpenMesh come to their end; a check alone has no use for them.
 bool goes_by_halfedges(const RunState& run) {
   constexpr std::size_t most_triangles = 16'000'000;
   return run.smoothing.topology == Topology::halfedge ||
-         (run.smoothing.topology != Topology::host && run.mesh.triangles.size() <= most_triangles);
+         (run.smoothing.topology != Topology::host && run.options.output &&
+          run.mesh.triangles.size() <= most_triangles);
 }
 
 /// `halfedges`: where the mesh has been connected by them already.

@@ -40,6 +40,18 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
   return holds;
 }
 
+/// What the output does not hold, of the arrays of the program's own stage as well where it takes arrays at all.
+std::vector<std::string> losses_of(RunState& run, FileFormat target) {
+  std::vector<DataArray>& arrays = run.document.point_arrays;
+  const std::size_t of_file = arrays.size();
+  if (takes_added_arrays(run.document, target)) {
+    std::ranges::copy(run.stage_arrays, std::back_inserter(arrays));
+  }
+  std::vector<std::string> lost = what_is_lost(run.document, target);
+  arrays.resize(of_file);
+  return lost;
+}
+
 }  // namespace
 
 AddedArrays annotations_of(RunState& run) {
@@ -66,7 +78,7 @@ std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) 
 WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
   const FileFormat target = output_format(path, run.document.format, run.options.format);
   const std::vector<std::string> dropped = drop_annotations(run.document);
-  std::ranges::copy(what_is_lost(run.document, target), std::back_inserter(run.result.losses));
+  std::ranges::move(losses_of(run, target), std::back_inserter(run.result.losses));
   const bool annotates = annotate && takes_added_arrays(run.document, target);
   if (annotate && !annotates) {
     const std::string which = target == FileFormat::msh ? " of version 1, or with tags above 2147483647," : "";

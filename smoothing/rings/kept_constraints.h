@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trismooth/smoothing/constraints.h"
@@ -22,6 +24,14 @@ class KeptConstraints {
         lines_(slide_.lines.begin(), slide_.lines.end()),
         line_tags_(slide_.line_tags.begin(), slide_.line_tags.end()),
         links_(slide_.links.begin(), slide_.links.end()) {}
+
+  /// Holds the vertices as well whose `reasons` have one of these bits of namespace hold; one byte a vertex. Linear.
+  void fix(std::span<const std::uint8_t> reasons, std::uint8_t bits) {
+    fixed_.resize(reasons.size(), 0);
+    for (std::size_t v = 0; v < reasons.size(); ++v) {
+      fixed_[v] |= static_cast<std::uint8_t>(reasons[v] & bits);
+    }
+  }
 
   /// Valid for as long as this object stays where it is.
   [[nodiscard]] Constraints view() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -160,6 +161,46 @@ TEST_CASE("a plan takes the locked vertices of the mesh that it was made of, and
   // NOLINTNEXTLINE(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is the question
   CHECK_THROWS_AS(plan.smooth(mesh), std::logic_error);
   STATIC_REQUIRE_FALSE(std::is_copy_constructible_v<trismooth::MeshPlan>);
+}
+
+TEST_CASE("a plan holds the layers of its first points, in whatever planes the later ones lie") {
+  // Rows of right-angled triangles ten times as long as high, in which nothing else is held.
+  Sample layered;
+  const std::int32_t n = 12;
+  for (std::int32_t j = 0; j <= n; ++j) {
+    for (std::int32_t i = 0; i <= n; ++i) {
+      layered.xyz.insert(layered.xyz.end(), {10.0 * i, 1.0 * j, 0.0});
+    }
+  }
+  for (std::int32_t j = 0; j < n; ++j) {
+    for (std::int32_t i = 0; i < n; ++i) {
+      const std::int32_t v = j * (n + 1) + i;
+      layered.triangles.push_back({v, v + 1, v + n + 2});
+      layered.triangles.push_back({v, v + n + 2, v + n + 1});
+    }
+  }
+  const auto flat = [](const Point3& p) { return p; };
+  const bool begins_tilted = GENERATE(false, true);
+  auto mesh = begins_tilted ? mesh_of<FullMesh>(layered, tilted) : mesh_of<FullMesh>(layered, flat);
+  auto plan = trismooth::plan(mesh);
+  const auto first = plan.smooth(mesh);
+  REQUIRE(first.layers.kept > 0);
+  CHECK(first.moved_vertices == 0);
+  // The rows are as high as long now, and stirred: by themselves they would be smoothed.
+  std::mt19937_64 random(39);
+  std::uniform_real_distribution<double> step(-0.3, 0.3);
+  Sample square = layered;
+  for (std::size_t v = 0; v < square.xyz.size(); v += 3) {
+    square.xyz[v] = square.xyz[v] / 10 + (v / 3 % (n + 1) % n == 0 ? 0 : step(random));
+  }
+  for (const bool is_tilted : {begins_tilted, !begins_tilted, begins_tilted}) {
+    auto later = is_tilted ? mesh_of<FullMesh>(square, tilted) : mesh_of<FullMesh>(square, flat);
+    const auto before = numbers_in(later);
+    const auto result = plan.smooth(later);
+    CHECK(result.layers.kept == first.layers.kept);
+    CHECK(numbers_in(later) == before);
+    CHECK(trismooth::smooth(later).moved_vertices > 0);
+  }
 }
 
 TEST_CASE("a plan made of points that are no numbers yet smooths them when they are") {

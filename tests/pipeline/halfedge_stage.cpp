@@ -134,6 +134,8 @@ TEST_CASE("a stage of the program's own has the points, triangles, cells and reg
   int calls = 0;
   trismooth::check_document(with_line, options_with([&](HalfedgeStage& stage) {
                               ++calls;
+                              stage.point_arrays.push_back(trismooth::make_data_array(
+                                  "a", 1, std::vector<double>(stage.document.point_count())));
                               REQUIRE(stage.mesh.n_vertices() == document.point_count());
                               REQUIRE(stage.mesh.n_faces() == document.cells.size());
                               REQUIRE(stage.regions.size() == document.cells.size());
@@ -155,6 +157,7 @@ TEST_CASE("a stage of the program's own has the points, triangles, cells and reg
                               }
                             }));
   CHECK(calls == 1);
+  CHECK(with_line.point_arrays.empty());  // a check changes nothing
 }
 
 TEST_CASE("vertices near an interface, found by circulating, are held, and the output says how near they are") {
@@ -205,6 +208,14 @@ TEST_CASE("vertices near an interface, found by circulating, are held, and the o
     REQUIRE(again != nullptr);
     CHECK(std::ranges::equal(again->bytes, distance->bytes));
     CHECK((trismooth::find_array(written.point_arrays, "trismooth:fixed") != nullptr) == annotate);
+    options.output = folder / "out.ply";
+    options.halfedge_stage = [](HalfedgeStage& stage) {
+      stage.point_arrays.push_back(trismooth::make_data_array(
+          "far", 1, std::vector<std::int64_t>(stage.document.point_count(), std::int64_t{1} << 40)));
+    };
+    const PipelineResult ply = trismooth::run_pipeline(options);
+    CHECK(std::ranges::any_of(ply.losses,
+                              [](const std::string& loss) { return loss.find("'far'") != std::string::npos; }));
     options.output = folder / "out.off";
     const PipelineResult off = trismooth::run_pipeline(options);
     CHECK(std::ranges::any_of(off.notes, [](const std::string& note) {
@@ -228,12 +239,13 @@ TEST_CASE("a stage that asks for nothing changes nothing, whatever the topology 
 TEST_CASE("a point where fans meet is a vertex of the stage's mesh for each of them") {
   const test_meshes::Mesh mesh = test_meshes::bow_tie();
   MeshDocument document = document_of(mesh);
+  const MeshDocument before = document;
   std::multiset<std::int32_t> points;
   trismooth::check_document(
       document, options_with([&](HalfedgeStage& stage) {
         for (const auto v : stage.mesh.vertices()) {
           points.insert(stage.point_of(v));
-          CHECK(stage.mesh.point(v) == Eigen::Vector3d(document.points.data() + 3 * stage.point_of(v)));
+          CHECK(stage.mesh.point(v) == Eigen::Vector3d(before.points.data() + 3 * stage.point_of(v)));
         }
       }));
   CHECK(points.size() == mesh.points.size() + 1);
@@ -264,15 +276,15 @@ TEST_CASE("middles of sides are vertices without a face, and a note tells who ho
   document.format = trismooth::FileFormat::vtk;
   const MeshDocument before = document;
   const bool skips_middles = GENERATE(true, false);
-  const PipelineResult result =
-      trismooth::smooth_document(document, options_with([&](HalfedgeStage& stage) {
-                                   stage.fixed.resize(stage.document.point_count());
-                                   for (const auto v : stage.mesh.vertices()) {
-                                     CHECK(v.is_isolated() == (v.idx() >= static_cast<int>(mesh.points.size())));
-                                     stage.fixed[static_cast<std::size_t>(stage.point_of(v))] =
-                                         v.is_boundary() && !(skips_middles && v.is_isolated()) ? 1 : 0;
-                                   }
-                                 }));
+  const PipelineResult result = trismooth::smooth_document(
+      document, options_with([&](HalfedgeStage& stage) {
+        stage.fixed.resize(stage.document.point_count());
+        for (const auto v : stage.mesh.vertices()) {
+          CHECK(stage.mesh.is_isolated(v) == (v.idx() >= static_cast<int>(mesh.points.size())));
+          stage.fixed[static_cast<std::size_t>(stage.point_of(v))] =
+              v.is_boundary() && !(skips_middles && stage.mesh.is_isolated(v)) ? 1 : 0;
+        }
+      }));
   const bool is_told = std::ranges::any_of(result.notes, [&](const std::string& note) {
     return note.starts_with("the program's own stage holds " + std::to_string(middles.size()) + " middles of sides");
   });
