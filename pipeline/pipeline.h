@@ -148,7 +148,6 @@ struct InputSummary {
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them
-  Topology topology = Topology::host;      ///< who found the neighbours: host, halfedge or device
   LayersResult layers;                     ///< triangles that are flat in one direction
 };
 
@@ -171,6 +170,7 @@ struct RegionArea {
 /// `region_names`.
 struct PipelineResult {
   InputSummary input;
+  Topology topology = Topology::host;  ///< who found the neighbours: host, halfedge or device
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;          ///< likewise

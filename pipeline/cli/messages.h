@@ -10,8 +10,10 @@ namespace trismooth {
 
 /// In one piece, or not at all where there is no memory for it.
 inline void print_message(std::ostream& stream, std::string_view kind, std::string_view message) {
-  const std::string text = printable(message);
-  stream << "trismooth: " << kind << ": " << text << '\n';
+  const std::string line = std::string("trismooth: ").append(kind).append(": ").append(printable(message)).append("\n");
+  // A message that there was no memory to write does not silence the next one.
+  stream.clear();
+  stream << line;
 }
 
 /// The messages of the command line, one a line whatever they name: "trismooth: error: plate.off:17: expected 3

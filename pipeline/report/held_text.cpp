@@ -94,8 +94,8 @@ std::string_view describe(RegionReason reason) {
   return "looks like regions";
 }
 
-std::string_view topology_text(const InputSummary& input) {
-  switch (input.topology) {
+std::string_view topology_text(Topology found_by) {
+  switch (found_by) {
     case Topology::halfedge:
       return "found by OpenMesh halfedges";
     case Topology::device:

@@ -15,7 +15,7 @@ namespace trismooth {
 std::string held_text(const InputSummary& input);
 
 /// Who found the neighbours of vertices: "found by OpenMesh halfedges".
-std::string_view topology_text(const InputSummary& input);
+std::string_view topology_text(Topology found_by);
 
 /// The lines that the file has names for and how many vertices they hold: "12 'inlet', 40 'wall'"; empty without any.
 std::string line_groups_text(const InputSummary& input);

@@ -289,7 +289,7 @@ std::string optional_number(double value, std::string_view unit) {
   return value < std::numeric_limits<double>::infinity() ? fmt::format("{}{}", value, unit) : std::string("none");
 }
 
-std::string options_table(const PipelineOptions& options, const InputSummary& input, const SmoothingResult& smoothing) {
+std::string options_table(const PipelineOptions& options, const SmoothingResult& smoothing, Topology topology) {
   const SmoothingOptions& chosen = options.smoothing;
   Rows rows{{"method", std::string(to_string(chosen.method))},
             {"form", std::string(to_string(chosen.form))},
@@ -341,7 +341,7 @@ std::string options_table(const PipelineOptions& options, const InputSummary& in
     rows.emplace_back("why this backend", escape_html(smoothing.backend_note));
   }
   rows.emplace_back("device", escape_html(smoothing.device));
-  rows.emplace_back("topology", escape_html(topology_text(input)));
+  rows.emplace_back("topology", escape_html(topology_text(topology)));
   return row_table(rows);
 }
 
@@ -438,7 +438,8 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
     html += html_section("Notes", html_list(result.notes));
   }
   if (result.smoothing) {
-    html += "<div class=\"two\">\n" + html_section("Options", options_table(options, result.input, *result.smoothing)) +
+    html += "<div class=\"two\">\n" +
+            html_section("Options", options_table(options, *result.smoothing, result.topology)) +
             html_section("Smoothing", outcome_table(result)) + "</div>\n";
   }
   return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);

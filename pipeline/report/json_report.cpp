@@ -71,7 +71,6 @@ Json input_json(const InputSummary& input) {
           {"free_vertices", input.free_vertices},
           {"merged_vertices", input.merged_vertices},
           {"reoriented_triangles", input.reoriented_triangles},
-          {"topology", name_of(input.topology)},
           {"region_arrays", std::move(region_arrays)},
           {"fixed_array", input.fixed_array.empty() ? Json(nullptr) : Json(input.fixed_array)},
           {"fixed_array_vertices", input.fixed_array_vertices},
@@ -244,7 +243,7 @@ Json areas_json(const PipelineResult& result) {
   return areas;
 }
 
-Json smoothing_json(const SmoothingResult& smoothing) {
+Json smoothing_json(const SmoothingResult& smoothing, Topology topology) {
   Json history = Json::array();
   for (const SweepRecord& record : smoothing.history) {
     history.push_back({{"sweep", record.sweep},
@@ -259,6 +258,7 @@ Json smoothing_json(const SmoothingResult& smoothing) {
           {"moved_vertices", smoothing.moved_vertices},
           {"reverted_vertices", smoothing.reverted_vertices},
           {"device", smoothing.device},
+          {"topology", name_of(topology)},
           {"backend_note", smoothing.backend_note.empty() ? Json(nullptr) : Json(smoothing.backend_note)},
           {"reproducible", smoothing.reproducible},
           {"kernel_launches", smoothing.kernel_launches},
@@ -332,7 +332,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"fields", fields_json(result.fields)},
       {"areas", areas_json(result)},
       {"gates", gates_json(record.gates)},
-      {"smoothing", result.smoothing ? smoothing_json(*result.smoothing) : Json(nullptr)},
+      {"smoothing", result.smoothing ? smoothing_json(*result.smoothing, result.topology) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},
       {"uncommitted_hash", result.smoothing ? Json(hash_text(result.unguarded_hash)) : Json(nullptr)},
       {"warnings", result.warnings},

@@ -37,9 +37,6 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
     text += labelled_line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
                                           counted(input.reoriented_triangles, "triangle is", "triangles are")));
   }
-  if (detail == TextDetail::all) {
-    text += labelled_line("topology:", topology_text(input));
-  }
   if (!input.region_array.empty() && detail == TextDetail::all) {
     text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
                                                   input.region_arrays.size() > 1 ? "s" : "", input.region_array));
@@ -314,6 +311,9 @@ std::string_view not_reproducible_text() {
 
 std::string text_report(const PipelineOptions& options, const PipelineResult& result, TextDetail detail) {
   std::string text = input_lines(result.input, detail);
+  if (detail == TextDetail::all) {
+    text += labelled_line("topology:", topology_text(result.topology));
+  }
   if (options.geographic) {
     text += labelled_line("map:", "longitude and latitude; shapes and angles are those on the sphere");
   }

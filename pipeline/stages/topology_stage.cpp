@@ -276,7 +276,7 @@ void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   input.reoriented_triangles = run.found.reoriented_triangles;
   input.held = count_held(reasons, run.found.layers);
   input.layers = run.found.layers;
-  input.topology = run.found.found_by;
+  run.result.topology = run.found.found_by;
 }
 
 }  // namespace

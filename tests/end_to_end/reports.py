@@ -28,7 +28,7 @@ REPORT_KEYS = {
                 "max_sweeps", "tolerance", "size_weight", "power", "target", "size_array", "fields",
                 "field_arrays", "project", "geographic", "slide", "corner_angle", "deviation", "curve", "slide_coincident"},
     "smoothing": {"sweeps", "stop_reason", "vertex_updates", "moved_vertices", "reverted_vertices", "device",
-                  "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
+                  "topology", "backend_note", "reproducible", "kernel_launches", "child_launches", "device_memory_bytes",
                   "guard_rounds", "untangling", "sliding", "history"},
     "timings_ms": {"read", "topology", "check_before", "transfer_in", "untangle", "smooth", "transfer_out", "commit",
                    "fields", "check_after", "write", "total"},

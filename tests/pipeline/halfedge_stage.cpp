@@ -176,7 +176,7 @@ TEST_CASE("vertices near an interface, found by circulating, are held, and the o
     stage.point_arrays.push_back(trismooth::make_data_array("distance", 1, std::move(found)));
   };
   const PipelineResult result = trismooth::smooth_document(document, options_with(hold_near));
-  CHECK(result.input.topology == trismooth::Topology::halfedge);
+  CHECK(result.topology == trismooth::Topology::halfedge);
   CHECK(result.input.held.named > 0);
   std::int64_t held = 0;
   for (std::size_t v = 0; v < expected.size(); ++v) {

@@ -10,7 +10,7 @@ import tool
 RANKS = (0, 1, 2, 3, 5) if tool.thorough else (1, 3)
 # What a run may differ in, and what it says of who has the whole mesh.
 RUN_ALONE = {"timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date", "notes",
-             "backend_note", "arguments"}
+             "backend_note", "topology", "arguments"}
 # Formats that hold a plain mesh of triangles.
 FORMATS = ("off", "obj", "ply", "vtk", "vtp", "msh", "mesh", "su2", "inp", "14", "2dm", "bdf", "unv", "off.gz")
 
