@@ -217,11 +217,16 @@ std::vector<std::uint8_t> run_halfedge_stage(RunState& run, const HalfedgeMesh& 
 }
 
 /// To hold a middle holds the ends of its side, which who takes it for a vertex of the boundary may not want.
-void note_held_middles(RunState& run, std::span<const std::uint8_t> held) {
-  const std::int64_t middles =
-      held.empty() ? 0 : std::ranges::count_if(run.mesh.middles, [&](const MiddleNode& middle) {
-        return held[static_cast<std::size_t>(middle.vertex)] != 0;
-      });
+void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
+  std::int64_t middles = 0;
+  if (!held.empty()) {
+    for (const QuadraticTriangle& quadratic : run.mesh.quadratics) {
+      for (const std::int32_t middle : quadratic.middles) {
+        // (A middle of two triangles counts once.)
+        middles += std::exchange(held[static_cast<std::size_t>(middle)], std::uint8_t{0}) != 0 ? 1 : 0;
+      }
+    }
+  }
   if (middles > 0) {
     run.note(
         "the program's own stage holds " + counted(middles, "middle of a side", "middles of sides") +
