@@ -47,12 +47,11 @@ void* memory_of_system(std::size_t bytes) {
 void prefer_large_pages([[maybe_unused]] void* first, [[maybe_unused]] std::size_t bytes) noexcept {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   // Whole pages alone: what is before and behind them is no larger than one.
-  const auto begin = reinterpret_cast<std::uintptr_t>(first);
-  const std::uintptr_t aligned = (begin + large_page - 1) / large_page * large_page;
-  if (aligned + large_page <= begin + bytes) {
+  const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(first) % large_page) % large_page;
+  if (before + large_page <= bytes) {
     // A system that has no large pages says so, and gives its usual ones.
-    static_cast<void>(::madvise(reinterpret_cast<void*>(aligned), (begin + bytes - aligned) / large_page * large_page,
-                                MADV_HUGEPAGE));
+    static_cast<void>(
+        ::madvise(static_cast<std::byte*>(first) + before, (bytes - before) / large_page * large_page, MADV_HUGEPAGE));
   }
 #endif
 }
