@@ -11,6 +11,7 @@
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/held_html.h"
+#include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/pipeline/report/region_table.h"
