@@ -37,10 +37,12 @@
 #include "trismooth/mesh_io/halfedge/mesh_quality.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/halfedge/triangle_mesh.h"
+#if __has_include("trismooth/pipeline/halfedge_stage.h")
+#include "trismooth/pipeline/halfedge_stage.h"
+#endif
 #endif
 #if __has_include("trismooth/pipeline/pipeline.h")
 #include "trismooth/pipeline/auto_backend.h"
-#include "trismooth/pipeline/halfedge_stage.h"
 #include "trismooth/pipeline/pipeline.h"
 #endif
 #if __has_include("trismooth/cuda/backend.h") && __has_include(<cuda_runtime_api.h>)
