@@ -164,10 +164,6 @@ FlatMesh flat_mesh(const PolyConnectivity& mesh) {
 }
 
 bool has_faces_of(const PolyConnectivity& mesh, const FlatMesh& flat, Workers& workers) {
-  if (static_cast<std::int64_t>(mesh.n_vertices()) != flat.vertices ||
-      static_cast<std::int64_t>(mesh.n_faces()) != flat.all_faces) {
-    return false;
-  }
   std::atomic<bool> differs{false};
   std::atomic<std::int64_t> deleted{0};
   workers.for_blocks(flat.all_faces, faces_grain, [&](std::int64_t begin, std::int64_t end) {

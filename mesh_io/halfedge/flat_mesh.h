@@ -25,7 +25,8 @@ struct FlatMesh {
 /// Throws std::invalid_argument for a face that is no triangle. Complexity: linear.
 FlatMesh flat_mesh(const OpenMesh::PolyConnectivity& mesh);
 
-/// Whether the faces of `mesh` that are not deleted are those of `flat`, with the same corners. Complexity: linear.
+/// Whether the faces of `mesh`, which has as many vertices and faces as that of `flat`, are deleted where they were and
+/// have the same corners elsewhere. Complexity: linear.
 bool has_faces_of(const OpenMesh::PolyConnectivity& mesh, const FlatMesh& flat, Workers& workers);
 
 /// What the caller and the status of the mesh hold, for flat arrays of the triangles of `flat`. Throws

@@ -54,7 +54,8 @@ class MeshPlan::Implementation {
     }
   }
 
-  SmoothingResult smooth(const OpenMeshView& view) {
+  /// Throws std::invalid_argument for a mesh with other vertices or faces than that of which the plan was made.
+  void require_same(const OpenMeshView& view) {
     const auto vertices = static_cast<std::int64_t>(view.mesh->n_vertices());
     const auto faces = static_cast<std::int64_t>(view.mesh->n_faces());
     if (vertices != mesh_.vertices || faces != mesh_.all_faces) {
@@ -68,6 +69,10 @@ class MeshPlan::Implementation {
           "the mesh has other faces than that of which the plan was made: a mesh whose edges are flipped, or of which "
           "elements are deleted, collected or added, needs a new plan");
     }
+  }
+
+  /// Of the mesh of which the plan was made, or one that is the same.
+  SmoothingResult smooth(const OpenMeshView& view) {
     SmoothingResult result = std::visit([this](const auto& points) { return smooth_points(points); }, view.points);
     result.layers = *layers_;
     if (result.untangling && !result.untangling->turned.empty()) {
@@ -214,6 +219,7 @@ SmoothingResult MeshPlan::smooth_view(const OpenMeshView& mesh) {
   if (implementation_ == nullptr) {
     throw std::logic_error("this plan has been moved from");
   }
+  implementation_->require_same(mesh);
   return implementation_->smooth(mesh);
 }
 
@@ -222,7 +228,7 @@ SmoothingResult smooth_open_mesh(const OpenMeshView& mesh, const MeshConstraints
   const ConstOpenMeshView read{
       mesh.mesh, std::visit([](const auto& points) -> decltype(ConstOpenMeshView::points) { return constant(points); },
                             mesh.points)};
-  return MeshPlan(read, constraints, options).smooth_view(mesh);
+  return MeshPlan(read, constraints, options).implementation_->smooth(mesh);
 }
 
 }  // namespace trismooth

@@ -248,13 +248,12 @@ MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_pt
   const PlanarMesh& mesh = run.mesh;
   const Layers layers = run.smoothing.used_layers();
   const auto on_host = [&] {
-    if (halfedges == nullptr && !goes_by_halfedges(run)) {
-      return find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers);
-    }
-    if (halfedges == nullptr) {
+    if (halfedges == nullptr && goes_by_halfedges(run)) {
       halfedges = halfedges_of(run);
     }
-    return read_halfedge_rings(*halfedges, run.local.points, mesh.triangles, constraints, run.workers, layers);
+    return halfedges == nullptr
+               ? find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers)
+               : read_halfedge_rings(*halfedges, run.local.points, mesh.triangles, constraints, run.workers, layers);
   };
   return connected(run, [&] {
     return halfedges != nullptr

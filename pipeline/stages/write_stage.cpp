@@ -40,11 +40,11 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
   return holds;
 }
 
-/// What the output does not hold, of the arrays of the program's own stage as well where it takes arrays at all.
-std::vector<std::string> losses_of(RunState& run, FileFormat target) {
+/// What the output does not hold, of the arrays of the program's own stage as well where it takes arrays.
+std::vector<std::string> losses_of(RunState& run, FileFormat target, bool takes_arrays) {
   std::vector<DataArray>& arrays = run.document.point_arrays;
   const std::size_t of_file = arrays.size();
-  if (takes_added_arrays(run.document, target)) {
+  if (takes_arrays) {
     std::ranges::copy(run.stage_arrays, std::back_inserter(arrays));
   }
   std::vector<std::string> lost = what_is_lost(run.document, target);
@@ -78,8 +78,9 @@ std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) 
 WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
   const FileFormat target = output_format(path, run.document.format, run.options.format);
   const std::vector<std::string> dropped = drop_annotations(run.document);
-  std::ranges::move(losses_of(run, target), std::back_inserter(run.result.losses));
-  const bool annotates = annotate && takes_added_arrays(run.document, target);
+  const bool takes_arrays = takes_added_arrays(run.document, target);
+  std::ranges::move(losses_of(run, target, takes_arrays), std::back_inserter(run.result.losses));
+  const bool annotates = annotate && takes_arrays;
   if (annotate && !annotates) {
     const std::string which = target == FileFormat::msh ? " of version 1, or with tags above 2147483647," : "";
     run.note("--annotate has no effect: " +
@@ -96,7 +97,7 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
     run.note("the PLY file is made anew without its old annotations: binary, and without comments");
   }
   AddedArrays added = annotates ? annotations_of(run) : AddedArrays{};
-  if (takes_added_arrays(run.document, target)) {
+  if (takes_arrays) {
     std::ranges::copy(run.stage_arrays, std::back_inserter(added.point_arrays));
   } else if (!run.stage_arrays.empty()) {
     run.note(std::string(title_of(target)) +
