@@ -76,9 +76,11 @@ const OpenMesh::BaseProperty* property_at(const Mesh& mesh, int index);
 template <class Handle>
 std::function<std::int64_t(Handle)> named(const Mesh& mesh, const std::string& name, std::string_view member);
 
-/// Throw std::invalid_argument.
+/// Throws std::invalid_argument where an array of so many numbers is not one for each vertex, or face, of the mesh.
 template <class Handle>
 void require_one_each(const Mesh& mesh, std::size_t numbers, std::string_view member);
+
+/// Throws std::invalid_argument: `member` names a property that the mesh does not have.
 template <class Handle>
 [[noreturn]] void refuse_handle(const Mesh& mesh, std::string_view member);
 
@@ -103,20 +105,29 @@ class ElementNumbers {
   /// Nothing.
   ElementNumbers() = default;
 
+  /// From a contiguous array with a number for each handle.idx(); it stays the caller's.
   template <element_numbers::Array R>
   ElementNumbers(R&& array) : source_(source_of_array(std::span(std::ranges::data(array), std::ranges::size(array)))) {}
+
+  /// From a flag for each handle.idx(); they stay the caller's.
   ElementNumbers(const std::vector<bool>& flags) : source_(source_of_array(std::ref(flags))) {}
   ElementNumbers(std::vector<bool>&&) = delete;
 
+  /// From a property of vertices, which has to be one of the mesh that the constraints are for.
   template <element_numbers::Whole T>
   requires std::same_as<Handle, OpenMesh::VertexHandle> ElementNumbers(OpenMesh::VPropHandleT<T> property)
       : source_(source_of<T>(property)) {}
+
+  /// From a property of faces, which has to be one of the mesh that the constraints are for.
   template <element_numbers::Whole T>
   requires std::same_as<Handle, OpenMesh::FaceHandle> ElementNumbers(OpenMesh::FPropHandleT<T> property)
       : source_(source_of<T>(property)) {}
+
+  /// From OpenMesh's PropertyManager, for its property.
   template <element_numbers::Manager P>
   ElementNumbers(const P& property) : ElementNumbers(property.getRawProperty()) {}
 
+  /// From the name of a property of the mesh that the constraints are for.
   template <element_numbers::Name S>
   ElementNumbers(const S& name)
       : source_(
@@ -124,6 +135,7 @@ class ElementNumbers {
               return element_numbers::named<Handle>(mesh, name, member);
             }) {}
 
+  /// From a function of a handle; it is copied.
   template <element_numbers::Function<Handle> F>
   ElementNumbers(F function)
       : source_(
