@@ -14,7 +14,7 @@
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/packing/coordinates.h"
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/run_record.h"
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/sliding_run.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <variant>
 
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/paper/paper_engine.h"
 #include "trismooth/cuda/sweeps/grid/grid_engine.h"
 #include "trismooth/cuda/sweeps/patches/patch_engine.h"
@@ -35,7 +35,7 @@ using SweepEngine = std::variant<GridEngine<T, Form::swap>, GridEngine<T, Form::
 
 /// The engine for these rings, of a mesh with a free vertex. `context` outlives it.
 template <class T>
-SweepEngine<T> make_sweep_engine(Context& context, const VertexOrder& order, PackedRings rings,
+SweepEngine<T> make_sweep_engine(Context& context, const VertexOrder& order, EngineRings rings,
                                  const SmoothingOptions& options) {
   return std::visit(
       [&]<class Rings>(Rings& kind) -> SweepEngine<T> {

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/paper/cdp.h"
 #include "trismooth/cuda/paper/paper_mesh.h"
 #include "trismooth/cuda/paper/single_block.h"

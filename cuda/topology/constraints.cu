@@ -44,13 +44,13 @@ struct DetermineConstraints {
 
   TRISMOOTH_HOST_DEVICE std::uint8_t look_around(std::int32_t v, const std::int32_t* own, int degree) const {
     const VertexFan fan(triangles, own, degree);
-    const FanLinks links(fan);
-    std::uint8_t reasons = links.is_one_fan() ? 0 : hold::bow_tie;
+    const FanPairs pairs(fan);
+    std::uint8_t reasons = pairs.is_one_fan() ? 0 : hold::bow_tie;
     for (int r = 0; r < 2 * degree; ++r) {
-      const int partner = links.partners[r];
-      if (partner == FanLinks::none) {
+      const int partner = pairs.partners[r];
+      if (partner == FanPairs::none) {
         reasons |= hold::boundary;
-      } else if (partner == FanLinks::many) {
+      } else if (partner == FanPairs::many) {
         reasons |= hold::non_manifold;
       } else if (partner > r) {
         const std::int32_t a = own[r / 2] / 3;

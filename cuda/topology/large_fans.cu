@@ -62,7 +62,7 @@ struct WriteRecords {
 };
 
 /// One thread a record, in sorted order: those of one edge are next to each other.
-struct LinkRecords {
+struct PairRecords {
   TriangleList triangles;
   CornersView corners;
   LargeFansView fans;
@@ -108,11 +108,11 @@ struct LinkRecords {
     }
     partners[record] = partner;
     if (after) {
-      link(key, record, partner, own_reasons);
+      pair(key, record, partner, own_reasons);
     }
   }
 
-  TRISMOOTH_HOST_DEVICE void link(std::uint64_t key, std::uint32_t record, std::uint32_t partner,
+  TRISMOOTH_HOST_DEVICE void pair(std::uint64_t key, std::uint32_t record, std::uint32_t partner,
                                   std::uint32_t* own_reasons) const {
     const std::uint32_t i = large_vertex_of(key);
     const std::int32_t a = fans.corner(corners, i, record / 2) / 3;
@@ -189,7 +189,7 @@ LargeFans find_large_fans(Context& context, const TriangleList& triangles, const
            WriteRecords{triangles, corners, fans.view(), slot_forest, keys.data(), records.data()});
   sort_by_key(context, keys, records, 32 + static_cast<int>(std::bit_width(fans.count - 1)));
   for_each(context, static_cast<std::uint32_t>(record_count),
-           LinkRecords{triangles, corners, fans.view(), regions, forest, slot_forest, keys.data(), records.data(),
+           PairRecords{triangles, corners, fans.view(), regions, forest, slot_forest, keys.data(), records.data(),
                        static_cast<std::uint32_t>(record_count), fans.partners.data(), reasons.data(), joined.data(),
                        device_findings});
   for_each(context, fans.count,

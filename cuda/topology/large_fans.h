@@ -15,7 +15,7 @@ namespace trismooth::cuda {
 /// corners: a hub may be in every triangle of the mesh. The corners of all of them stand in one row of slots, vertex by
 /// vertex. Record 2 s + side is a neighbour as in VertexFan, of slot s.
 struct LargeFansView {
-  static constexpr std::uint32_t none = 0xFFFFFFFFU;  ///< see FanLinks
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;  ///< see FanPairs
   static constexpr std::uint32_t many = 0xFFFFFFFEU;
 
   std::uint32_t count;            ///< large vertices

@@ -70,14 +70,14 @@ struct VertexFan {
 };
 
 /// Which records of a fan are of the same edge.
-struct FanLinks {
+struct FanPairs {
   static constexpr std::int8_t none = -1;  ///< an edge with one triangle: the neighbour is recorded once
   static constexpr std::int8_t many = -2;  ///< an edge with three triangles or more, or with two of the same corners
 
   int degree;
   std::int8_t partners[2 * VertexFan::capacity];  ///< of each record: the other one of its neighbour, none, or many
 
-  explicit TRISMOOTH_HOST_DEVICE FanLinks(const VertexFan& fan) : degree(fan.degree) {
+  explicit TRISMOOTH_HOST_DEVICE FanPairs(const VertexFan& fan) : degree(fan.degree) {
     constexpr std::int8_t unknown = -3;
     const int records = 2 * degree;
     for (int r = 0; r < records; ++r) {
@@ -110,7 +110,7 @@ struct FanLinks {
   /// Whether all corners hang together through edges with exactly two triangles.
   TRISMOOTH_HOST_DEVICE bool is_one_fan() const {
     int reached = 1;
-    // From the first corner to one end and then to the other, or once around. Links pair records, so the walk cannot
+    // From the first corner to one end and then to the other, or once around. Partners pair records, so the walk cannot
     // come back to any corner but the first.
     for (int start = 1; start >= 0; --start) {
       for (int record = start; partners[record] >= 0;) {

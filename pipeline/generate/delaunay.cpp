@@ -57,7 +57,7 @@ class GrowingTriangulation {
     std::int32_t outer_edge;
   };
 
-  void link(std::int32_t edge, std::int32_t twin) {
+  void pair(std::int32_t edge, std::int32_t twin) {
     twin_[edge] = twin;
     twin_[twin] = edge;
   }
@@ -90,8 +90,8 @@ GrowingTriangulation::GrowingTriangulation(std::span<const GridPoint> points, st
   twin_.resize(origin_.size());
   for (std::int32_t side = 0; side < 3; ++side) {
     const std::int32_t outer = 3 + 3 * side;
-    link(side, outer);
-    link(outer + 2, 3 + 3 * ((side + 1) % 3) + 1);
+    pair(side, outer);
+    pair(outer + 2, 3 + 3 * ((side + 1) % 3) + 1);
   }
 }
 
@@ -181,8 +181,8 @@ void GrowingTriangulation::fill_cavity(std::int32_t p) {
     origin_[edge] = p;
     origin_[edge + 1] = rim_[i].origin;
     origin_[edge + 2] = rim_[next].origin;
-    link(edge + 1, rim_[i].outer_edge);
-    link(edge + 2, 3 * cavity_[next]);
+    pair(edge + 1, rim_[i].outer_edge);
+    pair(edge + 2, 3 * cavity_[next]);
     if (rim_[i].origin != ghost && rim_[next].origin != ghost) {
       latest_edge_ = edge + 1;
     }

@@ -14,14 +14,14 @@
 #include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/smoothing/rings/vertex_link.h"
+#include "trismooth/smoothing/rings/vertex_rim.h"
 
 namespace trismooth {
 
 namespace {
 
 constexpr std::int64_t listed_grain = 16384;
-constexpr int part_bits = 13;  // so many vertices: their links take 400 KiB, which stay in the cache
+constexpr int part_bits = 13;  // so many vertices: their rims take 400 KiB, which stay in the cache
 constexpr std::int64_t parts_at_once = 256;
 
 /// Walks around the vertices of some parts at once: a part is vertices numbered in a row. The corners of all triangles
@@ -31,7 +31,7 @@ constexpr std::int64_t parts_at_once = 256;
 /// Who gets what is found there is a `Taker`:
 /// numbers: how many a corner is: its vertex, the edge opposite of it and, as a fourth, the halfedge that starts there;
 /// part(corners): begins a part, whose sorted corners those are, and gives what takes its vertices in their order:
-/// meets() is for walk_link(), then take(vertex, fan, size, halfedges) follows, or skip(vertex) of an isolated one;
+/// meets() is for walk_rim(), then take(vertex, fan, size, halfedges) follows, or skip(vertex) of an isolated one;
 /// parts(first, begins, corners): those parts have been walked.
 template <class Taker>
 class FanSearch {
@@ -134,36 +134,36 @@ class FanSearch {
   /// What the search of one part needs.
   struct Scratch {
     std::vector<std::int32_t> places = std::vector<std::int32_t>(part_size + 1);
-    BulkVector<LinkEdge> links;
-    BulkVector<std::int32_t> halfedges;  ///< at the corner of each link edge, where they are known
+    BulkVector<RimEdge> rims;
+    BulkVector<std::int32_t> halfedges;  ///< at the corner of each rim edge, where they are known
   };
 
   /// Walks around the vertices of one part. False where something is not as it has to be.
   bool walk_part(std::int64_t part, std::span<std::int32_t> corners, Scratch& scratch) {
     const auto first = static_cast<std::int32_t>(part << part_bits);
     const auto size = static_cast<std::int32_t>(std::min<std::int64_t>(part_size, vertex_count_ - first));
-    sort_links(corners, first, scratch);
+    sort_rims(corners, first, scratch);
     auto vertices = taker_.part(corners);
     std::int32_t begin = 0;
     for (std::int32_t i = 0; i < size; ++i) {
       const std::int32_t v = first + i;
       const std::int32_t end = scratch.places[i];
-      const auto link = std::span<const LinkEdge>(scratch.links)
-                            .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const auto rim = std::span<const RimEdge>(scratch.rims)
+                           .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
       hold_[v] = hold::isolated;
       tree_[v] = static_cast<std::uint32_t>(v) << 1U;
-      if (link.empty()) {
+      if (rim.empty()) {
         vertices.skip(v);
         continue;
       }
-      const Fan fan = link.size() > most_link_edges ? Fan::other : walk_link(link, vertices.meets());
+      const Fan fan = rim.size() > most_rim_edges ? Fan::other : walk_rim(rim, vertices.meets());
       if (fan == Fan::other) {
         return false;
       }
       hold_[v] = fan == Fan::open ? hold::boundary : std::uint8_t{0};
-      const LinkEdge& any = link.front();
+      const RimEdge& any = rim.front();
       tree_[v] = static_cast<std::uint32_t>(std::min({v, any.from, any.to})) << 1U;
-      vertices.take(v, fan, std::ssize(link),
+      vertices.take(v, fan, std::ssize(rim),
                     std::span<const std::int32_t>(scratch.halfedges)
                         .subspan(Taker::numbers > 3 ? static_cast<std::size_t>(begin) : 0));
       begin = end;
@@ -172,11 +172,11 @@ class FanSearch {
   }
 
   /// Sorts the opposite edges by their vertices: places[i] is then where those of the part's vertex i end.
-  static void sort_links(std::span<const std::int32_t> corners, std::int32_t first, Scratch& scratch) {
+  static void sort_rims(std::span<const std::int32_t> corners, std::int32_t first, Scratch& scratch) {
     std::ranges::fill(scratch.places, 0);
-    scratch.links.resize(corners.size() / Taker::numbers);
+    scratch.rims.resize(corners.size() / Taker::numbers);
     if constexpr (Taker::numbers > 3) {
-      scratch.halfedges.resize(scratch.links.size());
+      scratch.halfedges.resize(scratch.rims.size());
     }
     for (std::size_t i = 0; i < corners.size(); i += Taker::numbers) {
       ++scratch.places[corners[i] - first + 1];
@@ -184,7 +184,7 @@ class FanSearch {
     std::partial_sum(scratch.places.begin(), scratch.places.end(), scratch.places.begin());
     for (std::size_t i = 0; i < corners.size(); i += Taker::numbers) {
       const std::int32_t place = scratch.places[corners[i] - first]++;
-      scratch.links[place] = {corners[i + 1], corners[i + 2]};
+      scratch.rims[place] = {corners[i + 1], corners[i + 2]};
       if constexpr (Taker::numbers > 3) {
         scratch.halfedges[place] = corners[i + 3];
       }
@@ -356,7 +356,7 @@ class SideTaker {
     static std::int32_t coming_back(std::int32_t leaving) { return leaving % 3 == 0 ? leaving + 2 : leaving - 1; }
 
     TriangleTopology& topology_;
-    std::array<std::uint8_t, most_link_edges> met_{};
+    std::array<std::uint8_t, most_rim_edges> met_{};
   };
   Part part(std::span<std::int32_t> /*corners*/) { return Part(topology_); }
   void parts(std::int64_t /*first*/, std::span<const std::int64_t> /*begins*/,

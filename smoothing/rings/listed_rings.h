@@ -23,7 +23,7 @@ struct ListedRings {
 
 /// Finds them from the triangles around each vertex alone, without matching the sides of triangles, in about a third of
 /// the time. None where something is not as it has to be for that (see ListedRings), or a vertex has more than
-/// most_link_edges triangles; also where a triangle is faulty: connect_triangles() says how. Complexity: linear; takes
+/// most_rim_edges triangles; also where a triangle is faulty: connect_triangles() says how. Complexity: linear; takes
 /// 36 bytes a triangle on the way, of large meshes a quarter of that.
 std::optional<ListedRings> find_listed_rings(std::int32_t vertex_count, std::span<const Triangle> triangles,
                                              Workers& workers);

@@ -25,7 +25,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/paper/cdp_parent.cuh"
 #include "trismooth/cuda/paper/paper_mesh.h"
 #include "trismooth/cuda/runtime/device_buffer.h"

@@ -13,7 +13,7 @@
 
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"

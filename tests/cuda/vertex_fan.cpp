@@ -17,7 +17,7 @@ using test_meshes::Random;
 using trismooth::MeshRings;
 using trismooth::TriangleTopology;
 using trismooth::Workers;
-using trismooth::cuda::FanLinks;
+using trismooth::cuda::FanPairs;
 using trismooth::cuda::TriangleList;
 using trismooth::cuda::VertexFan;
 
@@ -43,29 +43,29 @@ TriangleList list_of(const Mesh& mesh) {
   return {mesh.triangles.data()->data(), static_cast<std::int32_t>(mesh.triangles.size())};
 }
 
-std::uint8_t reasons_of(const FanLinks& links) {
-  std::uint8_t reasons = links.is_one_fan() ? 0 : hold::bow_tie;
-  for (int r = 0; r < 2 * links.degree; ++r) {
-    reasons |= links.partners[r] == FanLinks::none ? hold::boundary : 0;
-    reasons |= links.partners[r] == FanLinks::many ? hold::non_manifold : 0;
+std::uint8_t reasons_of(const FanPairs& pairs) {
+  std::uint8_t reasons = pairs.is_one_fan() ? 0 : hold::bow_tie;
+  for (int r = 0; r < 2 * pairs.degree; ++r) {
+    reasons |= pairs.partners[r] == FanPairs::none ? hold::boundary : 0;
+    reasons |= pairs.partners[r] == FanPairs::many ? hold::non_manifold : 0;
   }
   return reasons;
 }
 
 /// Partners are records of the same neighbour, and of the triangles that the host has found to be on one edge.
-void require_linked(const TriangleTopology& topology, const TriangleList& triangles, const FanLinks& links,
+void require_paired(const TriangleTopology& topology, const TriangleList& triangles, const FanPairs& pairs,
                     const std::vector<std::int32_t>& own) {
-  for (int r = 0; r < 2 * links.degree; ++r) {
+  for (int r = 0; r < 2 * pairs.degree; ++r) {
     const std::int32_t corner = own[r / 2];
     // The edge to the neighbour before the vertex is the halfedge that starts at that neighbour.
     const std::int32_t halfedge = r % 2 == 0 ? corner : corner - corner % 3 + (corner % 3 + 2) % 3;
     const std::int32_t twin = topology.twins[halfedge];
-    const std::int8_t partner = links.partners[r];
+    const std::int8_t partner = pairs.partners[r];
     if (twin < 0) {
-      REQUIRE(partner == (twin == TriangleTopology::no_twin ? FanLinks::none : FanLinks::many));
+      REQUIRE(partner == (twin == TriangleTopology::no_twin ? FanPairs::none : FanPairs::many));
     } else {
       REQUIRE(partner >= 0);
-      REQUIRE(links.partners[partner] == r);
+      REQUIRE(pairs.partners[partner] == r);
       REQUIRE(own[partner / 2] / 3 == twin / 3);
       REQUIRE(triangles.neighbour(own[partner / 2], partner % 2) == triangles.neighbour(corner, r % 2));
     }
@@ -86,9 +86,9 @@ int require_host_results(const Mesh& mesh, Random& random) {
       continue;
     }
     const VertexFan fan(triangles, own.data(), static_cast<int>(own.size()));
-    const FanLinks links(fan);
-    require_linked(topology, triangles, links, own);
-    REQUIRE(int{reasons_of(links)} == int{topology.hold[v]});
+    const FanPairs pairs(fan);
+    require_paired(topology, triangles, pairs, own);
+    REQUIRE(int{reasons_of(pairs)} == int{topology.hold[v]});
     if (found.rings.is_free(v)) {
       std::vector<std::int32_t> ring(own.size());
       fan.write_ring([&](int k) { return found.reversed[own[k] / 3] != 0; }, ring.data());

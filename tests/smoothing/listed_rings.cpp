@@ -11,7 +11,7 @@
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_connectivity.h"
-#include "trismooth/smoothing/rings/vertex_link.h"
+#include "trismooth/smoothing/rings/vertex_rim.h"
 
 #include "catch.h"
 #include "support/hostile_meshes.h"
@@ -25,9 +25,9 @@ using test_meshes::Random;
 using trismooth::Constraints;
 using trismooth::Fan;
 using trismooth::find_listed_rings;
-using trismooth::LinkEdge;
 using trismooth::MeshConnectivity;
 using trismooth::OneRings;
+using trismooth::RimEdge;
 using trismooth::Triangle;
 using trismooth::TriangleTopology;
 using trismooth::Workers;
@@ -55,17 +55,17 @@ Mesh many_pieces(int count) {
   return mesh;
 }
 
-Fan fan_of(const std::vector<LinkEdge>& link) {
-  return trismooth::walk_link(link, [](int /*place*/, std::int32_t /*vertex*/, std::int32_t /*edge*/) {});
+Fan fan_of(const std::vector<RimEdge>& rim) {
+  return trismooth::walk_rim(rim, [](int /*place*/, std::int32_t /*vertex*/, std::int32_t /*edge*/) {});
 }
 
 }  // namespace
 
-TEST_CASE("a closed link is walked from its smallest vertex, in the direction of its edges") {
+TEST_CASE("a closed rim is walked from its smallest vertex, in the direction of its edges") {
   std::array<std::int32_t, 4> ring{};
-  const std::vector<LinkEdge> link{{7, 3}, {9, 5}, {3, 9}, {5, 7}};
+  const std::vector<RimEdge> rim{{7, 3}, {9, 5}, {3, 9}, {5, 7}};
   std::array<std::int32_t, 4> edges{};
-  REQUIRE(trismooth::walk_link(link, [&](int place, std::int32_t vertex, std::int32_t edge) {
+  REQUIRE(trismooth::walk_rim(rim, [&](int place, std::int32_t vertex, std::int32_t edge) {
             ring[static_cast<std::size_t>(place)] = vertex;
             edges[static_cast<std::size_t>(place)] = edge;
           }) == Fan::closed);
@@ -73,7 +73,7 @@ TEST_CASE("a closed link is walked from its smallest vertex, in the direction of
   CHECK(edges == std::array<std::int32_t, 4>{2, 1, 3, 0});
 }
 
-TEST_CASE("links that are one path, and links that are neither a circle nor a path, are told apart") {
+TEST_CASE("rims that are one path, and rims that are neither a circle nor a path, are told apart") {
   CHECK(fan_of({{1, 2}}) == Fan::open);
   CHECK(fan_of({{2, 1}, {4, 2}, {3, 4}}) == Fan::open);
   // Two circles, apart and through one vertex.

@@ -9,7 +9,7 @@
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/listed_rings.h"
-#include "trismooth/smoothing/rings/vertex_link.h"
+#include "trismooth/smoothing/rings/vertex_rim.h"
 
 #include "catch.h"
 
@@ -23,9 +23,8 @@ inline bool is_alike_in_fans(const trismooth::TriangleTopology& topology) {
                                 return (bits & ~(trismooth::hold::boundary | trismooth::hold::isolated)) != 0;
                               }) &&
          std::ranges::count(topology.parity, 0) == std::ssize(topology.parity) &&
-         std::ranges::all_of(topology.degree, [](std::int32_t degree) {
-           return degree <= static_cast<int>(trismooth::most_link_edges);
-         });
+         std::ranges::all_of(topology.degree,
+                             [](std::int32_t degree) { return degree <= static_cast<int>(trismooth::most_rim_edges); });
 }
 
 inline bool same(const trismooth::OneRings& a, const trismooth::OneRings& b) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"

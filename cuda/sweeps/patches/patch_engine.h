@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/sweeps/device_targets.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"

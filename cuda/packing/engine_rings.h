@@ -74,7 +74,7 @@ struct PaperRings {
   RingsView view() const { return rings.view(); }
 };
 
-using PackedRings = std::variant<GridRings<Form::swap>, GridRings<Form::in_place>, PatchedRings,
+using EngineRings = std::variant<GridRings<Form::swap>, GridRings<Form::in_place>, PatchedRings,
                                  PaperRings<Layout::aos>, PaperRings<Layout::soa>>;
 
 /// Calls visit(std::type_identity<Kind>{}) with the kind of rings for these options. Where it is GridRings, a mesh that
@@ -92,7 +92,7 @@ decltype(auto) with_rings_kind(const SmoothingOptions& options, const Visit& vis
 /// A mesh without its coordinates, ready for sweeps.
 struct PackedMesh {
   VertexOrder order;
-  PackedRings rings;  ///< empty where there is no free vertex
+  EngineRings rings;  ///< empty where there is no free vertex
 };
 
 /// Packs rings in input numbering for a run with these options, and gives their memory back on the way. `points` (one

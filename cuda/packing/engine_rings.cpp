@@ -1,4 +1,4 @@
-#include "trismooth/cuda/packing/packed_rings.h"
+#include "trismooth/cuda/packing/engine_rings.h"
 
 #include <algorithm>
 #include <utility>

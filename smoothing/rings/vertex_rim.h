@@ -11,7 +11,7 @@
 namespace trismooth {
 
 /// A side of a triangle, opposite of the corner that is looked from; it runs as the triangle is listed.
-struct LinkEdge {
+struct RimEdge {
   std::int32_t from;
   std::int32_t to;
 };
@@ -24,16 +24,16 @@ enum class Fan : std::uint8_t {
 };
 
 /// More triangles around a vertex are not walked around: every step looks at all of them.
-inline constexpr std::size_t most_link_edges = 64;
+inline constexpr std::size_t most_rim_edges = 64;
 
-/// The edges of a link by the vertices at which they begin, of which `Size` are looked at together and without
+/// The edges of a rim by the vertices at which they begin, of which `Size` are looked at together and without
 /// branches: which one it is cannot be guessed.
 template <std::size_t Size>
-class LinkBegins {
+class RimBegins {
  public:
-  explicit LinkBegins(std::span<const LinkEdge> link) {
+  explicit RimBegins(std::span<const RimEdge> rim) {
     begins_.fill(-1);
-    std::ranges::transform(link, begins_.begin(), &LinkEdge::from);
+    std::ranges::transform(rim, begins_.begin(), &RimEdge::from);
   }
 
   /// A bit for each edge that begins at `vertex`.
@@ -49,11 +49,11 @@ class LinkBegins {
   std::array<std::int32_t, Size> begins_;
 };
 
-/// walk_link() of no more than `Size` edges.
+/// walk_rim() of no more than `Size` edges.
 template <std::size_t Size, class Meet>
-Fan walk_link_of(std::span<const LinkEdge> link, const Meet& meet) {
-  const LinkBegins<Size> begins(link);
-  const auto size = static_cast<std::int32_t>(link.size());
+Fan walk_rim_of(std::span<const RimEdge> rim, const Meet& meet) {
+  const RimBegins<Size> begins(rim);
+  const auto size = static_cast<std::int32_t>(rim.size());
   std::int32_t met = 0;
   std::int32_t vertex = 0;
   // Meets vertices as long as each begins one edge, up to where the walk began, or as many as there are edges.
@@ -64,36 +64,36 @@ Fan walk_link_of(std::span<const LinkEdge> link, const Meet& meet) {
     for (auto edges = begins.at(vertex); edges != 0 && (edges & (edges - 1)) == 0; edges = begins.at(vertex)) {
       const std::int32_t edge = std::countr_zero(edges);
       meet(met++, vertex, edge);
-      vertex = link[static_cast<std::size_t>(edge)].to;
+      vertex = rim[static_cast<std::size_t>(edge)].to;
       if (vertex == begin || met == size) {
         return;
       }
     }
   };
-  const std::int32_t smallest = std::ranges::min(link, {}, &LinkEdge::from).from;
+  const std::int32_t smallest = std::ranges::min(rim, {}, &RimEdge::from).from;
   walk_from(smallest);
   if (met == size && vertex == smallest) {
     return size > 2 ? Fan::closed : Fan::other;
   }
   // An open fan begins at the one vertex to which no edge runs. (Two such make two walks, neither over all edges.)
   const auto first = std::ranges::find_if(
-      link, [link](const LinkEdge& edge) { return std::ranges::find(link, edge.from, &LinkEdge::to) == link.end(); });
-  if (first == link.end()) {
+      rim, [rim](const RimEdge& edge) { return std::ranges::find(rim, edge.from, &RimEdge::to) == rim.end(); });
+  if (first == rim.end()) {
     return Fan::other;
   }
   walk_from(first->from);
   return met == size && begins.at(vertex) == 0 ? Fan::open : Fan::other;
 }
 
-/// Walks along the link of a vertex (one edge at least, no more than most_link_edges) and calls meet(i, vertex, edge)
-/// for what it meets at place i: a vertex, and the number of the link's edge that begins there. Where the link is
+/// Walks along the rim of a vertex (one edge at least, no more than most_rim_edges) and calls meet(i, vertex, edge)
+/// for what it meets at place i: a vertex, and the number of the rim's edge that begins there. Where the rim is
 /// closed, these are all of its vertices, from the smallest on; where it is open, the beginnings of all of its edges,
 /// from one end to the other. Elsewhere they mean nothing. Places may be met twice: the last time counts.
 template <class Meet>
-Fan walk_link(std::span<const LinkEdge> link, const Meet& meet) {
-  return link.size() <= 8    ? walk_link_of<8>(link, meet)
-         : link.size() <= 16 ? walk_link_of<16>(link, meet)
-                             : walk_link_of<most_link_edges>(link, meet);
+Fan walk_rim(std::span<const RimEdge> rim, const Meet& meet) {
+  return rim.size() <= 8    ? walk_rim_of<8>(rim, meet)
+         : rim.size() <= 16 ? walk_rim_of<16>(rim, meet)
+                            : walk_rim_of<most_rim_edges>(rim, meet);
 }
 
 }  // namespace trismooth
