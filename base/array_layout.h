@@ -59,7 +59,7 @@ concept EigenMatrix = requires(std::remove_cvref_t<M>& m) {
   m.outerStride();
 };
 
-/// The same with memory of its own: no map, no block.
+/// An EigenMatrix with memory of its own: no map, no block.
 template <class M>
 concept OwningMatrix = EigenMatrix<M> && requires(std::remove_cvref_t<M>& m) {
   m.conservativeResize(m.rows(), m.cols());
@@ -182,7 +182,7 @@ constexpr bool is_between(int value, int low, int high) {
 /// A matrix whose type says that each column has `low` to `high` numbers, and nothing like it of the rows.
 template <class M, int low, int high>
 concept ColumnsOf = Matrix<M> && is_between(rows_of<M>, low, high) && !is_between(columns_of<M>, low, high);
-/// The same of the rows.
+/// A matrix whose type says that each row has `low` to `high` numbers, and nothing like it of the columns.
 template <class M, int low, int high>
 concept RowsOf = Matrix<M> && is_between(columns_of<M>, low, high) && !is_between(rows_of<M>, low, high);
 

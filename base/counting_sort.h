@@ -51,8 +51,8 @@ std::vector<std::int64_t> counting_sort_of_items(std::int64_t size, std::int64_t
   return begins;
 }
 
-/// Sorts the numbers i of [0, size) by key(i), from 0 to keys - 1, likewise. Calls put(i, place) for each i. Calls
-/// key(i) twice for each i, the second time before its put().
+/// Sorts the numbers i of [0, size) by key(i), from 0 to keys - 1, as counting_sort_of_items() does. Calls put(i,
+/// place) for each i. Calls key(i) twice for each i, the second time before its put().
 template <class Key, class Put>
 std::vector<std::int64_t> counting_sort(std::int64_t size, std::int64_t keys, const Key& key, const Put& put,
                                         Workers& workers) {

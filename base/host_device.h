@@ -3,7 +3,7 @@
 /// Marks functions that run on the host and, compiled by nvcc, on the device: one definition of each formula.
 #ifdef __CUDACC__
 #define TRISMOOTH_HOST_DEVICE __host__ __device__
-/// The same for a long function that a kernel calls at many places: one copy of it on the device. Inlined at each of
+/// Marks a long function for both that a kernel calls at many places: one copy of it on the device. Inlined at each of
 /// them it would take the compiler minutes.
 #define TRISMOOTH_HOST_DEVICE_CALL __host__ __device__ __noinline__
 #else

@@ -99,7 +99,8 @@ template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_rows(M&& matrix) {
   return IndexView(array_layout::matrix_rows(matrix));
 }
-/// The same with a triangle a column.
+/// An Eigen matrix of indices with a triangle a column, where its type does not tell. Throws std::invalid_argument
+/// unless columns have three numbers.
 template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_columns(M&& matrix) {
   return IndexView(array_layout::matrix_columns(matrix));

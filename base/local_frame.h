@@ -33,7 +33,7 @@ inline TRISMOOTH_HOST_DEVICE int normal_exponent(double value) {
   return static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52U & 0x7FFU) - 1023;
 }
 
-/// The same for any finite number but 0: a subnormal one is made normal first.
+/// The largest e with 2^e <= |value|, for any finite number but 0: a subnormal one is made normal first.
 inline TRISMOOTH_HOST_DEVICE int exponent_of(double value) {
   return std::abs(value) < std::numeric_limits<double>::min() ? normal_exponent(value * 0x1p54) - 54
                                                               : normal_exponent(value);
@@ -123,8 +123,8 @@ struct LocalFrame {
 /// bits. An axis along which all points are equal is translated to 0. No points: the identity. Complexity: linear.
 [[nodiscard]] LocalFrame local_frame(std::span<const Point2<double>> stored);
 
-/// The same from the corners of the points' bounding box, on the host or on the device. Corners in the wrong order are
-/// those of no points.
+/// The local frame from the corners of the points' bounding box, on the host or on the device. Corners in the wrong
+/// order are those of no points.
 [[nodiscard]] inline TRISMOOTH_HOST_DEVICE LocalFrame local_frame(Point2<double> low, Point2<double> high) {
   if (!(low.x <= high.x && low.y <= high.y)) {
     return {};
@@ -136,8 +136,8 @@ struct LocalFrame {
   return {x.centre, y.centre, exponent == Axis::no_extent ? 0 : exponent};
 }
 
-/// The same of the points for whose numbers `counts(std::size_t)` is true: a mesh's frame is that of the vertices that
-/// its cells use.
+/// The local frame of the points for whose numbers `counts(std::size_t)` is true: a mesh's frame is that of the
+/// vertices that its cells use.
 template <class Counts>
 [[nodiscard]] LocalFrame local_frame(std::span<const Point2<double>> stored, const Counts& counts) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

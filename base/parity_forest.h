@@ -51,7 +51,7 @@ struct ParityForest {
     }
   }
 
-  /// The same without shortening the path: writes nothing.
+  /// The root of an element, without shortening the path: writes nothing.
   TRISMOOTH_HOST_DEVICE Root look_up(std::uint32_t element) const {
     std::uint32_t parity = 0;
     for (;;) {

@@ -107,7 +107,7 @@ class ConstPointView {
   Storage storage_;
 };
 
-/// The same for points that are written as well: made from numbers that are not const.
+/// A ConstPointView of points that are written as well: made from numbers that are not const.
 class PointView : public ConstPointView {
  public:
   /// Points of a type that is two or three numbers.
@@ -121,7 +121,7 @@ class PointView : public ConstPointView {
       M&& matrix)
       : ConstPointView(array_layout::rows_by_type<2, 3>(matrix)) {}
 
-  /// As that of ConstPointView.
+  /// One point a row. Throws std::invalid_argument as the constructor of ConstPointView does.
   template <class T>
   requires array_layout::WritableCoordinate<T>
   explicit PointView(const NumberRows<T>& rows) : ConstPointView(rows) {}
@@ -173,7 +173,8 @@ template <array_layout::CoordinateNumbers R>
   return array_layout::flat_points(numbers, 2);
 }
 
-/// The same of x, y and z of every vertex. Throws std::invalid_argument unless there are three for each.
+/// An array of float or double as points: x, y and z of every vertex, one behind the other. To be read alone where the
+/// numbers are const. Throws std::invalid_argument unless there are three for each.
 template <array_layout::CoordinateNumbers R>
 [[nodiscard]] array_layout::PointsOf<array_layout::NumberOf<R>> xyz_points(R&& numbers) {
   return array_layout::flat_points(numbers, 3);
@@ -188,7 +189,8 @@ template <array_layout::Coordinate T>
   return array_layout::strided_points(first, count, stride_bytes, 2);
 }
 
-/// The same with y and z next to x.
+/// `count` points whose x lies `stride_bytes` behind that of the point before, with y and z next to it. A negative
+/// stride runs backwards. Throws std::invalid_argument where points would overlap or be out of alignment.
 template <array_layout::Coordinate T>
 [[nodiscard]] array_layout::PointsOf<T> xyz_points(T* first, std::size_t count,
                                                    std::ptrdiff_t stride_bytes = 3 * sizeof(T)) {
@@ -201,7 +203,8 @@ template <array_layout::CoordinateMatrix M>
 [[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_rows(M&& matrix) {
   return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_rows(matrix));
 }
-/// The same with a point a column.
+/// An Eigen matrix with a point a column, where its type does not tell. Throws std::invalid_argument unless columns
+/// have two or three numbers.
 template <array_layout::CoordinateMatrix M>
 [[nodiscard]] array_layout::PointsOf<array_layout::MatrixNumberOf<M>> point_columns(M&& matrix) {
   return array_layout::PointsOf<array_layout::MatrixNumberOf<M>>(array_layout::matrix_columns(matrix));

@@ -27,7 +27,7 @@ struct RepeatedTriangle {
 /// for a while.
 std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads = 0);
 
-/// The same with threads that are there.
+/// find_repeated_triangles() by threads that are there, of triangles as the library holds them.
 std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, Workers& workers);
 
 }  // namespace trismooth

@@ -89,7 +89,7 @@ inline std::int32_t next_corner(const MatchedSides& topology, std::span<const Tr
   return corner_across(topology, triangles, triangles[t][i], reversed[t] != 0 ? corner : 3 * t + (i + 2) % 3);
 }
 
-/// The same, clockwise.
+/// The corner before `corner` around its vertex: next_corner(), clockwise.
 inline std::int32_t previous_corner(const MatchedSides& topology, std::span<const Triangle> triangles,
                                     std::span<const std::uint8_t> reversed, std::int32_t corner) {
   const std::int32_t t = corner / 3;
@@ -115,7 +115,7 @@ struct CornersAround {
   std::int32_t leading(std::int32_t corner) const { return leading_neighbour(triangles, reversed, corner); }
 };
 
-/// The same where no triangle is reversed, or all are: the twin of a side runs the other way.
+/// What CornersAround answers, where no triangle is reversed, or all are: the twin of a side runs the other way.
 template <bool Reversed>
 struct AlikeCorners {
   const MatchedSides& sides;

@@ -47,7 +47,7 @@ class Plan {
   /// orientation of a component has changed. Throws MeshError for a coordinate that is not finite, DeviceError; `xy` is
   /// untouched then, unless the device failed in the very last step, which writes it.
   SmoothingResult smooth(double* xy, Storage storage = Storage::float64);
-  /// The same; results are rounded to float.
+  /// Smooths coordinates of float; results are rounded to float.
   SmoothingResult smooth(float* xy);
 
   /// Why each vertex is fixed: the bits of namespace hold, as MeshRings::fixed. Waits for the stream.
@@ -59,10 +59,11 @@ class Plan {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The same, once: analysis, sweeps and guard of a mesh in device memory, without a copy to the host and back.
+/// A Plan and its smooth(), once: analysis, sweeps and guard of a mesh in device memory, without a copy to the host and
+/// back.
 SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options = {},
                        cudaStream_t stream = nullptr);
-/// The same for coordinates of float.
+/// A Plan and its smooth(), once, for coordinates of float.
 SmoothingResult smooth(const DeviceMesh& mesh, float* xy, const SmoothingOptions& options = {},
                        cudaStream_t stream = nullptr);
 

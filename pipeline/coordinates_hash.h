@@ -11,7 +11,7 @@ namespace trismooth {
 /// every machine. Complexity: linear, at about the speed of memory.
 std::uint64_t coordinates_hash(std::span<const double> xyz);
 
-/// The same of a mesh in the plane z = 0: x and y of every vertex.
+/// coordinates_hash() of a mesh in the plane z = 0: x and y of every vertex.
 std::uint64_t planar_coordinates_hash(std::span<const double> xy);
 
 /// A hash as reports write it: 16 lower-case hexadecimal digits.

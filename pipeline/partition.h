@@ -11,7 +11,7 @@ namespace trismooth {
 
 /// How a mesh is shared out among the ranks of an MPI job. No result depends on it.
 enum class Partition : std::uint8_t {
-  keep,    ///< as the files have it: pieces, one block of them after the other; of one file, vertices likewise
+  keep,    ///< as the files have it: blocks of pieces that follow each other; of one file, of vertices
   bisect,  ///< halved again and again, across the longer side of each half
   metis    ///< by METIS, where the build has it: blocks of vertices with few edges between ranks
 };

@@ -141,8 +141,8 @@ struct InputSummary {
   std::string fixed_array;                 ///< the point array that was obeyed, or empty
   std::int64_t fixed_array_vertices = 0;   ///< where it is not zero
   std::vector<FilePointSet> point_sets;    ///< that the file has, in its order
-  std::vector<FileCellSet> cell_sets;      ///< likewise
-  std::vector<FileLineGroup> line_groups;  ///< likewise
+  std::vector<FileCellSet> cell_sets;      ///< that the file has, in its order
+  std::vector<FileLineGroup> line_groups;  ///< that the file has, in its order
   std::string size_array;                  ///< the array that sizes were taken from, or empty
   bool sizes_are_areas = false;            ///< of cells, not edge lengths at points
   std::filesystem::path fixed_ids;         ///< the file of vertex numbers, or empty
@@ -173,23 +173,24 @@ struct PipelineResult {
   Topology topology = Topology::host;  ///< who found the neighbours: host, halfedge or device
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
-  std::optional<SmoothingResult> smoothing;          ///< likewise
+  std::optional<SmoothingResult> smoothing;          ///< absent where nothing was smoothed
   std::optional<QuadraticQuality> quadratic_before;  ///< absent where the mesh has no quadratic triangles
-  std::optional<QuadraticQuality> quadratic_after;   ///< likewise, and where nothing was smoothed
-  std::optional<SizeChange> size_change;             ///< likewise
-  std::optional<SizeFit> size_fit_before;            ///< to the sizes asked for; absent where none were
-  std::optional<SizeFit> size_fit_after;             ///< likewise
-  std::vector<InterpolatedField> fields;             ///< point arrays whose values followed the mesh
-  std::vector<std::string> region_names;             ///< each region's value in the file; of several arrays, "1, 7"
-  std::vector<RegionArea> areas;                     ///< of each region, where vertices may slide; of all triangles
-                                                     ///< together where there are no regions
-  std::vector<RegionQuality> regions_before;         ///< of each region; empty where there are no two
-  std::vector<RegionQuality> regions_after;          ///< likewise, and where nothing was smoothed
-  std::uint64_t coordinates_hash = 0;                ///< XXH64 of the output coordinates x, y, z as float64
-  std::uint64_t unguarded_hash = 0;                  ///< the same before the guard took vertices back
-  std::vector<std::string> notes;                    ///< what the user should know, one sentence each
-  std::vector<std::string> losses;    ///< what the output does not hold of the input, likewise: always shown
-  std::vector<std::string> warnings;  ///< what the user should have known before the smoothing, likewise
+  std::optional<QuadraticQuality>
+      quadratic_after;                     ///< of the result; absent where quadratic_before is, or nothing was smoothed
+  std::optional<SizeChange> size_change;   ///< absent where nothing was smoothed
+  std::optional<SizeFit> size_fit_before;  ///< to the sizes asked for; absent where none were
+  std::optional<SizeFit> size_fit_after;   ///< of the result; absent where size_fit_before is, or nothing was smoothed
+  std::vector<InterpolatedField> fields;   ///< point arrays whose values followed the mesh
+  std::vector<std::string> region_names;   ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionArea> areas;           ///< of each region, where vertices may slide; of all triangles
+                                           ///< together where there are no regions
+  std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
+  std::vector<RegionQuality> regions_after;   ///< of the result; empty also where nothing was smoothed
+  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates x, y, z as float64
+  std::uint64_t unguarded_hash = 0;           ///< coordinates_hash before the guard took vertices back
+  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+  std::vector<std::string> losses;    ///< what the output does not hold of the input, one sentence each: always shown
+  std::vector<std::string> warnings;  ///< what the user should have known before the smoothing, one sentence each
   PipelineTimings timings_ms;
   std::int64_t peak_memory_bytes = 0;  ///< of this process so far
 };
@@ -203,7 +204,7 @@ void require_known_formats(const PipelineOptions& options);
 /// std::invalid_argument for options that do not fit the input, Cancelled.
 PipelineResult run_pipeline(const PipelineOptions& options);
 
-/// The same on a mesh that has been read: all stages but reading and writing. `document` is as it was wherever this
+/// Runs the stages on a mesh that has been read: all but reading and writing. `document` is as it was wherever this
 /// throws, else its points, and the point arrays that follow the mesh, are those of the result: write_mesh() writes
 /// them. `options.input` names the mesh in messages; `options.output` and `options.format` mean nothing: what follows
 /// the mesh is chosen for the format that the mesh was read from. The result has no hash, time or loss of writing.

@@ -49,7 +49,7 @@ std::vector<OrientationVotes> orientation_votes(const TriangleComponents& compon
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points, Workers& workers);
 
-/// The same on the calling thread.
+/// orient() on the calling thread.
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points);
 

@@ -35,8 +35,8 @@ inline QuadraticNodes quadratic_nodes(const Triangle& corners, const std::array<
                                       at(middles[0]), at(middles[1]), at(middles[2])};
 }
 
-/// Finds it; the points of the view have the middles, too. `threads` as in QualityOptions; the same for every number of
-/// them. Complexity: linear.
+/// How valid `elements` are, the triangles of the view with their middles, which are among its points. `threads`: 0 for
+/// all; the same bits for every number of them. Throws std::invalid_argument for a wrong one. Complexity: linear.
 [[nodiscard]] QuadraticQuality quadratic_quality(const TriangleView& view, std::span<const QuadraticTriangle> elements,
                                                  int threads = 0);
 

@@ -33,7 +33,7 @@ namespace trismooth {
 /// Indexed by Metric.
 using ElementValues = std::array<std::span<double>, metric_count>;
 
-/// The same, with the value of each metric asked for of every triangle: what the report sums up. Areas are in the
+/// The report, and the value of each metric asked for of every triangle: what the report sums up. Areas are in the
 /// caller's units; values may be infinite (see evaluate()), never NaN. The caller owns `values`; throws
 /// std::invalid_argument unless each is empty or has one place a triangle.
 QualityReport quality(const ConstPointView& points, const IndexView& triangles, const ElementValues& values,

@@ -13,7 +13,7 @@ struct SizeChange {
   std::int64_t left_out = 0;   ///< the others: inverted or degenerate before or after
   double rms_log_ratio = 0;    ///< the root mean square of ln(A / A0): 0.1 is about 10 % up or down
   double ratio_p1 = 1;         ///< the 1st percentile of A / A0: the smallest ratio that 1 % do not exceed
-  double ratio_p99 = 1;        ///< the 99th percentile, likewise
+  double ratio_p99 = 1;        ///< the 99th percentile: the smallest ratio that 99 % do not exceed
 };
 
 /// The change from `before` to `after`, which have the same triangles, `reversed` or not, in the same order; frames may

@@ -70,7 +70,7 @@ class Backend {
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
-  /// The same for a caller who keeps the mesh. It is copied where the backend has no other way.
+  /// prepare() for a caller who keeps the mesh. It is copied where the backend has no other way.
   virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
                                                          std::span<const Point2<double>> local,
                                                          const SmoothingOptions& options) const {

@@ -42,7 +42,7 @@ void count_invalid(std::span<const Triangle> triangles, std::span<const std::uin
   result.degenerate = degenerate;
 }
 
-/// The same of all triangles.
+/// count_invalid() of all triangles.
 template <class Position>
 void count_invalid(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                    const Position& position, Workers& workers, SmoothingResult& result) {

@@ -90,7 +90,8 @@ struct SlidingResult {
   /// Vertices that would slide but for others that lie in the same place, or within a thousandth of an edge of it, and
   /// with which they do not slide as one: see Sliding::coincident.
   std::int64_t in_same_place = 0;
-  /// Likewise: that lie within an edge of another line without being its ends, and the ends of these edges.
+  /// Vertices that would slide but for an edge of another line within which they lie without being its ends, and the
+  /// ends of these edges.
   std::int64_t at_edges = 0;
   /// So many vertices would have gone back for what slid that all was smoothed once more without sliding: this is what
   /// came of that.
@@ -124,8 +125,8 @@ struct SmoothingResult {
   std::int32_t colours = 0;                    ///< of Form B; 0 for Form A
   std::vector<SweepRecord> history;            ///< one record a sweep
   std::vector<RevertedVertex> reverted;        ///< ascending by vertex
-  std::optional<UntanglingResult> untangling;  ///< where it was asked for
-  std::optional<SlidingResult> sliding;        ///< likewise
+  std::optional<UntanglingResult> untangling;  ///< where untangling was asked for
+  std::optional<SlidingResult> sliding;        ///< where sliding was asked for
   LayersResult layers;                         ///< nothing with Layers::smooth
   std::string backend;                         ///< "cpu", "cuda"
   std::string device;                          ///< the processor or GPU by name

@@ -32,7 +32,7 @@ class [[nodiscard]] SmoothingPlan {
   /// not fit. Complexity: linear, but for sorting the edges of each vertex.
   SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                 const SmoothingOptions& options = {});
-  /// The same without constraints: fixed is what the mesh itself holds.
+  /// A plan without constraints: fixed is what the mesh itself holds.
   SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options = {});
   SmoothingPlan(SmoothingPlan&&) noexcept;
   SmoothingPlan& operator=(SmoothingPlan&&) noexcept;
@@ -48,7 +48,7 @@ class [[nodiscard]] SmoothingPlan {
   /// linear in each sweep and never more than the vertices whose neighbourhood changed; n log n in the first call.
   SmoothingResult smooth(const PointView& points, Storage storage = Storage::float64);
 
-  /// The same for a plain array of float or double: x and y of every vertex, 2 n numbers.
+  /// Smooths a plain array of float or double: x and y of every vertex, 2 n numbers.
   template <array_layout::CoordinateNumbers R>
   SmoothingResult smooth(R&& xy, Storage storage = Storage::float64) {
     return smooth(xy_points(xy), storage);
@@ -63,17 +63,17 @@ class [[nodiscard]] SmoothingPlan {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The same, as a function: `auto p = plan(n, triangles, constraints, options); p.smooth(points);`
+/// Makes a SmoothingPlan: `auto p = plan(n, triangles, constraints, options); p.smooth(points);`
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                    const SmoothingOptions& options = {});
-/// The same without constraints.
+/// Makes a SmoothingPlan without constraints: fixed is what the mesh itself holds.
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options = {});
 
 /// Smooths the caller's points in place, once. For arguments, errors and guarantees see SmoothingPlan. What was done is
 /// in the result, which nobody has to look at.
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const Constraints& constraints,
                        const SmoothingOptions& options = {});
-/// The same without constraints: fixed is what the mesh itself holds.
+/// Smooths the caller's points in place, once, without constraints: fixed is what the mesh itself holds.
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const SmoothingOptions& options = {});
 
 /// A plain array does not say whether it holds x and y or x, y and z of a vertex: say xy_points(array) or
@@ -107,7 +107,7 @@ SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Smoothin
 /// How valid the elements are is to be had of quadratic_quality() (quadratic_quality.h).
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
                                  const Constraints& constraints, const SmoothingOptions& options = {});
-/// The same without constraints.
+/// Smooths a mesh of quadratic triangles without constraints: fixed is what the mesh itself holds.
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
                                  const SmoothingOptions& options = {});
 

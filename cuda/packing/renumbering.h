@@ -31,7 +31,7 @@ class Renumbering {
 
 /// The rings of the free vertices, `entries` neighbours in all at most.
 DeviceRings renumbered(Context& context, const Renumbering& numbers, std::size_t entries);
-/// The same in records.
+/// The rings of the free vertices in records.
 template <class Slot>
 SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers);
 /// The colours of the free vertices, below 256; `colours` are of all vertices in input numbering. Null: none.

@@ -25,7 +25,7 @@ void gather_rows(const Context& context, const StridedRows& rows, T* packed);
 template <class T>
 void scatter_rows(const Context& context, const T* packed, const StridedRows& rows);
 
-/// The same as gather_rows() for integers of any type, as int32. One that has no place there becomes
+/// gather_rows() for integers of any type, as int32. One that has no place there becomes
 /// `no_place_in_32_bits`, which is none of any vertices.
 inline constexpr std::int32_t no_place_in_32_bits = INT32_MIN;
 void gather_integers(const Context& context, const StridedRows& rows, bool is_signed, std::size_t bytes_of_each,

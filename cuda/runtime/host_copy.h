@@ -39,7 +39,7 @@ class HostCopier {
     Overwriting target(std::as_writable_bytes(to), nullptr, workers_);
     download(target, from);
   }
-  /// The same to where somebody says, who has chosen what is to be left where the download breaks off.
+  /// Downloads to memory of an owner who has chosen what is to be left where the download breaks off.
   template <class T>
   void download(Overwriting& target, const DeviceBuffer<T>& from) {
     download(target, from.data());

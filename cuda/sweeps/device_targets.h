@@ -51,7 +51,7 @@ class DeviceTargets {
   DeviceBuffer<FixedVertexArea> fixed_;  ///< one a fixed vertex, where no sizes are asked for
   DeviceBuffer<T> inverse_sizes_;        ///< one a vertex, where they are
   DeviceBuffer<EdgeTensor<T>> around_;   ///< edges around each vertex, where shapes are to be kept
-  DeviceBuffer<EdgeTensor<T>> edges_;    ///< MeanRatioTargets::edges, likewise
+  DeviceBuffer<EdgeTensor<T>> edges_;    ///< MeanRatioTargets::edges, where shapes are to be kept
 };
 
 }  // namespace trismooth::cuda

@@ -30,8 +30,9 @@ struct CommandEnvironment {
 /// progress alone moves the cursor.
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
 
-/// The same for the program, once in a process, which it takes over: the standard streams (closed ones are opened), the
-/// signals (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what VTK says.
+/// Runs the command line as the program does, once in a process, which it takes over: the standard streams (closed ones
+/// are opened), the signals (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what
+/// VTK says.
 int run_command_line(int argc, const char* const* argv);
 
 }  // namespace trismooth

@@ -37,7 +37,7 @@ std::int64_t parse_count(std::string_view text, std::int64_t lowest, std::int64_
 /// The finite number that `text` states. Throws std::invalid_argument. Independent of the locale.
 double parse_finite(std::string_view text);
 
-/// The same, not below `lowest`.
+/// A finite number that is not below `lowest`. Throws std::invalid_argument.
 double parse_finite(std::string_view text, double lowest);
 
 /// The parts of "a,b,c", each parsed.

@@ -28,7 +28,7 @@ class TerminalLine {
   /// Draws on the terminal's stream, which is not null and must outlive it. Nobody else writes to that while the line
   /// is visible.
   explicit TerminalLine(Terminal terminal);
-  /// The same for tests, with their own clock: it runs when tick() is called.
+  /// A line for tests, with their own clock: it runs when tick() is called.
   TerminalLine(Terminal terminal, std::function<Clock::time_point()> now);
   TerminalLine(const TerminalLine&) = delete;
   TerminalLine& operator=(const TerminalLine&) = delete;

@@ -104,14 +104,15 @@ Storage storage_of(const MeshDocument& document);
 /// to smooth. Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
-/// The same on the calling thread.
+/// planar_mesh() on the calling thread.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
 
-/// The same of a mesh that may lie in no plane, laid into the plane of x and y: z has no say. Do not settle its plane.
+/// planar_mesh() of a mesh that may lie in no plane, laid into the plane of x and y: z has no say. Do not settle its
+/// plane.
 PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
-/// The same of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for the
-/// whole mesh. Throws ReadError naming `path` for too many points or cells.
+/// planar_mesh() of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for
+/// the whole mesh. Throws ReadError naming `path` for too many points or cells.
 PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// What the user should know of cells that are no triangles, one sentence each. `first_repeating`: the first triangle
@@ -133,7 +134,7 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
 /// number that is not below `vertex_count`.
 std::vector<std::int64_t> read_vertex_numbers(const std::filesystem::path& path, std::int64_t vertex_count);
 
-/// The same of a mesh whose vertices 32 bits can number.
+/// read_vertex_numbers() of a mesh whose vertices 32 bits can number.
 std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std::int64_t vertex_count);
 
 /// The vertices with these labels: the numbers that the document's own file gives its points, be it as global ids

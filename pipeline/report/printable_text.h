@@ -24,7 +24,7 @@ TextPiece first_piece(std::string_view text);
 /// feeds as well, so it is one line. A backslash stays as it is: escaping twice is the same as once.
 std::string printable(std::string_view text);
 
-/// The same of a text of several lines: line feeds stay.
+/// printable() of a text of several lines: line feeds stay.
 std::string printable_lines(std::string_view text);
 
 }  // namespace trismooth

@@ -20,7 +20,7 @@ std::vector<std::string> short_region_names(const PipelineResult& result);
 /// Regions that a run without --verbose still shows in a table.
 inline constexpr std::size_t few_regions = 12;
 
-/// The same for a page: an HTML table, of every region.
+/// The quality of every region for a page: an HTML table.
 std::string region_table_html(const PipelineResult& result);
 
 }  // namespace trismooth

@@ -35,7 +35,7 @@ struct RunState {
   std::vector<DataArray> stage_arrays;    ///< point arrays for the output, of the program's own stage
   std::vector<std::size_t> fields;        ///< point arrays of the document that follow the mesh
   std::vector<double> input_points;       ///< for annotations of a smoothing
-  std::vector<DataArray> metrics_before;  ///< likewise
+  std::vector<DataArray> metrics_before;  ///< for annotations of a smoothing
 
   /// Brings the points of the mesh into the local frame of those that cells use.
   void enter_frame();

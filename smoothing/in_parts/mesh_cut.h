@@ -18,7 +18,7 @@ class Workers;
 /// A part cut out of a mesh that this process has as a whole: what Backend::prepare() takes.
 struct CutPart {
   MeshRings mesh;                     ///< in the part's numbers, MeshRings::part with it
-  std::vector<Triangle> triangles;    ///< likewise: those without a free vertex that this part counts
+  std::vector<Triangle> triangles;    ///< in its numbers: those without a free vertex that this part counts
   std::vector<Point2<double>> local;  ///< its vertices in the local frame
   BulkVector<std::int32_t> vertices;  ///< the number in the whole mesh of each of its vertices, ascending
 

@@ -24,7 +24,7 @@ struct FlatTriangle {
   Triangle corners;  ///< in whatever numbering
   Angle angle;
   double xx;        ///< of its edge tensor with trace 1; yy is 1 - xx
-  double xy;        ///< likewise
+  double xy;        ///< of that tensor
   double quotient;  ///< shape_quotient(), above 0
 };
 

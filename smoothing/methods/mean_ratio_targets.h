@@ -208,7 +208,7 @@ constexpr TRISMOOTH_HOST_DEVICE T inverse_target_area(T mean_area, const MeanRat
   return T(1) / (mean_area > T(0) ? mean_area : static_cast<T>(mesh.mean_area));
 }
 
-/// The same where sizes are asked for.
+/// MeanRatioTargets::inverse_areas of a vertex, where sizes are asked for.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T inverse_asked_area(T inverse_size, const MeanRatioMesh& mesh) {
   return inverse_size * static_cast<T>(mesh.size_scale);

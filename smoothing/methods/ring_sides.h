@@ -132,7 +132,7 @@ struct SideTerms {
   V share;   ///< share_of_error()
 };
 
-/// The same of all of them.
+/// What a method finds for all triangles around a vertex together.
 template <class V, int count>
 struct SideTotals {
   V sums[count];  ///< of the values, added in the order of the ring: the same bits whoever adds

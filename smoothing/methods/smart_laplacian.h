@@ -83,7 +83,7 @@ struct SmartLaplacian {
     return update(position, ring, worst_quotient(position, ring));
   }
 
-  /// The same where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
+  /// update() where `before`, the smallest quotient around the vertex, is known: the paper's stored minimum.
   template <class T, class Ring>
   static constexpr TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
     return smart_move(position, target(position, ring), ring, before);

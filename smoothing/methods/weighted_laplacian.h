@@ -41,7 +41,7 @@ struct WeightedLaplacian {
     return update(position, ring, worst_quotient(position, ring));
   }
 
-  /// The same where `before`, the smallest quotient around the vertex, is known.
+  /// update() where `before`, the smallest quotient around the vertex, is known.
   template <class T, class Ring>
   static TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
     return smart_move(position, target(position, ring), ring, before);

@@ -39,7 +39,7 @@ class AnalysedMesh {
 
   /// All that is known, after points have been looked at. Complexity: linear.
   MeshRings with_rings(std::span<const Triangle> triangles, Workers& workers) const&;
-  /// The same, for the last time: the memory of what is known goes into it.
+  /// All that is known, for the last time: the memory of it goes into the result.
   MeshRings with_rings(std::span<const Triangle> triangles, Workers& workers) &&;
 
  private:

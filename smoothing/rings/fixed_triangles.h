@@ -52,7 +52,7 @@ class FixedTriangles {
     return smallest;
   }
 
-  /// How many of them are inverted or degenerate, likewise.
+  /// How many of them are inverted or degenerate, where position(v) is vertex v in the local frame.
   template <class Position>
   std::int64_t inverted(const Position& position) const {
     return std::ranges::count_if(corners_, [&](const Triangle& triangle) {

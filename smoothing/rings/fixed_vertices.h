@@ -25,7 +25,7 @@ std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::
 std::vector<std::uint8_t> fixed_vertices(const ListedRings& listed, std::span<const Triangle> triangles,
                                          const Constraints& constraints, Workers& workers);
 
-/// The same on the calling thread.
+/// fixed_vertices() on the calling thread.
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
                                          const Constraints& constraints);
 

@@ -33,7 +33,7 @@ class MeshConnectivity {
   /// As the function of this name.
   OneRings one_rings(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                      std::span<const std::uint8_t> fixed, Workers& workers) const&;
-  /// The same, for the last time: the memory of what is known goes into the rings.
+  /// one_rings(), for the last time: the memory of what is known goes into the rings.
   OneRings one_rings(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                      std::span<const std::uint8_t> fixed, Workers& workers) &&;
 

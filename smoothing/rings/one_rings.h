@@ -50,7 +50,7 @@ struct OneRings {
     Workers one(1);
     return with_sizes(vertex_count, size, one);
   }
-  /// The same on several threads.
+  /// with_sizes() on several threads.
   template <class Size>
   static OneRings with_sizes(std::int32_t vertex_count, const Size& size, Workers& workers) {
     OneRings rings;
@@ -90,7 +90,7 @@ OneRings one_rings(const TriangleTopology& topology, std::span<const Triangle> t
 
 OneRings one_rings(const ListedRings& listed, std::span<const Triangle> triangles,
                    std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers);
-/// The same, for the last time: where the rings are those that are listed, they are handed over.
+/// one_rings(), for the last time: where the rings are those that are listed, they are handed over.
 OneRings one_rings(ListedRings&& listed, std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
                    std::span<const std::uint8_t> fixed, Workers& workers);
 

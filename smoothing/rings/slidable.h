@@ -71,7 +71,7 @@ void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices);
 Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
                        const Constraints& constraints, Workers& workers);
 
-/// The same from what lies at the lines.
+/// find_slidable() from what lies at the lines.
 Slidable find_slidable(NearLines near, const Sliding& slide);
 
 }  // namespace trismooth

@@ -13,8 +13,8 @@ struct ListedSide {
   std::int32_t first;
   std::int32_t second;
   std::int32_t triangle;
-  bool first_is_unknown;  ///< that corner has no free neighbour; likewise:
-  bool second_is_unknown;
+  bool first_is_unknown;   ///< that corner has no free neighbour
+  bool second_is_unknown;  ///< that one has none
 };
 
 /// What is around vertices that may slide, as far as connectivity says it: all that can be prepared before anybody

@@ -24,15 +24,15 @@ struct SlideChains {
   std::vector<SlideChain> chains;
   std::vector<Point2<double>> knots;
   std::vector<std::int32_t> vertices;
-  std::vector<std::int32_t> fan_at;      ///< likewise: the number in the Slidable
-  std::vector<double> arcs;              ///< one a knot of all copies; those of the first copy count
-  std::vector<std::uint8_t> bends;       ///< likewise: 0 where the polyline is straight to rounding
-  std::vector<double> lengths;           ///< likewise: of the shorter one of both segments
-  std::vector<double> limits;            ///< likewise: how far the new line may be from the knot before it is stored...
-  std::vector<double> allowed;           ///< ...and how far it may be then: rounding, of what is stored, is between
-  std::vector<Slider> sliders;           ///< by colour: those of one may be updated at the same time
-  std::vector<std::int32_t> batches{0};  ///< colour c has sliders batches[c] .. batches[c + 1]
-  std::vector<SlidePlace> places;        ///< of the knots themselves
+  std::vector<std::int32_t> fan_at;  ///< of each of these vertices: its number in the Slidable
+  std::vector<double> arcs;          ///< one a knot of all copies; those of the first copy count
+  std::vector<std::uint8_t> bends;   ///< one a knot: 0 where the polyline is straight to rounding
+  std::vector<double> lengths;       ///< one a knot: of the shorter one of both segments
+  std::vector<double> limits;        ///< one a knot: how far the new line may be from the knot before it is stored...
+  std::vector<double> allowed;       ///< ...and how far it may be then: rounding, of what is stored, is between
+  std::vector<Slider> sliders;       ///< by colour: those of one may be updated at the same time
+  std::vector<std::int32_t> batches{0};       ///< colour c has sliders batches[c] .. batches[c + 1]
+  std::vector<SlidePlace> places;             ///< of the knots themselves
   const SlideTriangles* triangles = nullptr;  ///< of others; corners have the numbers that vertices have here
   SlideCurve curve = SlideCurve::polyline;
   HeldTouching held;  ///< on none of the chains

@@ -45,9 +45,10 @@ class SlideGuard {
   /// `reverted`. Returns the rounds. Complexity of a round: linear in the knots.
   std::int64_t settle(std::vector<std::int32_t>& reverted);
 
-  /// The same of triangles that offend (see offends()), of which T is the smaller one of that of the others,
-  /// GuardOutcome::threshold, and the smallest quotient before of those with a vertex that is elsewhere. Where this
-  /// takes rounds, lines and other elements are to be judged again. Complexity of a round: linear in the triangles.
+  /// Puts back in rounds what makes triangles offend (see offends()), of which T is the smaller one of that of the
+  /// others, GuardOutcome::threshold, and the smallest quotient before of those with a vertex that is elsewhere. Adds
+  /// the vertices that went back to `reverted`. Returns the rounds. Where this takes rounds, lines and other elements
+  /// are to be judged again. Complexity of a round: linear in the triangles.
   std::int64_t settle_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted);
 
   /// What settle() found at last.

@@ -24,7 +24,7 @@ struct SlideTriangles {
   /// Vertices have the numbers of `slidable`. `reversed`: as MeshRings::reversed, of its triangles. Complexity: linear.
   SlideTriangles(const Slidable& slidable, std::span<const std::uint8_t> reversed);
 
-  /// The same where vertex v, as a corner, has the number numbers[v].
+  /// These triangles, where vertex v, as a corner, has the number numbers[v].
   SlideTriangles renumbered(std::span<const std::int32_t> numbers) const;
 
   std::span<const FanSide> around(std::int32_t v) const {

@@ -46,7 +46,7 @@ struct SlideMove {
   SlidePlace place;
   bool moved;
   double moved_squares;  ///< see MoveLength::moved, of all copies
-  double squares;        ///< see MoveLength::sum, likewise
+  double squares;        ///< see MoveLength::sum, of all copies
 };
 
 /// One slider and its surroundings. `Points`: points(v) is the position of a packed vertex; `Team`: as SlideAlone.
@@ -200,7 +200,7 @@ TRISMOOTH_HOST_DEVICE SlideMove slide(const Laplacian& /*method*/, const Vertex&
   return vertex.moves_to(vertex.as_far_as_it_may(vertex.middle()));
 }
 
-/// The same if the worst of its triangles gets better (the paper's rule, section 3.3.4).
+/// To the middle if the worst of its triangles gets better (the paper's rule, section 3.3.4).
 template <class Vertex>
 TRISMOOTH_HOST_DEVICE SlideMove slide(const SmartLaplacian& /*method*/, const Vertex& vertex,
                                       const FanTarget& /*target*/) {

@@ -59,7 +59,7 @@ class RingGatherer {
     return with_ring_of_any_size(points, ring, function);
   }
 
-  /// The same by code that is not unrolled.
+  /// with_ring() by code that is not unrolled.
   template <class Function>
   auto with_ring_of_any_size(std::span<const Point2<T>> points, std::span<const std::int32_t> ring,
                              const Function& function) {

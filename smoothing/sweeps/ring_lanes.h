@@ -17,8 +17,8 @@ struct LaneMoves {
   alignas(64) T undecided[lanes] = {};  ///< that is to be asked for alone
 };
 
-/// The same with their rings, which are of one size. Loops over lanes do in one instruction what a register has room
-/// for.
+/// LaneMoves with the rings of their vertices, which are of one size. Loops over lanes do in one instruction what a
+/// register has room for.
 template <class T>
 struct RingLanes : LaneMoves<T> {
   using LaneMoves<T>::lanes;

@@ -43,7 +43,8 @@ UntangleOutcome untangle(const RingView& rings, std::span<Point2<double>> points
 /// The triangles with a free vertex that are inverted or degenerate. Complexity: one pass.
 std::int64_t inverted_triangles(const RingView& rings, std::span<const Point2<double>> points, Workers& workers);
 
-/// The same of a part of a mesh: triangles that several parts know are counted in one of them. Complexity: linear.
+/// inverted_triangles() of a part of a mesh: triangles that several parts know are counted in one of them. Complexity:
+/// linear.
 std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<const Point2<double>> points);
 
 }  // namespace trismooth

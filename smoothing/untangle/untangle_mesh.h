@@ -38,7 +38,8 @@ std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle>
 /// What untangle_mesh() did.
 struct MeshUntangling {
   std::int64_t inverted_before = 0;  ///< as UntangleOutcome, in the orientation that the input has
-  std::int64_t inverted_after = 0;   ///< likewise, where components have been turned over in the one that they have now
+  std::int64_t inverted_after =
+      0;  ///< as UntangleOutcome, where components have been turned over in the one that they have now
   TurnedComponents turned;
 };
 
