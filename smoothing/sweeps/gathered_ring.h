@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,20 +9,9 @@
 
 namespace trismooth {
 
-/// The positions and numbers of a ring of `Size` neighbours: the compiler unrolls every loop over it.
-template <class T, int Size>
-struct FixedRing {
-  std::array<Point2<T>, Size> positions;
-  const std::int32_t* numbers;
-
-  static constexpr int size() { return Size; }
-  constexpr Point2<T> operator[](int i) const { return positions[i]; }
-  constexpr std::int32_t number(int i) const { return numbers[i]; }
-};
-
-/// Those of a ring of any size, in memory that somebody else owns.
+/// The positions and numbers of a ring, in memory that somebody else owns.
 template <class T>
-struct LongRing {
+struct GatheredRing {
   std::span<const Point2<T>> positions;
   const std::int32_t* numbers;
 
@@ -35,52 +24,16 @@ struct LongRing {
 template <class T>
 class RingGatherer {
  public:
-  /// Calls `function` with a ring of the positions points[ring[0]], points[ring[1]], ...
-  template <class Function>
-  auto with_ring(std::span<const Point2<T>> points, std::span<const std::int32_t> ring, const Function& function) {
-    switch (ring.size()) {
-      case 3:
-        return function(fixed<3>(points, ring));
-      case 4:
-        return function(fixed<4>(points, ring));
-      case 5:
-        return function(fixed<5>(points, ring));
-      case 6:
-        return function(fixed<6>(points, ring));
-      case 7:
-        return function(fixed<7>(points, ring));
-      case 8:
-        return function(fixed<8>(points, ring));
-      case 9:
-        return function(fixed<9>(points, ring));
-      default:
-        break;
+  /// The positions points[ring[0]], points[ring[1]], ... They last until the next call.
+  GatheredRing<T> gather(std::span<const Point2<T>> points, std::span<const std::int32_t> ring) {
+    buffer_.resize(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      buffer_[i] = points[ring[i]];
     }
-    return with_ring_of_any_size(points, ring, function);
-  }
-
-  /// with_ring() by code that is not unrolled.
-  template <class Function>
-  auto with_ring_of_any_size(std::span<const Point2<T>> points, std::span<const std::int32_t> ring,
-                             const Function& function) {
-    buffer_.clear();
-    for (const std::int32_t neighbour : ring) {
-      buffer_.push_back(points[neighbour]);
-    }
-    return function(LongRing<T>{buffer_, ring.data()});
+    return {buffer_, ring.data()};
   }
 
  private:
-  template <int Size>
-  static FixedRing<T, Size> fixed(std::span<const Point2<T>> points, std::span<const std::int32_t> ring) {
-    FixedRing<T, Size> gathered;
-    gathered.numbers = ring.data();
-    for (int i = 0; i < Size; ++i) {
-      gathered.positions[i] = points[ring[i]];
-    }
-    return gathered;
-  }
-
   std::vector<Point2<T>> buffer_;
 };
 

@@ -56,9 +56,7 @@ class SweepDriver {
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
-  void run(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
-    workers_.run([&] { run_stages(points, fixed_quotient, result); });
-  }
+  void run(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result);
 
  private:
   static constexpr std::int64_t grain = 1024;
@@ -84,13 +82,9 @@ class SweepDriver {
     }
     Stages stages(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices);
     std::optional<StopReason> reason;
-    for (;;) {
-      visit_method(MethodInUse<T>{options_.method, targets.view(), stages.step<T>()}, [&](const auto& method) {
-        reason = run_stage(method, points, stages, fixed_quotient, watch, result);
-      });
-      if (reason) {
-        break;
-      }
+    while (!reason) {
+      const MethodInUse<T> in_use{options_.method, targets.view(), stages.step<T>()};
+      reason = run_stage(in_use, points, stages, fixed_quotient, watch, result);
     }
     result.stop_reason = *reason;
     if (offload_ != nullptr) {
@@ -99,8 +93,7 @@ class SweepDriver {
   }
 
   /// Sweeps to the end of the stage. Nothing where another one follows, which `stages` is at then.
-  template <class Update>
-  std::optional<StopReason> run_stage(const Update& method, BulkVector<Point2<T>>& points, Stages& stages,
+  std::optional<StopReason> run_stage(const MethodInUse<T>& in_use, BulkVector<Point2<T>>& points, Stages& stages,
                                       double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
     const bool swaps = options_.form == Form::swap;
     if (offload_ != nullptr) {
@@ -111,8 +104,8 @@ class SweepDriver {
     }
     for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
       SweepTally<T> tally = offload_ != nullptr ? offload_->sweep(stages.step<T>())
-                            : swaps             ? sweep(method, points, other_points_, marked_, other_marked_)
-                                                : sweep(method, points, points, marked_, marked_);
+                            : swaps             ? sweep(in_use, points, other_points_, marked_, other_marked_)
+                                                : sweep(in_use, points, points, marked_, marked_);
       if (swaps && offload_ == nullptr) {
         points.swap(other_points_);
         marked_.swap(other_marked_);
@@ -125,7 +118,7 @@ class SweepDriver {
       const auto settled = [&] { return settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves()); };
       if (slide_ != nullptr &&
           slides_behind(sweep_of_stage, settled().has_value(), result.sweeps + 1 == options_.max_sweeps)) {
-        tally.join(slide_->run(method, {points, other_points_, marked_, other_marked_,
+        tally.join(slide_->run(in_use, {points, other_points_, marked_, other_marked_,
                                         options_.evaluation == Evaluation::all, static_cast<T>(options_.tolerance)}));
       }
       SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
@@ -174,8 +167,7 @@ class SweepDriver {
     return std::nullopt;
   }
 
-  template <class Update>
-  SweepTally<T> sweep(const Update& method, const BulkVector<Point2<T>>& from, BulkVector<Point2<T>>& to,
+  SweepTally<T> sweep(const MethodInUse<T>& in_use, const BulkVector<Point2<T>>& from, BulkVector<Point2<T>>& to,
                       std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& marked_next) {
     SweepTally<T> total;
     std::mutex joining;
@@ -183,8 +175,10 @@ class SweepDriver {
       const std::int32_t first = rings_.batches[batch];
       workers_.for_blocks(rings_.batches[batch + 1] - first, grain, [&](std::int64_t begin, std::int64_t end) {
         SweepTally<T> tally;
-        update_block(method, first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from, to,
-                     marked, marked_next, tally);
+        visit_method(in_use, [&](const auto& method) {
+          update_block(method, first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from,
+                       to, marked, marked_next, tally);
+        });
         const std::lock_guard lock(joining);
         total.join(tally);
       });
@@ -276,8 +270,7 @@ class SweepDriver {
       RingGatherer<T> gatherer;
       T worst = std::numeric_limits<T>::infinity();
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        worst = std::min(worst, gatherer.with_ring(points, view_[v],
-                                                   [&](const auto& ring) { return worst_quotient(points[v], ring); }));
+        worst = std::min(worst, worst_quotient(points[v], gatherer.gather(points, view_[v])));
       }
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);
@@ -300,5 +293,14 @@ class SweepDriver {
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;
 };
+
+template <class T>
+void SweepDriver<T>::run(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
+  workers_.run([&] { run_stages(points, fixed_quotient, result); });
+}
+
+// Each has a source of its own, which takes long to compile.
+extern template class SweepDriver<float>;
+extern template class SweepDriver<double>;
 
 }  // namespace trismooth

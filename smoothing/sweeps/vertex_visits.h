@@ -101,11 +101,15 @@ class VertexVisits {
 
   template <class Settle>
   void visit_alone(std::int32_t v, const Settle& settle) {
-    const VertexMove<T> result = gatherer_.with_ring_of_any_size(
-        points_, rings_[v], [&](const auto& ring) { return update_over(method_, v, points_[v], ring); });
+    const VertexMove<T> result = move_alone(v);
     if (result.move.moved) {
       settle(v, result.move.position, result.squares);
     }
+  }
+
+  /// Compiled once, whoever asks for everything to be inlined: few vertices come here.
+  [[gnu::noinline]] VertexMove<T> move_alone(std::int32_t v) {
+    return update_over(method_, v, points_[v], gatherer_.gather(points_, rings_[v]));
   }
 
   SideBySide<T, Method> side_by_side_;

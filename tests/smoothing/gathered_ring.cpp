@@ -1,7 +1,6 @@
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "catch.h"
@@ -22,13 +21,11 @@ TEMPLATE_TEST_CASE("a gathered ring holds the positions of its vertices in ring 
     for (std::int32_t i = 0; i < size; ++i) {
       ring.push_back((7 * i + size) % 50);
     }
-    const int answer = gatherer.with_ring(std::span<const Point2<TestType>>(points), ring, [&](const auto& gathered) {
-      CHECK(gathered.size() == size);
-      for (std::int32_t i = 0; i < size; ++i) {
-        CHECK(gathered[i] == points[ring[i]]);
-      }
-      return 42;
-    });
-    CHECK(answer == 42);
+    const trismooth::GatheredRing<TestType> gathered = gatherer.gather(points, ring);
+    CHECK(gathered.size() == size);
+    for (std::int32_t i = 0; i < size; ++i) {
+      CHECK(gathered[i] == points[ring[i]]);
+      CHECK(gathered.number(i) == ring[i]);
+    }
   }
 }

@@ -1,0 +1,7 @@
+#include "trismooth/smoothing/sweeps/sweep_driver.h"
+
+namespace trismooth {
+
+template class SweepDriver<double>;
+
+}  // namespace trismooth
