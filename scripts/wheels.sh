@@ -13,8 +13,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 source_folder=$project
-# Several sources as one, which takes half the time.
-options=(-C cmake.define.CMAKE_UNITY_BUILD=ON -C cmake.define.CMAKE_UNITY_BUILD_BATCH_SIZE=16)
+options=()
 check=
 pythons=()
 for argument in "$@"; do

@@ -19,7 +19,7 @@ endforeach()
 function(build_and_run)
   run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/parent" -B "${FOLDER}/build" -G "${GENERATOR}" --no-warn-unused-cli
       "-DTRISMOOTH=${SOURCE}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}"
-      "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=100 ${missing} ${ARGN})
+      "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" ${missing} ${ARGN})
   run("${CMAKE_COMMAND}" --build "${FOLDER}/build")
   run("${FOLDER}/build/programs/trismooth")
   run("${CMAKE_COMMAND}" --install "${FOLDER}/build" --prefix "${FOLDER}/prefix")
