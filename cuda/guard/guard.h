@@ -98,7 +98,8 @@ struct DeviceGuardOutcome {
 };
 
 /// Queues the guard (see never_worse.h) and the writing of the result, or the writing alone if the buffers are those of
-/// a run without the guard. It may be queued behind sweeps of which nobody knows yet whether they end the run: where
+/// a run without the guard. This is the fast way of the commit where coordinates are stored as they are swept: all other
+/// images are for the host (smoothing/commit.h), which asks for a run without the guard. It may be queued behind sweeps of which nobody knows yet whether they end the run: where
 /// they do not, it does nothing. Else offenders go back, round by round, in their working positions too; then the
 /// vertices that are elsewhere are written to `stored` (input numbering, aligned to 16 bytes), and the others keep
 /// their bits. Only where there are more offenders than the list holds, nothing is written, and finish_guard() does the

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
+#include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
@@ -24,17 +24,15 @@ SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> trian
                                 std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
                                 Storage storage, const SmoothingOptions& options);
 
-/// Points of space and where they lie in the image in which they are smoothed.
-struct SpaceImage {
-  /// The place of a vertex that is stored there.
-  std::function<Point2<double>(std::size_t vertex, const Eigen::Vector3d& stored)> place;
-  /// What is stored of a vertex that moves in the image, before it is rounded.
-  std::function<Eigen::Vector3d(const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to)> moved;
-};
+/// What is stored of the points of a plane, of numbers of that type.
+StoredImage image_of(const Plane& plane, Storage storage);
 
-/// The same in any image: `points` are there, and the guard judges the images of what is stored.
-SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> triangles, const SpaceImage& image,
-                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
-                                Storage storage, const SmoothingOptions& options);
+/// Smooths points of space in any image: `points` are there, and the guard judges the images of what is stored.
+/// `quadratics`, `middles`: as SweptMesh. `swept`: the type to which places in the image are rounded before they are
+/// stored. All else as smooth_in_plane().
+SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> triangles,
+                                std::span<const QuadraticTriangle> quadratics, std::span<const MiddleNode> middles,
+                                const StoredImage& image, std::span<double> xyz, BulkVector<Point2<double>>& points,
+                                const LocalPoints& local, Storage swept, const SmoothingOptions& options);
 
 }  // namespace trismooth

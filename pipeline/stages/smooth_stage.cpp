@@ -1,6 +1,7 @@
 #include "trismooth/pipeline/stages/smooth_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,22 +27,25 @@ namespace trismooth {
 
 namespace {
 
-/// `input`, `before_merging`: the points that were read, where they are needed.
-void hash_coordinates(RunState& run, std::span<const double> input, std::span<const double> before_merging,
+/// `read`, `before_merging`: the points that were read, where they are needed.
+void hash_coordinates(RunState& run, std::span<const double> read, std::span<const double> before_merging,
                       const SmoothingResult& smoothing) {
   run.result.coordinates_hash = run.result.unguarded_hash = coordinates_hash(run.document.points);
   if (smoothing.reverted.empty()) {
     return;
   }
+  const StoredImage image = stored_image(run);
   std::vector<double> unguarded = run.document.points;
   for (const auto& [vertex, position] : smoothing.reverted) {
     const auto v = static_cast<std::size_t>(vertex);
-    Eigen::Map<Eigen::Vector3d> point(unguarded.data() + 3 * v);
-    const Eigen::Vector3d moved = run.mesh.moved(point, run.mesh.points[v], position);
-    point = rounded_to(storage_of(run.document), moved);
+    double* const point = unguarded.data() + 3 * v;
+    std::array<double, 3> moved{};
+    image.move(point, run.mesh.points[v], position, moved.data());
+    std::transform(moved.begin(), moved.end(), point, point,
+                   [&run](double now, double before) { return stored_coordinate(run.document, before, now); });
   }
-  if (!input.empty()) {
-    fit_to_file(run, input, unguarded);
+  for (const MiddleNode& middle : run.mesh.middles) {
+    follow_side(middle, image, read, unguarded);
   }
   follow_merged(run.mesh, before_merging, unguarded);
   run.result.unguarded_hash = coordinates_hash(unguarded);
@@ -81,14 +85,12 @@ SmoothingResult smooth_points(RunState& run) {
   PlanarMesh& mesh = run.mesh;
   std::vector<double>& xyz = run.document.points;
   const Storage storage = storage_of(run.document);
-  if (!mesh.map) {
+  if (!mesh.map && !is_stored_otherwise(run)) {
     return smooth_in_plane(run.found, mesh.triangles, mesh.plane, xyz, mesh.points, run.local, storage, run.smoothing);
   }
-  const SpaceImage image{[&mesh](std::size_t v, const Eigen::Vector3d& stored) { return mesh.place(v, stored); },
-                         [&mesh](const Eigen::Vector3d& stored, Point2<double> from, Point2<double> to) {
-                           return mesh.moved(stored, from, to);
-                         }};
-  return smooth_in_image(run.found, mesh.triangles, image, xyz, mesh.points, run.local, storage, run.smoothing);
+  const bool is_plain = !mesh.map && mesh.plane.aligned;
+  return smooth_in_image(run.found, mesh.triangles, mesh.quadratics, mesh.middles, stored_image(run), xyz, mesh.points,
+                         run.local, is_plain ? storage : Storage::float64, run.smoothing);
 }
 
 }  // namespace
@@ -98,15 +100,12 @@ void smooth_mesh(RunState& run) {
     run.input_points = run.document.points;
     run.metrics_before = metrics_of_cells(run, "_before");
   }
-  const std::vector<double> points_read = is_stored_otherwise(run) ? run.document.points : std::vector<double>{};
+  const std::vector<double> points_read = run.mesh.middles.empty() ? std::vector<double>{} : run.document.points;
   const std::vector<double> before_merging = run.mesh.merged.empty() ? std::vector<double>{} : run.document.points;
   SmoothingResult smoothing = smooth_points(run);
   smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
   if (smoothing.stop_reason == StopReason::cancelled) {
     throw Cancelled();
-  }
-  if (!points_read.empty()) {
-    store_result(run, points_read, smoothing);
   }
   follow_merged(run.mesh, before_merging, run.document.points);
   for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {

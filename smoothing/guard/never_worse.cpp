@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -45,8 +46,8 @@ template <class Visit>
 class ElementGatherer {
  public:
   ElementGatherer(const RingView& rings, std::span<const Point2<double>> before, std::span<const Point2<double>> after,
-                  const Visit& visit)
-      : rings_(rings), before_(before), after_(after), visit_(visit) {}
+                  const FollowingNodes* nodes, const Visit& visit)
+      : rings_(rings), before_(before), after_(after), nodes_(nodes), visit_(visit) {}
 
   /// Takes the element, or if it does not count makes as if it had never been there: without a branch, which would be
   /// guessed wrong too often.
@@ -66,6 +67,9 @@ class ElementGatherer {
       gather(lane);
     }
     measure_(static_cast<int>(count_), lanes_);
+    if (nodes_ != nullptr) {
+      judge_nodes();
+    }
     visit_(lanes_, elements_, count_);
     count_ = 0;
   }
@@ -89,9 +93,20 @@ class ElementGatherer {
     }
   }
 
+  void judge_nodes() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t lane = 0; lane < count_; ++lane) {
+      const bool is_touched = lanes_.quotients[lane] < infinity;
+      if (is_touched && nodes_->is_spoiled(elements_[lane], false)) {
+        lanes_.worsened[lane] = -infinity;
+      }
+    }
+  }
+
   const RingView& rings_;
   std::span<const Point2<double>> before_;
   std::span<const Point2<double>> after_;
+  const FollowingNodes* nodes_;
   const Visit& visit_;
   ElementMeasure measure_ = element_measure(instruction_set());
   std::size_t count_ = 0;
@@ -102,13 +117,14 @@ class ElementGatherer {
 class Guard {
  public:
   Guard(const RingView& rings, std::span<const Point2<double>> before, std::span<Point2<double>> after,
-        Workers& workers, const NumberLists& held, Halo* halo)
+        Workers& workers, const NumberLists& held, Halo* halo, FollowingNodes* nodes)
       : rings_(rings),
         before_(before),
         after_(after),
         workers_(workers),
         held_(held),
         halo_(halo),
+        nodes_(nodes),
         has_gaps_(has_gaps(rings, workers)),
         block_count_((std::int64_t{rings.size()} + vertices_a_block - 1) / vertices_a_block),
         tree_(static_cast<std::size_t>(block_count_)) {
@@ -194,7 +210,7 @@ class Guard {
         minimum.join({lanes.quotients[lane], lanes.worsened[lane]});
       }
     };
-    ElementGatherer gatherer(rings_, before_, after_, join);
+    ElementGatherer gatherer(rings_, before_, after_, nodes_, join);
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int32_t block = block_at(i);
       minimum = {};
@@ -219,7 +235,7 @@ class Guard {
           }
         }
       };
-      ElementGatherer gatherer(rings_, before_, after_, list_offending);
+      ElementGatherer gatherer(rings_, before_, after_, nodes_, list_offending);
       for (std::int64_t i = begin; i < end; ++i) {
         for_elements(blocks_[static_cast<std::size_t>(i)], gatherer);
       }
@@ -243,6 +259,9 @@ class Guard {
     blocks_.clear();
     for (const std::int32_t v : offenders_) {
       after_[v] = before_[v];
+      if (nodes_ != nullptr) {
+        nodes_->follow(v);
+      }
       measure_again(v);
       if (v < rings_.size()) {
         for (const std::int32_t neighbour : rings_[v]) {
@@ -286,6 +305,7 @@ class Guard {
   Workers& workers_;
   const NumberLists& held_;
   Halo* halo_;
+  FollowingNodes* nodes_;
   std::vector<std::int32_t> moved_ghosts_;
   double threshold_ = 0;
   bool has_gaps_;
@@ -299,8 +319,9 @@ class Guard {
 }  // namespace
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
-                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held, Halo* halo) {
-  return Guard(rings, before, after, workers, held, halo).run();
+                              std::span<Point2<double>> after, Workers& workers, const NumberLists& held, Halo* halo,
+                              FollowingNodes* nodes) {
+  return Guard(rings, before, after, workers, held, halo, nodes).run();
 }
 
 void name_reverted(SmoothingResult& result, std::span<const Point2<double>> points) {

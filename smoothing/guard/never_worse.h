@@ -7,6 +7,7 @@
 
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -15,6 +16,22 @@ namespace trismooth {
 
 class Halo;
 class Workers;
+
+/// Nodes beside the corners of elements, in the middle of sides: they go with the corners, and an element that was
+/// valid with them and is not any more offends, however good the triangle of its corners is.
+class FollowingNodes {
+ public:
+  FollowingNodes() = default;
+  FollowingNodes(const FollowingNodes&) = delete;
+  FollowingNodes& operator=(const FollowingNodes&) = delete;
+  virtual ~FollowingNodes() = default;
+
+  /// The corner has gone back: the nodes that it is a reason for go along.
+  virtual void follow(std::int32_t corner) = 0;
+  /// Whether the element with these corners, in any order, was valid and is not any more. `is_turned`: it is turned
+  /// over now. From any thread.
+  virtual bool is_spoiled(const Triangle& corners, bool is_turned) const = 0;
+};
 
 /// What the guard took back.
 struct GuardOutcome {
@@ -39,9 +56,11 @@ struct GuardOutcome {
 ///
 /// `halo`: of a part of a mesh; null: it is the whole. The parts make the rounds together. `held` are those of its
 /// ghosts then, and what went back are vertices of the part.
+///
+/// `nodes`: those that follow the vertices; null: none do.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {},
-                              Halo* halo = nullptr);
+                              Halo* halo = nullptr, FollowingNodes* nodes = nullptr);
 
 /// Sorts by vertex what several guards took back, and counts it. Who went back more than once is named once, with where
 /// the first found it; who is there again, at `points`, is not.

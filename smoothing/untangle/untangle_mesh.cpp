@@ -83,9 +83,10 @@ class OrientedComponents {
   }
 
   /// Takes out of `turned`, one byte a component, those that are worse at `after`, turned over, than they were at
-  /// `before`; and those in which most triangles would be inverted, for then nobody would take them as turned.
+  /// `before`; and those in which most triangles would be inverted, for then nobody would take them as turned. `nodes`:
+  /// those that follow the vertices, or null.
   void take_out_worse(std::span<const Point2<double>> before, std::span<const Point2<double>> after,
-                      std::vector<std::uint8_t>& turned) const {
+                      const FollowingNodes* nodes, std::vector<std::uint8_t>& turned) const {
     std::vector<double> thresholds(count(), std::numeric_limits<double>::infinity());
     const auto for_turned = [&](const auto& visit) {
       for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -106,7 +107,7 @@ class OrientedComponents {
     for_turned([&](std::size_t t, std::size_t c, double was) {
       const double is = quotient(triangles_[t], reversed_[t] == 0, after);
       balance[c] += (is > 0 ? 1 : 0) - (is < 0 ? 1 : 0);
-      if (offends(was, is, thresholds[c])) {
+      if (offends(was, is, thresholds[c]) || (nodes != nullptr && nodes->is_spoiled(triangles_[t], true))) {
         is_worse[c] = 1;
       }
     });
@@ -194,7 +195,7 @@ TurnedComponents turn_over(const RingView& rings, std::span<const Triangle> tria
   for (std::size_t c = 0; c < turned.size(); ++c) {
     turned[c] = turned[c] != 0 && as_turned[c] < as_listed[c] ? 1 : 0;
   }
-  components.take_out_worse(before, after, turned);
+  components.take_out_worse(before, after, nullptr, turned);
   const TurnedComponents kept = components.triangles_of(turned);
   if (kept.any()) {
     const std::vector<std::uint8_t> of_kept = vertices_of(rings, triangles, kept.triangles);
@@ -252,15 +253,15 @@ MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> tr
 
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
                               std::span<const std::uint8_t> reversed, TurnedComponents& turned,
-                              std::span<const Point2<double>> before, std::span<Point2<double>> after,
-                              Workers& workers) {
+                              std::span<const Point2<double>> before, std::span<Point2<double>> after, Workers& workers,
+                              FollowingNodes* nodes) {
   if (!turned.any()) {
-    return keep_never_worse(rings, before, after, workers);
+    return keep_never_worse(rings, before, after, workers, {}, nullptr, nodes);
   }
   const std::vector<std::uint8_t> were_turned = vertices_of(rings, triangles, turned.triangles);
   const OrientedComponents components(triangles, reversed, before.size(), workers);
   std::vector<std::uint8_t> kept = components.components_of(turned.triangles);
-  components.take_out_worse(in_input_order(rings, before), in_input_order(rings, after), kept);
+  components.take_out_worse(in_input_order(rings, before), in_input_order(rings, after), nodes, kept);
   turned = components.triangles_of(kept);
   const std::vector<std::uint8_t> are_turned =
       turned.any() ? vertices_of(rings, triangles, turned.triangles) : std::vector<std::uint8_t>(were_turned.size(), 0);
@@ -272,10 +273,13 @@ GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> t
       rest[v] = before[v];
       if (are_turned[v] == 0 && !(after[v] == before[v])) {
         back.push_back(v);
+        if (nodes != nullptr) {
+          nodes->follow(v);
+        }
       }
     }
   }
-  GuardOutcome outcome = keep_never_worse(rings, before, rest, workers);
+  GuardOutcome outcome = keep_never_worse(rings, before, rest, workers, {}, nullptr, nodes);
   for (std::int32_t v = 0; v < rings.size(); ++v) {
     after[v] = are_turned[v] != 0 ? after[v] : rest[v];
   }

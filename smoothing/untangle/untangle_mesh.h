@@ -57,11 +57,12 @@ MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> tr
 /// The never-worse guard of a mesh in which components have been turned over. Each of these is judged by itself: its
 /// triangles as the input orients them before, and as they are turned now. If one of them offends, or most of them are
 /// inverted, all vertices of the component go back, and it is taken out of `turned`. The rest of the mesh is judged as
-/// by keep_never_worse() in guard/never_worse.h. `rings`: however they are turned. Complexity: that of
-/// keep_never_worse(), and where there are turned components that of matching the mesh's sides.
+/// by keep_never_worse() in guard/never_worse.h. `rings`: however they are turned. `nodes`: those that follow the
+/// vertices, of rings in the input's numbering; null: none do. Complexity: that of keep_never_worse(), and where there
+/// are turned components that of matching the mesh's sides.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
                               std::span<const std::uint8_t> reversed, TurnedComponents& turned,
-                              std::span<const Point2<double>> before, std::span<Point2<double>> after,
-                              Workers& workers);
+                              std::span<const Point2<double>> before, std::span<Point2<double>> after, Workers& workers,
+                              FollowingNodes* nodes = nullptr);
 
 }  // namespace trismooth

@@ -1,0 +1,221 @@
+#include "trismooth/smoothing/commit.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/number_lists.h"
+#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/workers.h"
+#include "trismooth/smoothing/guard/never_worse.h"
+#include "trismooth/smoothing/untangle/untangle_mesh.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Vertices that a thread takes at a time.
+constexpr std::int64_t commit_grain = 8192;
+
+bool is_finite(Point2<double> point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+
+class Commit final : public FollowingNodes {
+ public:
+  Commit(const SweptMesh& mesh, const StoredImage& image, std::span<double> stored, std::span<Point2<double>> points,
+         Workers& workers)
+      : mesh_(mesh),
+        image_(image),
+        read_(stored.begin(), stored.end()),
+        stored_(stored),
+        points_(points),
+        workers_(workers),
+        after_(mesh.before.points),
+        middles_of_ends_(points.size(), mesh.middles) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> corners;
+    for (std::size_t q = 0; q < mesh.quadratics.size(); ++q) {
+      for (const std::int32_t corner : mesh.triangles[static_cast<std::size_t>(mesh.quadratics[q].triangle)]) {
+        corners.emplace_back(corner, static_cast<std::int32_t>(q));
+      }
+    }
+    quadratics_of_corners_ = NumberLists(0, static_cast<std::int32_t>(points.size()), corners);
+  }
+
+  void run(const SmoothingOptions& options, SmoothingResult& result) {
+    place();
+    TurnedComponents turned;
+    if (result.untangling) {
+      turned = {result.untangling->turned_components, std::move(result.untangling->turned)};
+    }
+    if (options.guard) {
+      guard(turned, result);
+    }
+    if (result.untangling && !(options.guard && result.untangling->inverted_before == 0)) {
+      result.untangling->inverted_after =
+          inverted_triangles(mesh_.rings.rings.view(), mesh_.triangles, turned, after_, workers_);
+      result.untangling->turned_components = turned.count;
+      result.untangling->turned = std::move(turned.triangles);
+    }
+    result.moved_vertices = settle();
+    if (options.guard) {
+      name_reverted(result, points_);
+    }
+  }
+
+  void follow(std::int32_t corner) override {
+    put_back(static_cast<std::size_t>(corner));
+    for (const std::int32_t m : middles_of_ends_[corner]) {
+      follow_side(mesh_.middles[static_cast<std::size_t>(m)]);
+    }
+  }
+
+  bool is_spoiled(const Triangle& corners, bool is_turned) const override {
+    const auto has_corner = [](const Triangle& triangle, std::int32_t v) {
+      return std::ranges::count(triangle, v) > 0;
+    };
+    return std::ranges::any_of(quadratics_of_corners_[corners[0]], [&](std::int32_t q) {
+      const QuadraticTriangle& quadratic = mesh_.quadratics[static_cast<std::size_t>(q)];
+      const auto t = static_cast<std::size_t>(quadratic.triangle);
+      const Triangle& listed = mesh_.triangles[t];
+      const auto is_valid = [&](std::span<const Point2<double>> points, bool is_reversed) {
+        return jacobian_bound(quadratic_nodes(listed, quadratic.middles, is_reversed, points)).is_valid();
+      };
+      const bool was_reversed = mesh_.rings.reversed[t] != 0;
+      return has_corner(listed, corners[1]) && has_corner(listed, corners[2]) &&
+             !is_valid(after_, was_reversed != is_turned) && is_valid(before(), was_reversed);
+    });
+  }
+
+ private:
+  std::span<const Point2<double>> before() const { return mesh_.before.points; }
+  double* numbers(std::size_t v) const { return stored_.data() + image_.numbers * v; }
+  const double* numbers_read(std::size_t v) const { return read_.data() + image_.numbers * v; }
+
+  template <class Body>
+  void for_blocks(std::size_t count, const Body& body) {
+    workers_.for_blocks(static_cast<std::int64_t>(count), commit_grain, [&](std::int64_t begin, std::int64_t end) {
+      body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+    });
+  }
+
+  void place() {
+    for_blocks(points_.size(), [this](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        if (!(mesh_.swept[v] == points_[v])) {
+          store(v);
+        }
+      }
+    });
+    for_blocks(mesh_.middles.size(), [this](std::size_t begin, std::size_t end) {
+      for (std::size_t m = begin; m < end; ++m) {
+        follow_side(mesh_.middles[m]);
+      }
+    });
+  }
+
+  void store(std::size_t v) {
+    const double* const read = numbers_read(v);
+    std::array<double, StoredImage::most_numbers> moved{};
+    image_.move(read, points_[v], mesh_.swept[v], moved.data());
+    std::transform(read, read + image_.numbers, moved.begin(), moved.begin(),
+                   [this](double before, double now) { return image_.stored(before, now); });
+    // Near the largest number, the step to a place within range may be beyond it.
+    if (std::all_of(moved.begin(), moved.begin() + image_.numbers,
+                    [](double number) { return std::isfinite(number); })) {
+      std::copy_n(moved.begin(), image_.numbers, numbers(v));
+      enter(v);
+    }
+  }
+
+  void follow_side(const MiddleNode& middle) {
+    trismooth::follow_side(middle, image_, read_, stored_);
+    enter(static_cast<std::size_t>(middle.vertex));
+  }
+
+  bool is_elsewhere(std::size_t v) const { return !(after_[v] == before()[v]); }
+
+  void put_back(std::size_t v) {
+    std::copy_n(numbers_read(v), image_.numbers, numbers(v));
+    after_[v] = before()[v];
+  }
+
+  /// Takes over where the vertex lies as it is stored.
+  void enter(std::size_t v) {
+    const Point2<double> place = image_.place(v, numbers(v));
+    const bool stays = std::equal(numbers(v), numbers(v) + image_.numbers, numbers_read(v)) || !is_finite(place);
+    after_[v] = stays ? before()[v] : mesh_.before.frame.enter(place);
+    if (!is_elsewhere(v)) {
+      put_back(v);
+    }
+  }
+
+  void guard(TurnedComponents& turned, SmoothingResult& result) {
+    const GuardOutcome outcome =
+        keep_never_worse(mesh_.rings.rings.view(), mesh_.triangles, mesh_.rings.reversed, turned, before(), after_,
+                         workers_, mesh_.middles.empty() ? nullptr : this);
+    result.guard_rounds += outcome.rounds;
+    for (const std::int32_t v : outcome.reverted) {
+      result.reverted.push_back({v, mesh_.swept[static_cast<std::size_t>(v)]});
+    }
+  }
+
+  /// What went back gets the numbers that were read, the others their places in the plane: how many there are.
+  std::int64_t settle() {
+    std::atomic<std::int64_t> elsewhere{0};
+    for_blocks(points_.size(), [&](std::size_t begin, std::size_t end) {
+      std::int64_t elsewhere_here = 0;
+      for (std::size_t v = begin; v < end; ++v) {
+        if (is_elsewhere(v)) {
+          points_[v] = image_.place(v, numbers(v));
+          ++elsewhere_here;
+        } else {
+          put_back(v);
+        }
+      }
+      elsewhere.fetch_add(elsewhere_here, std::memory_order_relaxed);
+    });
+    return elsewhere - std::ranges::count_if(mesh_.middles, [this](const MiddleNode& middle) {
+             return is_elsewhere(static_cast<std::size_t>(middle.vertex));
+           });
+  }
+
+  const SweptMesh& mesh_;
+  const StoredImage& image_;
+  std::vector<double> read_;
+  std::span<double> stored_;
+  std::span<Point2<double>> points_;  ///< as they were read, until all is settled
+  Workers& workers_;
+  BulkVector<Point2<double>> after_;  ///< as they are stored, in the local frame
+  MiddlesOfEnds middles_of_ends_;
+  NumberLists quadratics_of_corners_;
+};
+
+}  // namespace
+
+void commit(const SweptMesh& mesh, const StoredImage& image, std::span<double> stored, std::span<Point2<double>> points,
+            const SmoothingOptions& options, Workers& workers, SmoothingResult& result) {
+  const Stopwatch watch;
+  Commit(mesh, image, stored, points, workers).run(options, result);
+  result.timings.commit += watch.milliseconds();
+}
+
+void follow_side(const MiddleNode& middle, const StoredImage& image, std::span<const double> read,
+                 std::span<double> stored) {
+  for (std::size_t axis = 0; axis < image.numbers; ++axis) {
+    const auto at = [&](std::int32_t v) { return image.numbers * static_cast<std::size_t>(v) + axis; };
+    const std::size_t first = at(middle.ends[0]);
+    const std::size_t second = at(middle.ends[1]);
+    const std::size_t i = at(middle.vertex);
+    const double now = image.stored(
+        read[i], read[i] + middle_move(middle.share, read[first], stored[first], read[second], stored[second]));
+    stored[i] = std::isfinite(now) ? now : read[i];
+  }
+}
+
+}  // namespace trismooth
