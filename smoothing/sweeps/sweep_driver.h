@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +19,8 @@
 #include "trismooth/smoothing/sweeps/host_targets.h"
 #include "trismooth/smoothing/sweeps/mean_ratio_lanes.h"
 #include "trismooth/smoothing/sweeps/slide_pass.h"
-#include "trismooth/smoothing/sweeps/stages.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
+#include "trismooth/smoothing/sweeps/sweep_control.h"
 #include "trismooth/smoothing/sweeps/sweep_offload.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 #include "trismooth/smoothing/sweeps/vertex_list.h"
@@ -80,21 +78,20 @@ class SweepDriver {
     if (offload_ != nullptr) {
       offload_->begin(points, targets.view());
     }
-    Stages stages(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices);
-    std::optional<StopReason> reason;
-    while (!reason) {
-      const MethodInUse<T> in_use{options_.method, targets.view(), stages.step<T>()};
-      reason = run_stage(in_use, points, stages, fixed_quotient, watch, result);
+    SweepControl control(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices, result, halo_);
+    bool is_over = false;
+    while (!is_over) {
+      const MethodInUse<T> in_use{options_.method, targets.view(), control.stages().template step<T>()};
+      is_over = run_stage(in_use, points, control, fixed_quotient, watch);
     }
-    result.stop_reason = *reason;
     if (offload_ != nullptr) {
       offload_->end(points);
     }
   }
 
-  /// Sweeps to the end of the stage. Nothing where another one follows, which `stages` is at then.
-  std::optional<StopReason> run_stage(const MethodInUse<T>& in_use, BulkVector<Point2<T>>& points, Stages& stages,
-                                      double fixed_quotient, const Stopwatch& watch, SmoothingResult& result) {
+  /// Sweeps to the end of the stage; true where it is that of the run.
+  bool run_stage(const MethodInUse<T>& in_use, BulkVector<Point2<T>>& points, SweepControl& control,
+                 double fixed_quotient, const Stopwatch& watch) {
     const bool swaps = options_.form == Form::swap;
     if (offload_ != nullptr) {
       offload_->begin_stage();
@@ -102,8 +99,8 @@ class SweepDriver {
       marked_.assign(points.size(), 1);
       other_marked_.assign(swaps ? points.size() : 0, 0);
     }
-    for (std::int64_t sweep_of_stage = 1;; ++sweep_of_stage) {
-      SweepTally<T> tally = offload_ != nullptr ? offload_->sweep(stages.step<T>())
+    do {
+      SweepTally<T> tally = offload_ != nullptr ? offload_->sweep(in_use.step)
                             : swaps             ? sweep(in_use, points, other_points_, marked_, other_marked_)
                                                 : sweep(in_use, points, points, marked_, marked_);
       if (swaps && offload_ == nullptr) {
@@ -115,56 +112,20 @@ class SweepDriver {
         seconds = watch.seconds();
         join_parts(tally, seconds);
       }
-      const auto settled = [&] { return settled_in_sweep(tally.moved, tally.within_tolerance, stages.few_moves()); };
-      if (slide_ != nullptr &&
-          slides_behind(sweep_of_stage, settled().has_value(), result.sweeps + 1 == options_.max_sweeps)) {
+      if (slide_ != nullptr && control.slides_behind(1, control.settles(tally))) {
         tally.join(slide_->run(in_use, {points, other_points_, marked_, other_marked_,
                                         options_.evaluation == Evaluation::all, static_cast<T>(options_.tolerance)}));
       }
-      SweepRecord record{++result.sweeps, tally.evaluated, tally.moved,
-                         static_cast<double>(std::sqrt(tally.max_relative_squared))};
+      double shape = no_target;
       if (options_.measures_shape()) {
-        record.min_shape = offload_ != nullptr
-                               ? min_shape_of(least_of_parts(halo_, static_cast<double>(offload_->smallest_quotient())),
-                                              fixed_quotient)
-                               : min_shape(points, fixed_quotient);
+        shape =
+            min_shape(offload_ != nullptr ? offload_->smallest_quotient() : smallest_quotient(points), fixed_quotient);
       }
-      result.vertex_updates += tally.evaluated;
-      result.history.push_back(record);
-      const auto reason = reason_to_stop(stages.is_last() ? settled() : std::nullopt, record,
-                                         halo_ == nullptr ? watch.seconds() : seconds);
-      if (reason) {
-        return reason;
+      if (control.add(tally, shape, halo_ == nullptr ? watch.seconds() : seconds)) {
+        return true;
       }
-      if (settled() || sweep_of_stage == stages.sweeps()) {
-        stages.next(tally.moved, settled().has_value());
-        return std::nullopt;
-      }
-    }
-  }
-
-  std::optional<StopReason> reason_to_stop(std::optional<StopReason> settled, const SweepRecord& record,
-                                           double seconds) const {
-    bool stopped = options_.progress && options_.progress(record) == Progress::stop;
-    if (halo_ != nullptr && halo_->part().has_progress) {
-      stopped = any_part(halo_, stopped);
-    }
-    if (settled) {
-      return settled;
-    }
-    if (record.min_shape >= options_.target_quality.value_or(no_target)) {
-      return StopReason::quality_target;
-    }
-    if (stopped) {
-      return StopReason::cancelled;
-    }
-    if (record.sweep == options_.max_sweeps) {
-      return StopReason::sweep_limit;
-    }
-    if (seconds >= options_.time_limit_seconds) {
-      return StopReason::time_limit;
-    }
-    return std::nullopt;
+    } while (!control.begins_stage());
+    return false;
   }
 
   SweepTally<T> sweep(const MethodInUse<T>& in_use, const BulkVector<Point2<T>>& from, BulkVector<Point2<T>>& to,
@@ -259,11 +220,16 @@ class SweepDriver {
   }
 
   bool reached_target(std::span<const Point2<T>> points, double fixed_quotient) {
-    return options_.target_quality && min_shape(points, fixed_quotient) >= *options_.target_quality;
+    return options_.target_quality && min_shape(smallest_quotient(points), fixed_quotient) >= *options_.target_quality;
   }
 
-  /// The smallest shape of all triangles, seen from their free vertices.
-  double min_shape(std::span<const Point2<T>> points, double fixed_quotient) {
+  /// The smallest shape of all triangles. `smallest`: as smallest_quotient().
+  double min_shape(T smallest, double fixed_quotient) const {
+    return min_shape_of(least_of_parts(halo_, static_cast<double>(smallest)), fixed_quotient);
+  }
+
+  /// The smallest quotient of the triangles of this part, seen from their free vertices.
+  T smallest_quotient(std::span<const Point2<T>> points) {
     T smallest = std::numeric_limits<T>::infinity();
     std::mutex joining;
     workers_.for_blocks(rings_.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
@@ -278,7 +244,7 @@ class SweepDriver {
     if (slide_ != nullptr) {
       smallest = std::min(smallest, slide_->smallest_quotient(points));
     }
-    return min_shape_of(least_of_parts(halo_, static_cast<double>(smallest)), fixed_quotient);
+    return smallest;
   }
 
   const PackedRings& rings_;
