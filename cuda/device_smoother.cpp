@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -19,11 +18,11 @@
 #include "trismooth/cuda/runtime/timeline.h"
 #include "trismooth/cuda/sliding_run.h"
 #include "trismooth/cuda/sweep_engine.h"
-#include "trismooth/cuda/sweeps/device_stages.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
+#include "trismooth/smoothing/sweeps/sweep_control.h"
 
 namespace trismooth::cuda {
 
@@ -31,9 +30,9 @@ namespace {
 
 /// Drives an engine in working precision T from stored coordinates to stored coordinates.
 template <class T>
-class SweepDriver final : public DeviceSmoother {
+class EngineSmoother final : public DeviceSmoother {
  public:
-  SweepDriver(Context& context, PackedMesh mesh, const SmoothingOptions& options)
+  EngineSmoother(Context& context, PackedMesh mesh, const SmoothingOptions& options)
       : context_(context),
         options_(options),
         device_(require_device()),
@@ -150,11 +149,7 @@ class SweepDriver final : public DeviceSmoother {
       result.stop_reason = StopReason::quality_target;
       return;
     }
-    result.sweeps = 1;
-    result.history.push_back({1, 0, 0, 0, options_.measures_shape() ? shape : no_target});
-    if (options_.progress) {
-      options_.progress(result.history.back());
-    }
+    SweepControl(options_, 0, result).add(SweepTally<T>{}, options_.measures_shape() ? shape : no_target, 0);
   }
 
   /// Queues the way to the working positions from those that are stored.
@@ -187,58 +182,36 @@ class SweepDriver final : public DeviceSmoother {
         !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
     const bool watched = static_cast<bool>(options_.progress);
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
-    DeviceStages stages(options_, order_.free_count());
-    begin_stage();
-    for (;;) {
+    SweepControl control(options_, order_.free_count(), result);
+    for (bool is_over = false; !is_over;) {
       const auto launched = Clock::now();
       // What comes behind the last sweep is not queued behind a stage that is not the last.
-      const bool follows = may_follow && !slides_.any() && stages.is_last();
-      loop.sweeps = slides_.up_to_slide(stages.at_most(batches.size()));
-      if (options_.max_sweeps > 0) {
-        loop.remaining = options_.max_sweeps - result.sweeps;
-        loop.sweeps = static_cast<std::int32_t>(std::min<std::int64_t>(loop.sweeps, loop.remaining));
-        ending.input.is_over = loop.sweeps == loop.remaining;
-      }
-      launch(stages, loop, result);
+      const bool follows = may_follow && !slides_.any() && control.stages().is_last();
+      loop.remaining = control.sweeps_left();
+      queue_sweeps(control, batches.size(), loop, result);
+      ending.input.is_over = loop.sweeps == loop.remaining;
       if (follows) {
         queue_ending(ending, result);
       }
-      queue_slides(stages, loop, result.sweeps, result);
-      read_record(result);
-      note_slides(stages, loop, result.sweeps);
-      bool stopped = read_sweeps(loop, result);
+      finish_sweeps(control, result);
       const bool is_repeating = state.stop == LoopState::repeating;
-      if (is_repeating && !stopped) {
-        stopped = repeat_last_two(result);
+      const std::int64_t last = result.sweeps + state.sweeps;
+      // The clock is looked at behind the last sweep that was made; where all further ones are known, not at all.
+      is_over = add_sweeps(control, loop, is_repeating ? 0 : seconds_since(start));
+      while (is_repeating && !is_over) {
+        is_over = control.add_again();
+      }
+      if (!is_over) {
+        batches.adapt(seconds_since(launched), seconds_since(start));
+        continue;
       }
       // The last sweep that the caller was told of is not the last that was made, or `current` not where it left us.
-      const bool overran = stopped && (is_repeating || result.sweeps != sweeps_before_ + state.sweeps);
-      if (overran) {
+      if (result.stop_reason == StopReason::cancelled && (is_repeating || result.sweeps != last)) {
         sweep_again(loop, ending, result);
-        result.stop_reason = StopReason::cancelled;
-      } else if (is_repeating) {
-        result.stop_reason = StopReason::sweep_limit;
-      } else if (const auto reason = reason_of(state, stages, result)) {
-        result.stop_reason = *reason;
-      } else if (stopped) {
-        result.stop_reason = StopReason::cancelled;
-      } else if (result.sweeps == options_.max_sweeps) {
-        result.stop_reason = StopReason::sweep_limit;
-      } else if (seconds_since(start) >= options_.time_limit_seconds) {
-        result.stop_reason = StopReason::time_limit;
-      } else {
-        batches.adapt(seconds_since(launched), seconds_since(start));
-        const bool settled = state.stop != LoopState::running;
-        if (stages.is_over(state.sweeps, settled)) {
-          stages.next(result.history.back().moved, settled);
-          begin_stage();
-        }
-        continue;
       }
       if (!follows || result.stop_reason == StopReason::time_limit) {
         end_now(ending, result);
       }
-      return;
     }
   }
 
@@ -249,63 +222,42 @@ class SweepDriver final : public DeviceSmoother {
     enter(ending, result);
     host_record_.state = LoopState{};
     loop.remaining = 0;
-    DeviceStages stages(options_, order_.free_count());
-    begin_stage();
-    for (std::int64_t done = 0; done < result.sweeps;) {
-      const auto left = std::min<std::int64_t>(result.sweeps - done, RunRecord::most_sweeps);
-      loop.sweeps = slides_.up_to_slide(stages.at_most(static_cast<std::int32_t>(left)));
-      launch(stages, loop, result);
-      queue_slides(stages, loop, done, result);
-      read_record(result);
-      note_slides(stages, loop, done);
-      done += host_record_.state.sweeps;
-      const bool settled = host_record_.state.stop != LoopState::running;
-      if (stages.is_over(host_record_.state.sweeps, settled)) {
-        stages.next(result.history[static_cast<std::size_t>(done) - 1].moved, settled);
-        begin_stage();
-      }
+    SmoothingOptions unwatched = options_;
+    unwatched.progress = nullptr;
+    SmoothingResult again;
+    SweepControl control(unwatched, order_.free_count(), again);
+    while (again.sweeps < result.sweeps) {
+      const auto left = std::min<std::int64_t>(result.sweeps - again.sweeps, RunRecord::most_sweeps);
+      queue_sweeps(control, static_cast<std::int32_t>(left), loop, result);
+      finish_sweeps(control, result);
+      add_sweeps(control, loop, 0);
     }
   }
 
-  /// Makes ready for a stage from where host_record_ says.
-  void begin_stage() {
-    host_record_.state.evaluates_all = 1;
-    host_record_.state.marks = 0;
-    slides_.begin_stage();
-    with_engine([](auto& engine) { engine.begin_stage(); });
-  }
-
-  /// Queues the slides behind the sweeps of a launch. `done`: sweeps of the run before it. What slides is found while
-  /// the device makes the first ones.
-  void queue_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done, SmoothingResult& result) {
+  /// Queues sweeps from where host_record_ says until the control is to be asked, `most` at most, and what slides
+  /// behind them. What slides in this run is found while the device makes the first ones.
+  void queue_sweeps(const SweepControl& control, std::int32_t most, LoopRules& loop, SmoothingResult& result) {
+    if (control.begins_stage()) {
+      host_record_.state.evaluates_all = 1;
+      host_record_.state.marks = 0;
+      with_engine([](auto& engine) { engine.begin_stage(); });
+    }
+    loop.sweeps = static_cast<std::int32_t>(control.sweeps_until_asked(most, slides_.any()));
+    loop.few_moves = control.stages().few_moves();
+    launch(control.stages().template step<T>(), loop, result);
     with_engine([&](auto& engine) {
       slides_.find_lines(engine, before_.data(), result);
-      result.kernel_launches += slides_.queue(engine, stages, loop, done, record_.data(), context_.stream());
+      result.kernel_launches += slides_.queue(engine, control, loop.sweeps, record_.data(), context_.stream());
     });
   }
 
-  void note_slides(const DeviceStages& stages, const LoopRules& loop, std::int64_t done) {
-    with_engine([&](auto& engine) { slides_.note(engine, stages, loop, done, host_record_); });
+  /// Waits for them.
+  void finish_sweeps(const SweepControl& control, SmoothingResult& result) {
+    read_record(result);
+    with_engine([&](auto& engine) { slides_.note(engine, control, host_record_.state); });
   }
 
-  /// Why the smoothing ends with the last sweep of a launch, as far as its kernels know.
-  std::optional<StopReason> reason_of(const LoopState& state, const DeviceStages& stages,
-                                      const SmoothingResult& result) const {
-    if (state.stop == LoopState::running) {
-      return std::nullopt;
-    }
-    const auto reason = static_cast<StopReason>(state.stop);
-    if (stages.is_last() || reason == StopReason::quality_target) {
-      return reason;
-    }
-    // It ends the stage; what else the sweep may have brought about counts still.
-    const bool reached = result.history.back().min_shape >= options_.target_quality.value_or(no_target);
-    return reached ? std::optional(StopReason::quality_target) : std::nullopt;
-  }
-
-  /// Queues more sweeps from where host_record_ says.
-  void launch(const DeviceStages& stages, LoopRules loop, SmoothingResult& result) {
-    loop.few_moves = stages.few_moves();
+  void launch(const MeanRatioStep<T>& step, LoopRules& loop, SmoothingResult& result) {
     loop.begins_with_all = host_record_.state.evaluates_all != 0;
     LoopState next = host_record_.state;
     next.sweeps = 0;
@@ -314,9 +266,8 @@ class SweepDriver final : public DeviceSmoother {
     host_record_ = RunRecord{};
     host_record_.state = next;
     record_.upload({&host_record_, 1});
-    result.kernel_launches += with_engine([&](auto& engine) {
-      return engine.sweep(stages.step<T>(), loop, &record_.data()->state, record_.data()->sums.data());
-    });
+    result.kernel_launches += with_engine(
+        [&](auto& engine) { return engine.sweep(step, loop, &record_.data()->state, record_.data()->sums.data()); });
   }
 
   /// Waits for the record of what has been queued.
@@ -387,43 +338,17 @@ class SweepDriver final : public DeviceSmoother {
     result.moved_vertices = outcome.moved;
   }
 
-  /// Writes the sweeps of a launch into the history, up to one at which the caller's callback says stop: true then.
-  bool read_sweeps(const LoopRules& loop, SmoothingResult& result) {
-    sweeps_before_ = result.sweeps;
-    for (std::int32_t i = 0; i < host_record_.state.sweeps; ++i) {
+  /// Tells the control of the sweeps of a launch, up to one that the run is over with: true then. `seconds`: since the
+  /// run began, when the last one was made.
+  bool add_sweeps(SweepControl& control, const LoopRules& loop, double seconds) const {
+    const std::int32_t count = host_record_.state.sweeps;
+    bool is_over = false;
+    for (std::int32_t i = 0; i < count && !is_over; ++i) {
       const SweepSums& sums = host_record_.sums[static_cast<std::size_t>(i)];
-      const auto largest = static_cast<T>(std::bit_cast<double>(sums.max_relative));
-      SweepRecord record{result.sweeps + 1, static_cast<std::int64_t>(sums.evaluated),
-                         static_cast<std::int64_t>(sums.moved), static_cast<double>(std::sqrt(largest))};
-      if (loop.measures_shape) {
-        record.min_shape = min_shape_after(sums, loop);
-      }
-      if (add(record, result)) {
-        return true;
-      }
+      is_over = control.add(tally_of<T>(sums), loop.measures_shape ? min_shape_after(sums, loop) : no_target,
+                            i + 1 == count ? seconds : 0);
     }
-    return false;
-  }
-
-  /// The sweeps that are left until the limit: each is the one two before it once more. True where the caller's
-  /// callback said stop.
-  bool repeat_last_two(SmoothingResult& result) const {
-    while (result.sweeps < options_.max_sweeps) {
-      SweepRecord record = result.history[result.history.size() - 2];
-      record.sweep = result.sweeps + 1;
-      if (add(record, result)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// One more sweep for the history. True where the caller's callback said stop.
-  bool add(const SweepRecord& record, SmoothingResult& result) const {
-    result.sweeps = record.sweep;
-    result.vertex_updates += record.evaluated;
-    result.history.push_back(record);
-    return options_.progress && options_.progress(record) == Progress::stop;
+    return is_over;
   }
 
   double min_shape_now(const LoopRules& loop, SmoothingResult& result) {
@@ -444,7 +369,6 @@ class SweepDriver final : public DeviceSmoother {
   DeviceBuffer<RunRecord> record_;
   RunRecord host_record_{};
   SlidingRun<T> slides_{options_};
-  std::int64_t sweeps_before_ = 0;  ///< of the run, when the last launch began
   Timeline timeline_;
   std::optional<SweepEngine<T>> engine_;  ///< none where there is no free vertex
 };
@@ -456,9 +380,9 @@ std::unique_ptr<DeviceSmoother> make_device_smoother(Context& context, DeviceRin
                                                      const SmoothingOptions& options) {
   PackedMesh mesh = pack(context, std::move(rings), std::move(points), options);
   if (options.precision == Precision::double_precision) {
-    return std::make_unique<SweepDriver<double>>(context, std::move(mesh), options);
+    return std::make_unique<EngineSmoother<double>>(context, std::move(mesh), options);
   }
-  return std::make_unique<SweepDriver<float>>(context, std::move(mesh), options);
+  return std::make_unique<EngineSmoother<float>>(context, std::move(mesh), options);
 }
 
 }  // namespace trismooth::cuda

@@ -1,7 +1,6 @@
 #include "trismooth/cuda/part_offloads.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -178,8 +177,7 @@ class PartSweeps final : public SweepOffload<T> {
     SweepSums found{};
     sums_.download({&found, 1});
     choose_visit(static_cast<std::int64_t>(found.moved), step);
-    return {static_cast<std::int64_t>(found.evaluated), static_cast<std::int64_t>(found.moved),
-            found.beyond_tolerance == 0, static_cast<T>(std::bit_cast<double>(found.max_relative))};
+    return tally_of<T>(found);
   }
 
   T smallest_quotient() override {

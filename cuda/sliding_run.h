@@ -10,10 +10,10 @@
 #include "trismooth/cuda/run_record.h"
 #include "trismooth/cuda/slide/device_slide.h"
 #include "trismooth/cuda/slide/slide_pass.h"
-#include "trismooth/cuda/sweeps/device_stages.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
+#include "trismooth/smoothing/sweeps/sweep_control.h"
 
 namespace trismooth::cuda {
 
@@ -46,19 +46,6 @@ class SlidingRun {
       slide_->restart();
     }
   }
-  void begin_stage() { sweeps_of_stage_ = 0; }
-
-  /// As many of the sweeps as there are up to the next one that vertices slide behind.
-  std::int32_t up_to_slide(std::int32_t sweeps) const {
-    if (!slides_) {
-      return sweeps;
-    }
-    std::int32_t count = 1;
-    while (count < sweeps && !slides_behind(sweeps_of_stage_ + count, false, false)) {
-      ++count;
-    }
-    return count;
-  }
 
   /// Finds what slides, and says it in the result, unless that has been done in this run: while the first sweeps are
   /// made. `before`: as GuardInput.
@@ -74,16 +61,13 @@ class SlidingRun {
     }
   }
 
-  /// Queues the slides behind sweeps that have been queued. `done`: sweeps of the run before them. Returns the number
-  /// of launches.
+  /// Queues the slides behind sweeps of that number that have been queued. Returns the number of launches.
   template <class Engine>
-  std::int64_t queue(Engine& engine, const DeviceStages& stages, const LoopRules& loop, std::int64_t done,
-                     RunRecord* record, cudaStream_t stream) {
+  std::int64_t queue(Engine& engine, const SweepControl& control, std::int32_t sweeps, RunRecord* record,
+                     cudaStream_t stream) {
     if (!slides_) {
       return 0;
     }
-    const bool is_limit = done + loop.sweeps == options_.max_sweeps;
-    const bool due_at_end = slides_behind(sweeps_of_stage_ + loop.sweeps, false, is_limit);
     const auto [first, second] = engine.output(0);
     SlideWork<T> work = slide_->template work<T>();
     work.first = first;
@@ -91,25 +75,20 @@ class SlidingRun {
     work.first_marks = engine.marks(0);
     work.second_marks = engine.marks(1);
     work.tolerance = static_cast<T>(options_.tolerance);
-    return launch_slide_pass(MethodInUse<T>{options_.method, engine.targets().view(), stages.template step<T>()}, work,
-                             slide_->batches(), due_at_end ? loop.sweeps : 0, &record->state, record->sums.data(),
-                             stream);
+    const bool due_at_end = control.slides_behind(sweeps, false);
+    return launch_slide_pass(
+        MethodInUse<T>{options_.method, engine.targets().view(), control.stages().template step<T>()}, work,
+        slide_->batches(), due_at_end ? sweeps : 0, &record->state, record->sums.data(), stream);
   }
 
-  /// Has the state say whether the run has settled where vertices slid behind the last sweep of a record.
+  /// Has the engine know where vertices slid behind the last sweep of a record, which the control has not been told of:
+  /// what they did is in its sums, and whether it settled is for these to say.
   template <class Engine>
-  void note(Engine& engine, const DeviceStages& stages, const LoopRules& loop, std::int64_t done, RunRecord& record) {
-    LoopState& state = record.state;
-    sweeps_of_stage_ += state.sweeps;
-    const bool settled = state.stop != LoopState::running;
-    const bool is_limit = done + state.sweeps == options_.max_sweeps;
-    if (!slides_ || state.sweeps == 0 || !slides_behind(sweeps_of_stage_, settled, is_limit)) {
-      return;
+  void note(Engine& engine, const SweepControl& control, LoopState& state) {
+    if (slides_ && state.sweeps > 0 && control.slides_behind(state.sweeps, state.stop != LoopState::running)) {
+      engine.note_slides(state);
+      state.stop = LoopState::running;
     }
-    engine.note_slides(state);
-    LoopRules rules = loop;
-    rules.few_moves = stages.few_moves();
-    state.stop = stop_after(record.sums[static_cast<std::size_t>(state.sweeps - 1)], rules);
   }
 
   /// The ending of the run. Lines and elements have their say in turn: who goes back for one may spoil the other. When
@@ -188,7 +167,6 @@ class SlidingRun {
   const SmoothingOptions& options_;
   std::optional<DeviceSlide> slide_;  ///< what may slide
   bool slides_ = false;
-  std::int64_t sweeps_of_stage_ = 0;  ///< done
 };
 
 }  // namespace trismooth::cuda

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
 #include "trismooth/base/host_device.h"
 #include "trismooth/cuda/primitives/falling_key.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
+#include "trismooth/smoothing/sweeps/sweep_tally.h"
 
 namespace trismooth::cuda {
 
@@ -56,6 +58,13 @@ struct LoopState {
   std::int32_t marks = 0;          ///< and marks for the sweep after it, which will not
   std::uint32_t blocks_done = 0;   ///< blocks that have ended the sweep
 };
+
+/// What a sweep did, for the host: whose sweeps have working precision T.
+template <class T>
+SweepTally<T> tally_of(const SweepSums& sums) {
+  return {static_cast<std::int64_t>(sums.evaluated), static_cast<std::int64_t>(sums.moved), sums.beyond_tolerance == 0,
+          static_cast<T>(std::bit_cast<double>(sums.max_relative))};
+}
 
 /// The smallest shape after a sweep.
 TRISMOOTH_HOST_DEVICE inline double min_shape_after(const SweepSums& sums, const LoopRules& rules) {
