@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "trismooth/smoothing/smooth.h"
+#include "trismooth/smoothing/sweeps/sweep_control.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"
@@ -21,6 +23,7 @@ using trismooth::SmoothingOptions;
 using trismooth::SmoothingResult;
 using trismooth::Stages;
 using trismooth::StopReason;
+using trismooth::SweepControl;
 using trismooth::SweepRecord;
 
 namespace stages_test {
@@ -134,6 +137,75 @@ TEST_CASE("a first stage that has settled is over, however many moved; without v
   CHECK(stages.is_last());
   CHECK(stages.step<double>().least_gain == 3e-4);
   CHECK(Stages(mean_ratio(), 0).is_last());
+}
+
+/// A sweep in which so many vertices moved, farther than any tolerance.
+trismooth::SweepTally<double> moved_in_sweep(std::int64_t moved) {
+  return {1000, moved, false, 0.25};
+}
+
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
+TEST_CASE("a control that leads launches of many sweeps has itself asked at the end of a stage and at the limit") {
+  SmoothingOptions options = mean_ratio();
+  options.max_sweeps = 24;
+  SmoothingResult result;
+  SweepControl control(options, 1000, result);
+  CHECK(control.begins_stage());
+  CHECK(control.sweeps_until_asked(256, false) == 10);
+  CHECK(control.sweeps_until_asked(4, false) == 4);
+  for (std::int64_t sweep = 1; sweep < 10; ++sweep) {
+    REQUIRE_FALSE(control.add(moved_in_sweep(900), not_measured, 0));
+    CHECK_FALSE(control.begins_stage());
+    CHECK(control.sweeps_until_asked(256, false) == 10 - sweep);
+  }
+  // The mesh has far to go: the first stage goes on.
+  REQUIRE_FALSE(control.add(moved_in_sweep(900), not_measured, 0));
+  CHECK(control.begins_stage());
+  CHECK_FALSE(control.stages().is_last());
+  CHECK(control.sweeps_until_asked(256, false) == 10);
+  // A sweep that settles ends it before its time.
+  CHECK(control.settles(trismooth::SweepTally<double>{}));
+  REQUIRE_FALSE(control.add(trismooth::SweepTally<double>{}, not_measured, 0));
+  CHECK(control.begins_stage());
+  CHECK(control.stages().is_last());
+  CHECK(control.sweeps_left() == 13);
+  CHECK(control.sweeps_until_asked(256, false) == 13);
+  REQUIRE_FALSE(control.add(moved_in_sweep(17), not_measured, 0));
+  REQUIRE_FALSE(control.add(moved_in_sweep(16), not_measured, 0));
+  // What goes to and fro does so up to the limit.
+  bool is_over = false;
+  while (!is_over) {
+    is_over = control.add_again();
+  }
+  CHECK(result.stop_reason == StopReason::sweep_limit);
+  CHECK(result.sweeps == 24);
+  REQUIRE(result.history.size() == 24);
+  CHECK(result.vertex_updates == 23 * 1000);
+  for (std::size_t i = 0; i < result.history.size(); ++i) {
+    CHECK(result.history[i].sweep == static_cast<std::int64_t>(i) + 1);
+    CHECK(result.history[i].moved == (i < 10 ? 900 : (i == 10 ? 0 : 17 - static_cast<std::int64_t>((i + 1) % 2))));
+  }
+  CHECK(result.history[0].max_relative_move == 0.5);
+}
+
+TEST_CASE("where vertices slide a control has itself asked behind every fifth sweep of a stage and behind the last") {
+  SmoothingOptions options = mean_ratio();
+  options.method = Method::smart;
+  options.max_sweeps = 12;
+  SmoothingResult result;
+  SweepControl control(options, 1000, result);
+  for (const std::int64_t expected : {5, 4, 3, 2, 1, 5, 4, 3, 2, 1, 2}) {
+    CHECK(control.sweeps_until_asked(256, true) == expected);
+    CHECK(control.sweeps_until_asked(2, true) == std::min<std::int64_t>(2, expected));
+    CHECK(control.slides_behind(expected, false));
+    CHECK(control.slides_behind(1, false) == (expected == 1));
+    CHECK(control.slides_behind(1, true));
+    REQUIRE_FALSE(control.add(moved_in_sweep(1), not_measured, 0));
+  }
+  CHECK(control.slides_behind(1, false));
+  CHECK(control.add(moved_in_sweep(1), not_measured, 0));
+  CHECK(result.stop_reason == StopReason::sweep_limit);
 }
 
 TEST_CASE("sweeps are counted through the stages, and each begins with a sweep over all vertices") {
