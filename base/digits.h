@@ -21,4 +21,9 @@ std::string shortest_digits(double value);
 /// The fewest characters that stand for this value and no other: "12.5", "1e+300".
 std::string shortest_text(double value);
 
+/// The fewest digits that stand for this value of its type and no other, with an exponent below 1e-4 and from 1e16 on,
+/// as Python and the library fmt have them: "0.1", "100000", "1e+16".
+std::string plain_text(double value);
+std::string plain_text(float value);
+
 }  // namespace trismooth

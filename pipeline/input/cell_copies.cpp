@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/counted.h"
 #include "trismooth/base/repeated_triangles.h"
-#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/triangle_cells.h"
 
 namespace trismooth {
 
@@ -20,7 +19,7 @@ namespace {
 /// The middle across from each corner, by ascending corners; -1 where there is none.
 using Middles = std::array<std::pair<std::int32_t, std::int32_t>, 3>;
 
-Middles middles_of(const PlanarMesh& mesh, std::int32_t triangle) {
+Middles middles_of(const TriangleCells& mesh, std::int32_t triangle) {
   const auto found = std::ranges::lower_bound(mesh.quadratics, triangle, {}, &QuadraticTriangle::triangle);
   const bool has_any = found != mesh.quadratics.end() && found->triangle == triangle;
   Middles middles;
@@ -37,7 +36,7 @@ bool has_other_middles(const Middles& copy, const Middles& first) {
   return !std::ranges::equal(copy, first, [](const auto& a, const auto& b) { return a.second == -1 || a == b; });
 }
 
-void hold_as_other_cell(PlanarMesh& mesh, std::int32_t triangle) {
+void hold_as_other_cell(TriangleCells& mesh, std::int32_t triangle) {
   for (const auto& [corner, middle] : middles_of(mesh, triangle)) {
     for (const std::int32_t v : {corner, middle}) {
       if (v >= 0) {
@@ -49,7 +48,7 @@ void hold_as_other_cell(PlanarMesh& mesh, std::int32_t triangle) {
 }
 
 /// Makes the mesh one of the other triangles. Returns their numbers there.
-std::vector<std::int32_t> leave_out(PlanarMesh& mesh, std::span<const RepeatedTriangle> repeated) {
+std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const RepeatedTriangle> repeated) {
   std::vector<Triangle> triangles;
   BulkVector<std::int32_t> cells;
   std::vector<QuadraticTriangle> quadratics;
@@ -83,7 +82,7 @@ std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::
   return {first, std::ranges::upper_bound(first, copies.end(), cell, {}, &CellCopy::cell)};
 }
 
-void take_out_copies(PlanarMesh& mesh, Workers& workers) {
+void take_out_copies(TriangleCells& mesh, Workers& workers) {
   const auto repeated = find_repeated_triangles(mesh.triangles, workers);
   if (repeated.empty()) {
     return;
@@ -98,16 +97,15 @@ void take_out_copies(PlanarMesh& mesh, Workers& workers) {
     }
   }
   const auto [triangle, first] = repeated.front();
-  mesh.notes.push_back(fmt::format(
-      "{} listed again (the first is cell {}, which has the corners of cell {}): {} and smoothed once, as "
-      "it is listed first; the file keeps all",
-      counted(repeated.size(), "triangle is", "triangles are"), mesh.cells[static_cast<std::size_t>(triangle)],
-      mesh.cells[static_cast<std::size_t>(first)], repeated.size() == 1 ? "it is counted" : "each is counted"));
+  const auto cell_of = [&](std::int32_t t) { return std::to_string(mesh.cells[static_cast<std::size_t>(t)]); };
+  mesh.notes.push_back(counted(repeated.size(), "triangle is", "triangles are") + " listed again (the first is cell " +
+                       cell_of(triangle) + ", which has the corners of cell " + cell_of(first) +
+                       "): " + (repeated.size() == 1 ? "it is" : "each is") +
+                       " counted and smoothed once, as it is listed first; the file keeps all");
   if (others > 0) {
-    mesh.notes.push_back(
-        fmt::format("{} of the triangles that are listed again {} other middles of sides: kept as "
-                    "they are, their vertices held fixed",
-                    others, others == 1 ? "has" : "have"));
+    mesh.notes.push_back(std::to_string(others) + " of the triangles that are listed again " +
+                         (others == 1 ? "has" : "have") +
+                         " other middles of sides: kept as they are, their vertices held fixed");
   }
   const std::vector<std::int32_t> numbers = leave_out(mesh, repeated);
   for (CellCopy& copy : mesh.copies) {

@@ -6,7 +6,7 @@
 namespace trismooth {
 
 class Workers;
-struct PlanarMesh;
+struct TriangleCells;
 
 /// A cell of the document, or of a strip a part, that is a triangle of the mesh once more.
 struct CellCopy {
@@ -23,6 +23,6 @@ std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::
 /// each once then: they are its `copies`. Programs list triangles again for every group that has them. One of six nodes
 /// whose middles are others counts as another cell: its vertices are held. Notes say how many there are of both. To be
 /// called when the mesh's triangles are what they stay. Complexity: as find_repeated_triangles().
-void take_out_copies(PlanarMesh& mesh, Workers& workers);
+void take_out_copies(TriangleCells& mesh, Workers& workers);
 
 }  // namespace trismooth

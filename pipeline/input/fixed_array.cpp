@@ -7,8 +7,12 @@
 
 namespace trismooth {
 
+const DataArray* choose_fixed_array(std::span<const DataArray> arrays, const std::optional<std::string>& name) {
+  return find_array_loosely(arrays, name.value_or("fixed"));
+}
+
 FixedArray find_fixed_array(const MeshDocument& document, const std::optional<std::string>& name) {
-  const DataArray* const array = find_array_loosely(document.point_arrays, name.value_or("fixed"));
+  const DataArray* const array = choose_fixed_array(document.point_arrays, name);
   if (array == nullptr) {
     if (name) {
       throw std::invalid_argument("the file has no point array '" + *name +

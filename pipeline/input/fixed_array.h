@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,13 @@ struct FixedArray {
   std::int64_t vertices = 0;        ///< how many are 1
 };
 
-/// The point array `name`, or without a name the first that is called "fixed", in whatever case, if there is one. What
-/// the program adds to a file to show what it held has another name (annotation_names.h), so it is not taken for the
-/// user's word. Throws std::invalid_argument where `name` is given and the document has no such array, naming those it
-/// has. Complexity: linear.
+/// The one of a mesh's point arrays that is called `name`, or without a name "fixed", in whatever case; nullptr where
+/// there is none. What the program adds to a file to show what it held has another name (annotation_names.h), so it is
+/// not taken for the user's word. Complexity: linear in the arrays.
+const DataArray* choose_fixed_array(std::span<const DataArray> arrays, const std::optional<std::string>& name);
+
+/// What the one that choose_fixed_array() names holds, if there is one. Throws std::invalid_argument where `name` is
+/// given and the document has no such array, naming those it has. Complexity: linear.
 FixedArray find_fixed_array(const MeshDocument& document, const std::optional<std::string>& name);
 
 }  // namespace trismooth

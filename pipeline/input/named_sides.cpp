@@ -9,7 +9,7 @@
 
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/triangle_cells.h"
 
 namespace trismooth {
 
@@ -33,7 +33,7 @@ unsigned bits_of(double value) {
   return has_bits ? static_cast<unsigned>(value) : 0;
 }
 
-void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& document, const PlanarMesh& mesh,
+void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& document, const TriangleCells& mesh,
                std::vector<Mark>& marks) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto cell = static_cast<std::size_t>(mesh.cells[t]);
@@ -53,7 +53,7 @@ void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& 
 
 }  // namespace
 
-NamedSides find_named_sides(const MeshDocument& document, const PlanarMesh& mesh) {
+NamedSides find_named_sides(const MeshDocument& document, const TriangleCells& mesh) {
   NamedSides sides;
   std::vector<Mark> marks;
   std::int32_t number = 0;

@@ -7,7 +7,7 @@
 namespace trismooth {
 
 struct MeshDocument;
-struct PlanarMesh;
+struct TriangleCells;
 
 /// Sides of triangles that a document's cell arrays mark as named boundaries (is_side_name() in region_names.h). They
 /// are to a mesh what line cells are: they hold their vertices, or these slide along them.
@@ -21,6 +21,6 @@ struct NamedSides {
 
 /// Those of the mesh's triangles, but for strips. Arrays that hold other than whole numbers mark none. Complexity:
 /// n log n in the sides that are marked, and linear in the triangles for each such array.
-NamedSides find_named_sides(const MeshDocument& document, const PlanarMesh& mesh);
+NamedSides find_named_sides(const MeshDocument& document, const TriangleCells& mesh);
 
 }  // namespace trismooth

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,49 +10,24 @@
 
 #include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/geographic/geographic_map.h"
-#include "trismooth/pipeline/input/cell_copies.h"
 #include "trismooth/pipeline/input/middle_nodes.h"
-#include "trismooth/pipeline/input/named_sides.h"
-#include "trismooth/quality/quadratic_quality.h"
+#include "trismooth/pipeline/input/triangle_cells.h"
 
 namespace trismooth {
 
 class Workers;
 
 /// The planar triangle mesh that a document holds. The document outlives it, and its cells stay as they are.
-struct PlanarMesh {
-  PlanarMesh() = default;
-  PlanarMesh(PlanarMesh&&) = default;
-  PlanarMesh& operator=(PlanarMesh&&) = default;
-  PlanarMesh(const PlanarMesh&) = delete;
-  PlanarMesh& operator=(const PlanarMesh&) = delete;
-  ~PlanarMesh() = default;
-
+struct PlanarMesh : TriangleCells {
   Plane plane;
   std::optional<GeographicMap> map;   ///< where the points are longitudes and latitudes: what they are laid on
   BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
-  /// In the document's order, each in the document's vertex order. They are the document's own connectivity where it
-  /// has nothing but triangles, else they are in triangles_of_cells.
-  std::span<const Triangle> triangles;
-  std::vector<Triangle> triangles_of_cells;
-  BulkVector<std::int32_t> cells;             ///< the document's cell of each triangle, ascending; a strip has several
-  std::vector<CellCopy> copies;               ///< the cells that are these triangles again: see take_out_copies()
-  std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
-  std::vector<MiddleNode> middles;            ///< the middles that follow their sides: see settle_middles()
-  std::vector<std::int32_t> merged;           ///< per vertex the one it goes with: see merge_corners(); or empty
-  std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is not a triangle uses it, or the
-                                              ///< side of a triangle that is a named boundary
-  NamedSides sides;                           ///< these sides
-  std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
-  std::int64_t other_cells = 0;               ///< cells that are not triangles
-  std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
-  std::int64_t high_order_triangles = 0;      ///< those of them that are triangles of seven nodes, of ten, or of more
-  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+  std::vector<MiddleNode> middles;    ///< the middles that follow their sides: see settle_middles()
+  std::vector<std::int32_t> merged;   ///< per vertex the one it goes with: see merge_corners(); or empty
 
   /// Where a vertex lies in the plane, or on the map, that is stored there.
   Point2<double> place(std::size_t vertex, const Eigen::Vector3d& stored) const {
@@ -64,24 +38,6 @@ struct PlanarMesh {
     return map ? map->moved(stored, from, to) : plane.moved(stored, from, to);
   }
 };
-
-/// A cell as a triangle.
-struct CellTriangle {
-  Triangle corners;
-  std::optional<std::array<std::int32_t, 3>> middles;  ///< of the sides 01, 12 and 20, where it has such
-  bool is_quad = false;  ///< the cell is a quadrilateral that repeats a corner, as Ansys and Abaqus write triangles
-};
-
-/// The triangle that a cell is, corners in the cell's order, but for strips: triangles of three or six nodes, VTK's
-/// Lagrange triangles (type 69) of order 1 and 2 among them, polygons of three, and quadrilaterals of four or eight
-/// nodes of which two corners that follow each other are the same vertex, and no other ones. Constant time.
-std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices);
-
-/// Whether the cell would be a triangle, did it not repeat a corner, so that it has no area.
-bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices);
-
-/// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
-std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 
 /// Throws ReadError naming `path` for a mesh of that many cells, of which none is a triangle that can be smoothed;
 /// `high_order` of them are triangles of more than six nodes.
@@ -94,14 +50,10 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
 /// The number type that coordinates are rounded to in the document's file.
 Storage storage_of(const MeshDocument& document);
 
-/// Finds the triangles and the plane of the document. A triangle strip counts as its triangles (see
-/// strip_triangles.h), and one of six nodes as that of its corners, beside what `quadratics` says; see
-/// triangle_of_cell() for the others. A note says how many quadrilaterals are triangles, and names triangles of more
-/// nodes. A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says
-/// so. Sides that are named boundaries (named_sides.h) hold their vertices as line cells do. Throws ReadError naming
-/// `path` where the vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in it
-/// (near the largest double), or the document holds cells but no triangle. A document without any cell is fine: nothing
-/// to smooth. Complexity: linear.
+/// Finds the triangles (see triangle_cells()) and the plane of the document. Throws ReadError naming `path` where the
+/// vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in it (near the largest
+/// double), or the document holds cells but no triangle. A document without any cell is fine: nothing to smooth.
+/// Complexity: linear.
 PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
 /// planar_mesh() on the calling thread.
@@ -114,11 +66,6 @@ PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::p
 /// planar_mesh() of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for
 /// the whole mesh. Throws ReadError naming `path` for too many points or cells.
 PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
-
-/// What the user should know of cells that are no triangles, one sentence each. `first_repeating`: the first triangle
-/// that repeats a vertex, if it is known.
-std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t repeating_triangles,
-                                              std::optional<std::size_t> first_repeating);
 
 /// Not of a temporary: the triangles may be the document's own.
 PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers) = delete;

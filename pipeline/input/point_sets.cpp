@@ -1,5 +1,3 @@
-#include "trismooth/pipeline/input/point_sets.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -7,11 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "trismooth/base/plain_name.h"
 #include "trismooth/base/shell_words.h"
 #include "trismooth/pipeline/input/marked_points.h"
+#include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/set_labels.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
@@ -27,6 +24,10 @@ std::vector<std::int32_t> different_members(const NamedSet& set) {
   }
   members.erase(std::unique(members.begin(), members.end()), members.end());
   return members;
+}
+
+void add_quoted(std::string& list, const std::string& name) {
+  list.append(list.empty() ? "'" : ", '").append(name).append("'");
 }
 
 std::vector<const DataArray*> marker_arrays(const MeshDocument& document) {
@@ -164,13 +165,12 @@ class SetFinder {
         hold(s);
         continue;
       }
-      areas += fmt::format("{}'{}'", areas.empty() ? "" : ", ", set.name);
+      add_quoted(areas, set.name);
       first_area = first_area.empty() ? set.name : first_area;
     }
     if (!areas.empty()) {
-      found_.notes.push_back(
-          fmt::format("point sets that cover an area hold nothing: {}; --fixed-set {} holds the vertices of one", areas,
-                      shell_word(first_area)));
+      found_.notes.push_back("point sets that cover an area hold nothing: " + areas + "; --fixed-set " +
+                             shell_word(first_area) + " holds the vertices of one");
     }
     std::ranges::move(marker_notes_, std::back_inserter(found_.notes));
     return finished();
@@ -227,7 +227,7 @@ class SetFinder {
     std::string names;
     for (std::size_t s = 0; s < document_.point_sets.size(); ++s) {
       if (members_[s].empty()) {
-        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", found_.sets[s].name);
+        add_quoted(names, found_.sets[s].name);
       }
     }
     if (!names.empty()) {

@@ -65,8 +65,8 @@ std::string names_of(const std::vector<Candidate>& candidates) {
 
 class RegionFinder {
  public:
-  RegionFinder(const MeshDocument& document, const PlanarMesh& mesh)
-      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.triangles, mesh.points.size()) {
+  RegionFinder(const MeshDocument& document, const TriangleCells& mesh)
+      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.triangles, document.point_count()) {
     if (!mesh.copies.empty()) {
       rows_.assign(mesh.cells.begin(), mesh.cells.end());
       for (const CellCopy& copy : mesh.copies) {
@@ -220,7 +220,7 @@ class RegionFinder {
     return text;
   }
 
-  const PlanarMesh& mesh_;
+  const TriangleCells& mesh_;
   std::vector<Candidate> candidates_;
   InnerEdges edges_;
   Regions regions_;
@@ -237,7 +237,7 @@ class RegionFinder {
 
 }  // namespace
 
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names,
+Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names,
                      std::string_view sizes) {
   if (std::ranges::find(names, no_region_arrays) != names.end()) {
     if (names.size() > 1) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/input/triangle_cells.h"
 #include "trismooth/pipeline/region_array.h"
 
 namespace trismooth {
@@ -39,7 +39,7 @@ inline constexpr std::string_view no_region_arrays = "none";
 ///
 /// Throws std::invalid_argument where `names` names no cell array of the document, or one of several components; the
 /// message lists those there are. Complexity: linear, and n log n where values change from triangle to triangle.
-Regions find_regions(const MeshDocument& document, const PlanarMesh& mesh, std::span<const std::string> names = {},
+Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names = {},
                      std::string_view sizes = {});
 
 }  // namespace trismooth

@@ -9,8 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "trismooth/base/digits.h"
 #include "trismooth/base/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/cell_groups.h"
@@ -38,7 +37,7 @@ std::string spelled(std::string_view text) {
     return std::to_string(*whole);
   }
   const auto number = number_in<double>(text);
-  return number && *number == 0 ? "0" : number ? fmt::format("{}", *number) : std::string(text);
+  return number && *number == 0 ? "0" : number ? plain_text(*number) : std::string(text);
 }
 
 ValueNumbers values_in(const DataArray& array) {
@@ -89,29 +88,30 @@ std::string first_of(std::span<const std::string> texts) {
     return "none";
   }
   const auto listed = texts.first(std::min(texts.size(), most_listed));
-  return fmt::format("{}{}", fmt::join(listed, ", "), listed.size() < texts.size() ? " and more" : "");
+  std::string list;
+  for (const std::string& text : listed) {
+    list.append(list.empty() ? "" : ", ").append(text);
+  }
+  return list + (listed.size() < texts.size() ? " and more" : "");
 }
 
 }  // namespace
 
-bool may_be_labels(std::string_view array, std::uint64_t components) {
-  return components == 1 && !is_annotation(array);
+void add_label_array(std::vector<std::string>& names, const std::string& array, std::uint64_t components) {
+  if (components == 1 && !is_annotation(array) && std::ranges::find(names, array) == names.end()) {
+    names.push_back(array);
+  }
 }
 
 std::vector<std::string> label_arrays(const MeshDocument& document) {
   std::vector<std::string> names;
-  const auto add = [&names](const std::string& name, std::size_t components) {
-    if (may_be_labels(name, components) && std::ranges::find(names, name) == names.end()) {
-      names.push_back(name);
-    }
-  };
   for (const auto& arrays : {std::span(document.point_arrays), std::span(document.cell_arrays)}) {
     for (const DataArray& array : arrays) {
-      add(array.name, array.components);
+      add_label_array(names, array.name, array.components);
     }
   }
   for (const LabelArray& array : document.cell_labels) {
-    add(array.name, 1);
+    add_label_array(names, array.name, 1);
   }
   return names;
 }

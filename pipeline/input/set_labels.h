@@ -20,8 +20,9 @@ struct SetLabel {
   std::string name() const { return array + "=" + value; }
 };
 
-/// Whether an array of points or cells may give labels: it has one value a row and is no annotation.
-bool may_be_labels(std::string_view array, std::uint64_t components);
+/// Adds the name of an array of points or cells that may give labels, where it is not there: it has one value a row and
+/// is no annotation.
+void add_label_array(std::vector<std::string>& names, const std::string& array, std::uint64_t components);
 
 /// The names of the document's arrays that give labels, each once: those of points first.
 std::vector<std::string> label_arrays(const MeshDocument& document);

@@ -33,7 +33,7 @@ bool tells_lines_apart(const DataArray& array, std::span<const RegionArray> regi
 
 }  // namespace
 
-SlideLines find_slide_lines(const MeshDocument& document, const PlanarMesh& mesh,
+SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& mesh,
                             std::span<const RegionArray> regions) {
   SlideLines found;
   const CellList& cells = document.cells;

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
+#include "trismooth/base/digits.h"
 
 namespace trismooth {
 
@@ -122,10 +122,10 @@ bool are_whole(const DataArray& array, std::span<const std::int32_t> rows, const
 std::string value_text(const DataArray& array, std::size_t row) {
   return visit_scalar_type(array.type, [&](auto zero) {
     const auto value = stored_value<decltype(zero)>(array, row);
-    if constexpr (sizeof(value) == 1) {
-      return fmt::format("{}", static_cast<int>(value));
+    if constexpr (std::is_integral_v<decltype(zero)>) {
+      return std::to_string(value);
     } else {
-      return is_nan(value) ? std::string("nan") : fmt::format("{}", value);
+      return is_nan(value) ? std::string("nan") : plain_text(value);
     }
   });
 }

@@ -9,7 +9,6 @@
 
 #include <mpi.h>
 
-#include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
@@ -22,7 +21,7 @@ namespace trismooth {
 
 namespace {
 
-/// As find_fixed_array() chooses it, on ranks without pieces too.
+/// On ranks without pieces too.
 std::string name_of_fixed_array(const PieceFiles& files, const std::optional<std::string>& name) {
   std::vector<DataArray> names;
   for (const PieceArray& array : files.arrays) {
@@ -30,7 +29,7 @@ std::string name_of_fixed_array(const PieceFiles& files, const std::optional<std
       names.emplace_back().name = array.name;
     }
   }
-  const DataArray* const array = find_array_loosely(names, name.value_or("fixed"));
+  const DataArray* const array = choose_fixed_array(names, name);
   return array == nullptr ? std::string() : array->name;
 }
 
@@ -58,9 +57,8 @@ void hold_by_sets(const PieceFiles& files, RankConstraints& constraints) {
 std::vector<std::string> label_arrays_of(const PieceFiles& files) {
   std::vector<std::string> names;
   for (const PieceArray& array : files.arrays) {
-    if (array.of != PieceArray::Of::coordinates && !array.is_added && may_be_labels(array.name, array.components) &&
-        std::ranges::find(names, array.name) == names.end()) {
-      names.push_back(array.name);
+    if (array.of != PieceArray::Of::coordinates && !array.is_added) {
+      add_label_array(names, array.name, array.components);
     }
   }
   return names;

@@ -6,6 +6,7 @@
 
 using trismooth::fixed_digits;
 using trismooth::general_digits;
+using trismooth::plain_text;
 using trismooth::scientific_digits;
 using trismooth::shortest_digits;
 using trismooth::shortest_text;
@@ -22,6 +23,22 @@ TEST_CASE("numbers have the digits that are asked for") {
   CHECK(shortest_digits(1e15) == "1000000000000000");
   CHECK(shortest_text(0.1) == "0.1");
   CHECK(shortest_text(1e300) == "1e+300");
+}
+
+TEST_CASE("plain text has an exponent where there would be many zeros alone") {
+  CHECK(plain_text(0.1) == "0.1");
+  CHECK(plain_text(0.1F) == "0.1");
+  CHECK(plain_text(-12.25) == "-12.25");
+  CHECK(plain_text(0.0) == "0");
+  CHECK(plain_text(-0.0) == "-0");
+  CHECK(plain_text(7.0) == "7");
+  CHECK(plain_text(1e5) == "100000");
+  CHECK(plain_text(1.23456789012e11F) == "123456790000");
+  CHECK(plain_text(1e-4) == "0.0001");
+  CHECK(plain_text(2.5e-5) == "2.5e-05");
+  CHECK(plain_text(9007199254740993e0) == "9007199254740992");
+  CHECK(plain_text(-1e16) == "-1e+16");
+  CHECK(plain_text(std::numeric_limits<float>::infinity()) == "inf");
 }
 
 TEST_CASE("what is no finite number has a name instead of digits") {
