@@ -4,6 +4,7 @@
 #include <string>
 
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 
 namespace trismooth {
@@ -18,5 +19,8 @@ struct NewParallelFile {
 /// do not matter.
 NewParallelFile make_parallel_file(FileFormat piece_format, const MeshDocument& document,
                                    std::span<const std::string> sources);
+
+/// The text of a parallel file that lists these arrays as well, whose values do not matter.
+std::string with_arrays(std::string text, const AddedArrays& added);
 
 }  // namespace trismooth

@@ -54,6 +54,10 @@ NewParallelFile make_parallel_file(FileFormat /*piece_format*/, const MeshDocume
   throw std::logic_error("this build has no VTK, and no pieces of .vtu and .vtp");
 }
 
+std::string with_arrays(std::string text, const AddedArrays& /*added*/) {
+  return text;
+}
+
 VtuCounts count_vtu(const std::filesystem::path& path) {
   throw ReadError(path, "is not read by ranges: this build has no VTK");
 }

@@ -184,8 +184,7 @@ void require_known_formats(const PipelineOptions& options) {
   }
   if (output && names_parallel_file(*output)) {
     throw WriteError(*output,
-                     "is the name of a mesh in pieces, which 'trismooth smooth' writes, without --annotate, where it "
-                     "is built with MPI "
+                     "is the name of a mesh in pieces, which 'trismooth smooth' writes where it is built with MPI "
                      "(-DTRISMOOTH_MPI=ON)");
   }
   const auto says_nothing = [&options](const std::filesystem::path& path) {

@@ -92,8 +92,8 @@ struct PipelineOptions {
   /// How the mesh is shared out among the ranks of an MPI job, where the program runs in one. Absent: pieces are kept
   /// where there are at least as many as ranks, all else is bisected.
   std::optional<Partition> partition;
-  /// Of a mesh in pieces: what is not done in pieces, rank 0 does for all, with the whole mesh in its memory. Else it
-  /// is refused.
+  /// Of a mesh in pieces: rank 0 does all but reading and writing the pieces and making sweeps, with the whole mesh in
+  /// its memory. Else it does so where something is asked for that is not done in pieces, which a note says.
   bool gather = false;
   /// Of a mesh in pieces: the output is one file of any format, which rank 0 writes, with the whole mesh in its memory.
   bool single = false;

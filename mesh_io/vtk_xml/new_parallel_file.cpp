@@ -39,7 +39,41 @@ std::string section_element(const std::string& element, std::span<const DataArra
   return "    <" + element + role_texts + ">\n" + text + "    </" + element + ">\n";
 }
 
+/// Where the line of `at` begins, if nothing but blanks is before it there; else `at`.
+std::size_t begin_of_line(const std::string& text, std::size_t at) {
+  const std::size_t before = at == 0 ? std::string::npos : text.find_last_not_of(" \t", at - 1);
+  return before != std::string::npos && text[before] == '\n' ? before + 1 : at;
+}
+
+/// Lists arrays in that section of a parallel file, which is made where there is none.
+void list_arrays(std::string& text, const std::string& element, std::span<const DataArray> arrays) {
+  if (arrays.empty()) {
+    return;
+  }
+  std::string listed;
+  for (const DataArray& array : arrays) {
+    listed += array_element(array.name, array.type, array.components);
+  }
+  const std::string end_tag = "</" + element + ">";
+  const std::size_t end = text.find(end_tag);
+  const std::size_t begin = text.find("<" + element);
+  const std::size_t empty_end = text.find("/>", begin);
+  if (end != std::string::npos) {
+    text.insert(begin_of_line(text, end), listed);
+  } else if (begin != std::string::npos && empty_end != std::string::npos) {
+    text.replace(empty_end, 2, ">\n" + listed + "    " + end_tag);
+  } else if (const std::size_t points = text.find("<PPoints"); points != std::string::npos) {
+    text.insert(begin_of_line(text, points), section_element(element, arrays));
+  }
+}
+
 }  // namespace
+
+std::string with_arrays(std::string text, const AddedArrays& added) {
+  list_arrays(text, "PPointData", added.point_arrays);
+  list_arrays(text, "PCellData", added.cell_arrays);
+  return text;
+}
 
 NewParallelFile make_parallel_file(FileFormat piece_format, const MeshDocument& document,
                                    std::span<const std::string> sources) {

@@ -84,7 +84,7 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   const PipelineOptions& options = settings.pipeline;
   require_use_of_format(options.format, {options.input, options.written()});
   const bool is_in_pieces =
-      names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output));
+      names_parallel_file(options.input) || (options.written() && names_parallel_file(*options.written()));
   if (!over_ranks || !is_in_pieces) {
     require_known_formats(options);
   }
@@ -322,8 +322,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       ->group(option_group::running);
   command
       .add_flag("--gather", settings.pipeline.gather,
-                "Of a mesh in pieces over MPI ranks: what is not done in pieces (--slide, untangling, ...) is done by "
-                "rank 0, with the whole mesh in its memory")
+                "Of a mesh in pieces over MPI ranks: rank 0 does all but the sweeps, with the whole mesh in its memory "
+                "[it does where something is not done in pieces: --slide, untangling, ...]")
       ->group(option_group::running);
   constexpr bool repeatable = true;
   add_parsed_option(

@@ -160,7 +160,7 @@ class MpiJob final : public RankJob {
   /// Throws mpi::KnownToAll, or what has happened on this rank alone.
   PipelineResult run_together(const PipelineOptions& options) {
     require_same_options(options, *ranks_);
-    if (names_parallel_file(options.input) || (options.output && names_parallel_file(*options.output))) {
+    if (names_parallel_file(options.input) || (options.written() && names_parallel_file(*options.written()))) {
       return run_pieces(options, ranks_);
     }
     return ranks_->size() > 1 ? run_file(options) : run_pipeline(options);

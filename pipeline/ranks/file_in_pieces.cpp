@@ -4,7 +4,6 @@
 #include <iterator>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "trismooth/mesh_io/errors.h"
@@ -45,12 +44,6 @@ void require_carried(const PipelineOptions& options, const MeshDocument& documen
   if (!document.cell_labels.empty()) {
     throw ReadError(options.input, "holds texts at cells ('" + document.cell_labels.front().name +
                                        "'), which a mesh in pieces may not have yet");
-  }
-  if (options.output && !document.arrays_of_places.empty() && options.fields != Fields::keep) {
-    throw std::invalid_argument(
-        options.input.string() + ": the point array '" + document.arrays_of_places.front() +
-        "' says something of places, and its values follow the mesh where vertices move, which they do not in pieces "
-        "yet; use --fields keep, or write one file");
   }
 }
 
@@ -100,12 +93,14 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
                   std::to_string(document.periodic_pairs.size()) + " are not written");
     }
   }
+  const std::set<std::string> of_places(document.arrays_of_places.begin(), document.arrays_of_places.end());
   read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
                           options.output, ranks, workers, notes);
   read.files.was_read_whole = !by_ranges;
   read.files.labelled = std::move(labelled);
   const std::vector<std::string> all_said = texts_of_all(said, ranks);
   read.losses = texts_of_all(lost, ranks);
+  read.arrays_of_places = texts_of_all(of_places, ranks);
   // What the reader says of the file is said of what another format loses.
   std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
   std::ranges::move(notes, std::back_inserter(read.notes));

@@ -23,11 +23,12 @@ struct FileInPieces {
   InputSummary input;              ///< path, format and the groups that the file names
   std::vector<std::string> notes;  ///< what the reader has to say, on all ranks
   std::vector<std::string> losses;
+  std::vector<std::string> arrays_of_places;  ///< MeshDocument::arrays_of_places, on all ranks
 };
 
 /// Reads the file of the options, by ranges where that can be done (see read_share()), else on rank 0, which hands out
 /// what it has read. Collective. Throws on all ranks ReadError as read_mesh() does and std::invalid_argument as the
-/// stages of run_pipeline() do, also for a file with values that pieces cannot have follow the mesh.
+/// stages of run_pipeline() do.
 FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading, const mpi::Communicator& ranks,
                             Workers& workers);
 

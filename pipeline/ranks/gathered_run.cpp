@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,11 @@ class HeldByIds {
   std::int64_t count_ = 0;
 };
 
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
 PipelineResult run_here(WholeMesh& whole, const PieceFiles& files, PipelineOptions options, AddedArrays& annotations) {
   const HeldByIds held(options, whole.ids, files);
   if (options.output && !options.single) {
@@ -83,7 +89,9 @@ PipelineResult run_here(WholeMesh& whole, const PieceFiles& files, PipelineOptio
 PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
                             const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers) {
   const mpi::Communicator& ranks = *communicator;
-  const bool is_of_pieces = names_parallel_file(options.input) || is_standard_stream(options.input);
+  // (What is no file on a disk can be read once.)
+  const bool is_of_pieces = names_parallel_file(options.input) || is_standard_stream(options.input) ||
+                            ranks.any(ranks.rank() == 0 && !is_file(options.input));
   WholeMesh whole =
       is_of_pieces ? WholeMesh(files, ranks) : WholeMesh(files, FileOptions{workers.count(), options.format}, ranks);
   AddedArrays annotations;
@@ -97,7 +105,7 @@ PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
   for (const InterpolatedField& field : result.fields) {
     moved.insert(field.name);
   }
-  whole.hand_back(files, texts_of_all(moved, ranks), ranks);
+  whole.hand_back(files, texts_of_all(moved, ranks), annotations, ranks);
   const auto completed = [&]() -> const PipelineResult& {
     result.timings_ms.write += watch.milliseconds();
     return result;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/ranks/shared_numbers.h"
 
@@ -21,6 +22,7 @@ struct Piece {
   std::vector<std::uint8_t> ghost_cells;  ///< one flag a cell: 1 where another piece has it
   SharedNumbers ids;                      ///< one a point: its number in the whole mesh
   std::vector<std::int32_t> vertices;     ///< one a point: its number among those of the rank
+  AddedArrays added;                      ///< that are written beside those of the document
 
   // Of pieces that one file was shared out in; else empty.
   SharedNumbers cell_ids;                  ///< one a cell: its number in the file, ascending

@@ -13,6 +13,7 @@
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/new_parallel_file.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
@@ -262,7 +263,8 @@ void write_pieces(PieceFiles& files, const std::filesystem::path& output, const 
       const std::filesystem::path target = piece_path(output, sources[piece.number]);
       written.push_back(std::make_unique<OutputFile>(target));
       try {
-        piece.document.original->write(written.back()->path(), piece.document, {}, {}, workers);
+        piece.document.original->write(written.back()->path(), piece.document, piece.added.point_arrays,
+                                       piece.added.cell_arrays, workers);
       } catch (const WriteError& error) {
         throw WriteError(target, error.reason);  // which names the temporary file
       }
@@ -270,7 +272,9 @@ void write_pieces(PieceFiles& files, const std::filesystem::path& output, const 
     }
     if (ranks.rank() == 0) {
       written.push_back(std::make_unique<OutputFile>(output));
-      write_text(*written.back(), output, without_annotations(with_sources(files.bytes, files.file, sources)));
+      write_text(
+          *written.back(), output,
+          with_arrays(without_annotations(with_sources(files.bytes, files.file, sources)), files.pieces.front().added));
       written.back()->prepare();
     }
   });

@@ -135,7 +135,8 @@ void require_same_options(const PipelineOptions& options, const mpi::Communicato
 }
 
 std::string_view what_needs_whole_mesh(const PipelineOptions& options) {
-  return options.slide.along != Slide::off                   ? "--slide"
+  return options.gather                                      ? "--gather"
+         : options.slide.along != Slide::off                 ? "--slide"
          : options.project                                   ? "--project"
          : options.geographic                                ? "--geographic"
          : options.size_array                                ? "--size-array"
@@ -150,13 +151,6 @@ std::string_view what_needs_whole_mesh(const PipelineOptions& options) {
 void require_piece_options(const PipelineOptions& options) {
   if (options.written()) {
     require_output(options, *options.written());
-  }
-  refuse((options.annotate || options.annotated) && !(options.single && options.gather), "--annotate",
-         "--single with --gather writes one file that has them, with the whole mesh in the memory of rank 0");
-  const std::string whole(what_needs_whole_mesh(options));
-  if (!whole.empty() && !options.gather) {
-    throw std::invalid_argument(whole +
-                                " is not done in pieces; --gather has rank 0 do it, with the whole mesh in its memory");
   }
   const bool is_read_in_pieces = names_parallel_file(options.input);
   refuse(options.format && !options.single && is_read_in_pieces, "--format", "the extension says it");

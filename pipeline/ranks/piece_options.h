@@ -11,11 +11,11 @@ namespace trismooth {
 /// Threads, reports and gates may differ, and the topology, of which no result depends; rank 0 has the say. Collective.
 void require_same_options(const PipelineOptions& options, const mpi::Communicator& ranks);
 
-/// The option that needs the whole mesh on one rank; empty where none does.
+/// The option that needs the whole mesh on one rank; empty where none does. Local.
 std::string_view what_needs_whole_mesh(const PipelineOptions& options);
 
-/// Throws std::invalid_argument, naming the first, for options that a mesh in pieces does not have, or not without
-/// PipelineOptions::gather, and for an output that is none for it. Throws WriteError for one of no known format.
+/// Throws std::invalid_argument, naming the first, for options that a mesh in pieces does not have, and for an output
+/// that is none for it. Throws WriteError for one of no known format. Local.
 void require_piece_options(const PipelineOptions& options);
 
 }  // namespace trismooth

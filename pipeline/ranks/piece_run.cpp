@@ -40,7 +40,6 @@
 #include "trismooth/pipeline/ranks/single_output.h"
 #include "trismooth/pipeline/ranks/vertex_numbers.h"
 #include "trismooth/pipeline/ranks/vertex_owners.h"
-#include "trismooth/pipeline/ranks/whole_mesh.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -76,40 +75,41 @@ class PieceRun {
       require_piece_options(options_);
     });
     timed(Stage::read, result_.timings_ms.read, [&] { read(); });
-    run_in_pieces();
-    if (!gathered_for_.empty()) {
-      run_with_whole_mesh();
+    if (const std::string reason = run_in_pieces(); !reason.empty()) {
+      run_with_whole_mesh(reason);
     }
     complete();
     return std::move(result_);
   }
 
  private:
-  /// The stages behind reading, unless it turns out that the mesh has to be gathered.
-  void run_in_pieces() {
-    gathered_for_ = what_needs_whole_mesh(options_);
-    if (gathered_for_.empty() && options_.gather) {
-      gathered_for_ = what_is_not_joined(files_, *ranks_);
+  /// The stages behind reading, as far as they are done in pieces: what it is for people that needs the whole mesh on
+  /// one rank, which nothing has been written for then; empty where all is done. The one place that decides it.
+  std::string run_in_pieces() {
+    if (const std::string_view option = what_needs_whole_mesh(options_); !option.empty()) {
+      return std::string(option);
     }
-    if (gathered_for_.empty() && options_.fixed_sets.empty()) {
-      markers_ = unjudged_markers(files_, *ranks_);
-      gathered_for_ = options_.gather && !markers_.empty() ? "what " + markers_ + " marks" : "";
+    if (const std::string_view kind = what_is_not_joined(files_, *ranks_); !kind.empty()) {
+      return std::string(kind);
     }
-    if (!gathered_for_.empty()) {
-      return;
+    if (options_.output && options_.fields != Fields::keep && !arrays_of_places_.empty()) {
+      return "the values of '" + arrays_of_places_.front() + "', which follow the mesh";
+    }
+    if (options_.fixed_sets.empty()) {
+      if (const std::string markers = unjudged_markers(files_, *ranks_); !markers.empty()) {
+        return "what " + markers + " marks";
+      }
     }
     timed(Stage::topology, result_.timings_ms.topology, [&] { connect(); });
-    if (has_repeats()) {
-      gathered_for_ = "triangles that are listed again";
-      return;
+    if (has_repeated_triangles(*topology_, workers_)) {
+      return "triangles that are listed again";
     }
     timed(Stage::check_before, result_.timings_ms.check_before, [&] { check_before(); });
     if (!options_.output) {
-      return;
+      return {};
     }
     if (is_untangled()) {
-      gathered_for_ = "the untangling of inverted triangles";
-      return;
+      return "the untangling of inverted triangles";
     }
     begin(Stage::smooth);
     warn();
@@ -117,10 +117,11 @@ class PieceRun {
     timed(Stage::check_after, result_.timings_ms.check_after, [&] { check_after(); });
     begin(Stage::write);
     write(Stopwatch());
+    return {};
   }
 
-  /// The same by rank 0, with what the readers have said.
-  void run_with_whole_mesh() {
+  /// All stages behind reading by rank 0, with what the readers have said. `reason`: as run_in_pieces() gives it.
+  void run_with_whole_mesh(const std::string& reason) {
     PipelineResult read = std::exchange(result_, {});
     topology_.reset();
     quality_.reset();
@@ -131,7 +132,7 @@ class PieceRun {
       put_in_front(read_losses_, result.losses);
       put_in_front(read_notes_, result.notes);
       if (ranks_->size() > 1) {
-        result.notes.push_back("rank 0 had the whole mesh in its memory (--gather), for " + gathered_for_);
+        result.notes.push_back("rank 0 had the whole mesh in its memory, for " + reason);
         if (result.smoothing) {
           std::string& said = result.smoothing->backend_note;
           said = joined_notes(said, result.notes.back());
@@ -200,6 +201,7 @@ class PieceRun {
     read_input_ = std::move(read.input);
     read_notes_ = std::move(read.notes);
     read_losses_ = std::move(read.losses);
+    arrays_of_places_ = std::move(read.arrays_of_places);
     require_output();
   }
 
@@ -245,9 +247,6 @@ class PieceRun {
     held_ = topology_->held(regions_.of_overlap, workers_);
     std::ranges::move(settle_implied_sets(files_, mesh_, *topology_, held_),
                       std::back_inserter(result_.input.point_sets));
-    if (!markers_.empty()) {
-      note("what " + markers_ + " marks inside is not held in pieces; --gather holds it as in one file");
-    }
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
     frame_ = topology_->frame_of(points, held_);
     local_ = entered(frame_, points).points;
@@ -309,21 +308,6 @@ class PieceRun {
     }
   }
 
-  /// Whether triangles are listed again, which are not taken out in pieces.
-  bool has_repeats() {
-    const RankRepeats repeats = find_rank_repeats(*topology_, workers_);
-    const std::int64_t cell = repeats.count > 0 ? ranks_->sum(cell_of(repeats.lowest)) : 0;
-    agree(*ranks_, [&] {
-      if (repeats.count > 0 && !options_.gather) {
-        throw std::invalid_argument(options_.input.string() + ": triangles are listed again (" +
-                                    std::to_string(repeats.count) + "; the first is cell " + std::to_string(cell) +
-                                    "), which are not taken out in pieces; --gather has rank 0 " +
-                                    "do that, with the whole mesh in its memory");
-      }
-    });
-    return repeats.count > 0;
-  }
-
   /// The number_of_cell() of a triangle; 0 where another rank has it.
   std::int64_t cell_of(std::int64_t triangle) const {
     return number_of_triangle(files_, cells_.first, topology_->local_triangle(triangle));
@@ -370,17 +354,7 @@ class PieceRun {
 
   /// Whether triangles are untangled, which is not done in pieces.
   bool is_untangled() const {
-    const auto broken = result_.before.inverted + result_.before.degenerate - cells_.repeating;
-    const bool is_needed = options_.smoothing.untangles() && broken > 0;
-    agree(*ranks_, [&] {
-      if (is_needed && !options_.gather) {
-        throw std::invalid_argument(
-            std::to_string(broken) +
-            " triangles are inverted or degenerate, and meshes are not untangled in pieces; --gather has rank 0 do "
-            "that, with the whole mesh in its memory, and --untangle off leaves them");
-      }
-    });
-    return is_needed;
+    return options_.smoothing.untangles() && result_.before.inverted + result_.before.degenerate - cells_.repeating > 0;
   }
 
   void smooth() {
@@ -465,11 +439,10 @@ class PieceRun {
   Workers workers_;
   PipelineResult result_;
   PieceFiles files_;
-  InputSummary read_input_;               ///< what is known when it was read
-  std::vector<std::string> read_notes_;   ///< of the readers of all pieces
-  std::vector<std::string> read_losses_;  ///< likewise
-  std::string gathered_for_;              ///< what needs the whole mesh on one rank; empty: nothing does
-  std::string markers_;                   ///< arrays of which it is not known what they mark
+  InputSummary read_input_;                    ///< what is known when it was read
+  std::vector<std::string> read_notes_;        ///< of the readers of all pieces
+  std::vector<std::string> read_losses_;       ///< likewise
+  std::vector<std::string> arrays_of_places_;  ///< point arrays of the file whose values follow the mesh by default
   RankMesh mesh_;
   std::vector<std::int32_t> owners_;  ///< of the rank's vertices; empty: the lowest rank that has each
   RankConstraints constraints_;

@@ -5,11 +5,8 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "trismooth/base/digits.h"
 #include "trismooth/base/release.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/agreement.h"
@@ -22,24 +19,8 @@ bool has_six_nodes(const Piece& piece) {
   return !piece.mesh.quadratics.empty();
 }
 
-void require_straight(const PieceFiles& files) {
-  const auto piece = std::ranges::find_if(files.pieces, &has_six_nodes);
-  if (piece != files.pieces.end()) {
-    throw std::invalid_argument(piece->path.string() +
-                                ": holds triangles of six nodes, which are not smoothed in pieces; --gather has rank 0 "
-                                "do that, with the whole mesh in its memory");
-  }
-}
-
-/// The z of the vertices that cells use, from the lowest to the highest.
-struct Heights {
-  double lowest;
-  double highest;
-
-  bool differ() const { return lowest < highest; }
-};
-
-Heights heights_of(const PieceFiles& files, const mpi::Communicator& ranks) {
+/// Whether vertices that cells use have more than one z. Collective.
+bool heights_differ(const PieceFiles& files, const mpi::Communicator& ranks) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   PartSums range;
   range.largest = {-infinity, -infinity};
@@ -52,19 +33,7 @@ Heights heights_of(const PieceFiles& files, const mpi::Communicator& ranks) {
     }
   }
   range = ranks.joined(range);
-  return {-range.largest[1], range.largest[0]};
-}
-
-void require_one_height(const PieceFiles& files, const mpi::Communicator& ranks) {
-  const Heights heights = heights_of(files, ranks);
-  agree(ranks, [&] {
-    if (heights.differ()) {
-      throw ReadError(files.path, "z is " + shortest_digits(heights.lowest) + " to " +
-                                      shortest_digits(heights.highest) +
-                                      "; in pieces a mesh is smoothed that lies in a plane z = constant; --gather has "
-                                      "rank 0 smooth others, with the whole mesh in its memory");
-    }
-  });
+  return -range.largest[1] < range.largest[0];
 }
 
 Storage storage_of_pieces(const PieceFiles& files, const mpi::Communicator& ranks) {
@@ -140,12 +109,10 @@ std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communic
   if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
     return "triangles of six nodes";
   }
-  return heights_of(files, ranks).differ() ? "a mesh that lies in no plane z = constant" : "";
+  return heights_differ(files, ranks) ? "a mesh that lies in no plane z = constant" : "";
 }
 
 RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {
-  agree(ranks, [&] { require_straight(files); });
-  require_one_height(files, ranks);
   RankMesh mesh;
   mesh.storage = storage_of_pieces(files, ranks);
   agree(ranks, [&] {

@@ -41,21 +41,22 @@ struct RankMesh {
 /// Empty where nothing does. Collective.
 std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
 
-/// Puts the rank's pieces together, and numbers their points (Piece::vertices). Points of the pieces' planar meshes,
-/// which the documents have, are given up. Collective. Throws ReadError on all
-/// ranks for a mesh that does not lie in a plane z = constant, std::invalid_argument for triangles of six nodes.
+/// Puts the rank's pieces, of which what_is_not_joined() says nothing, together, and numbers their points
+/// (Piece::vertices). Points of the pieces' planar meshes, which the documents have, are given up. Collective. Throws
+/// ReadError on all ranks for more than 32 bits number.
 RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks);
 
-/// x, y, z of the rank's vertices, as the pieces have them.
+/// x, y, z of the rank's vertices, as the pieces have them. Local.
 std::vector<std::array<double, 3>> places_of(const PieceFiles& files, const RankMesh& mesh);
 
-/// x and y of these.
+/// x and y of the rank's vertices, as the pieces have them. Local.
 std::vector<Point2<double>> points_of(const PieceFiles& files, const RankMesh& mesh);
 
-/// Gives a point the coordinates that changed: equal ones stay as they are stored.
+/// Gives a point the coordinates that changed: equal ones stay as they are stored. Local.
 void move_point(double& x, double& y, Point2<double> to);
 
-/// The same for all points of pieces.
+/// Gives the points of all pieces of the rank the coordinates that changed, one a vertex of the rank's mesh: equal ones
+/// stay as they are stored. Local.
 void move_points(PieceFiles& files, std::span<const Point2<double>> points);
 
 }  // namespace trismooth

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace trismooth {
 
-/// The values of an array at these places, for each rank.
+/// The values of an array at these places, for each rank. Local.
 template <class V>
 mpi::ByRank<V> values_at(std::span<const V> values, const mpi::ByRank<std::int32_t>& places) {
   mpi::ByRank<V> lists(places.size());
@@ -26,7 +27,7 @@ mpi::ByRank<V> values_at(std::span<const V> values, const mpi::ByRank<std::int32
   return lists;
 }
 
-/// Lists of all ranks behind each other, that of rank 0 first.
+/// Lists of all ranks behind each other, that of rank 0 first. Local.
 template <class V>
 std::vector<V> concatenated(mpi::ByRank<V> lists) {
   std::size_t count = 0;
@@ -40,6 +41,29 @@ std::vector<V> concatenated(mpi::ByRank<V> lists) {
     list = {};
   }
   return all;
+}
+
+/// Bytes of the values of one point or cell. Local.
+inline std::size_t row_size_of(const DataArray& array) {
+  return array.components * size_of(array.type);
+}
+
+/// An array as `layout` is one, that owns these rows. Local.
+inline DataArray with_rows(const DataArray& layout, std::vector<std::byte> rows) {
+  auto bytes = std::make_shared<std::vector<std::byte>>(std::move(rows));
+  return {layout.name, layout.type, layout.components, *bytes, bytes, layout.description};
+}
+
+/// The rows at these places, one behind the other. Local.
+inline std::vector<std::byte> rows_at(std::span<const std::byte> rows, std::size_t row_size,
+                                      std::span<const std::int32_t> places) {
+  std::vector<std::byte> found(places.size() * row_size);
+  std::byte* target = found.data();
+  for (const std::int32_t place : places) {
+    std::memcpy(target, rows.data() + static_cast<std::size_t>(place) * row_size, row_size);
+    target += row_size;
+  }
+  return found;
 }
 
 /// Rows of an array, by the ranks that they go to: `places` are those of the rank's rows for each. What comes back

@@ -69,27 +69,6 @@ std::int32_t rank_of_range(std::int64_t number, std::int64_t count, const mpi::C
   return static_cast<std::int32_t>(number / std::max<std::int64_t>(length, 1));
 }
 
-DataArray with_rows(const DataArray& layout, std::vector<std::byte> rows) {
-  auto bytes = std::make_shared<std::vector<std::byte>>(std::move(rows));
-  return {layout.name, layout.type, layout.components, *bytes, bytes, layout.description};
-}
-
-std::size_t row_size_of(const DataArray& array) {
-  return array.components * size_of(array.type);
-}
-
-/// The rows of that order.
-std::vector<std::byte> reordered(const std::vector<std::byte>& rows, std::size_t row_size,
-                                 std::span<const std::int32_t> order) {
-  std::vector<std::byte> changed(rows.size());
-  std::byte* target = changed.data();
-  for (const std::int32_t row : order) {
-    std::copy_n(rows.data() + static_cast<std::size_t>(row) * row_size, row_size, target);
-    target += row_size;
-  }
-  return changed;
-}
-
 std::span<const std::byte> bytes_of(const std::vector<double>& values) {
   return std::as_bytes(std::span(values));
 }
@@ -265,7 +244,7 @@ class Sharing {
   }
 
   std::vector<std::byte> rows_of_points(std::span<const std::byte> rows, std::size_t row_size) const {
-    return reordered(exchanged_rows(rows, row_size, sent_points_, point_counts_, ranks_), row_size, point_order_);
+    return rows_at(exchanged_rows(rows, row_size, sent_points_, point_counts_, ranks_), row_size, point_order_);
   }
 
   void send_points() {

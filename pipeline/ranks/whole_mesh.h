@@ -29,9 +29,12 @@ class WholeMesh {
   MeshDocument document;          ///< empty on other ranks, as `ids` is
   std::vector<std::int64_t> ids;  ///< of the document's points, ascending
 
-  /// Gives the points of all pieces the coordinates that the document has now, and the values of these point arrays.
-  /// Collective.
-  void hand_back(PieceFiles& files, std::span<const std::string> point_arrays, const mpi::Communicator& ranks) const;
+  /// Gives the points of all pieces the coordinates that the document has now, and the values of these point arrays,
+  /// and all pieces what is added to the document, which rank 0 has (Piece::added). Copies of cells get what their
+  /// cells have, those of which no piece has the cell zeros. Collective. Complexity: linear, and n log n in the cells
+  /// where there are copies of some.
+  void hand_back(PieceFiles& files, std::span<const std::string> point_arrays, const AddedArrays& added,
+                 const mpi::Communicator& ranks) const;
 
  private:
   /// A vertex of the rank, and the point that stands for it.
@@ -48,6 +51,10 @@ class WholeMesh {
   void gather_cells(const PieceFiles& files, const mpi::Communicator& ranks);
   void gather_arrays(const PieceFiles& files, const mpi::Communicator& ranks);
   void gather_fields(const PieceFiles& files, const mpi::Communicator& ranks);
+  /// On rank 0: which cells of the document those of the pieces of each rank are, copies too; one behind the last:
+  /// none.
+  mpi::ByRank<std::int32_t> cells_of_ranks(const PieceFiles& files, const mpi::Communicator& ranks) const;
+  std::vector<std::int32_t> cells_of_copies(std::span<const std::int32_t> copies, std::size_t rank) const;
 
   std::vector<RankVertex> vertices_;                    ///< of this rank, ascending by id
   std::vector<std::vector<std::int32_t>> vertices_of_;  ///< for each piece and point: its place in vertices_

@@ -128,7 +128,7 @@ class LittleMemory(ranks_tool.RanksTest):
 
     def test_allocations_of_a_gathered_mesh(self):
         for rank in (0, 1):
-            self.check_allocations("smooth", "in.pvtu", "out.pvtu", "--gather", "--slide", "straight", rank=rank,
+            self.check_allocations("smooth", "in.pvtu", "out.pvtu", "--slide", "straight", rank=rank,
                                    samples=4)
 
 

@@ -8,9 +8,7 @@ import tool
 
 WRONG_USAGE, DEVICE_ERROR = 2, 5
 
-SLIDE = ["--slide", "curves", "--gather"]
-GATHER = ["--gather"]
-ANNOTATE = ["--annotate", "--single", "--gather"]
+SLIDE = ["--slide", "curves"]
 # Every option that matters to the others: what one rank is given, and what all are.
 SHARED = {
     "--method": (["laplacian"], []),
@@ -20,10 +18,10 @@ SHARED = {
     "--precision": (["single"], []),
     "--guard": (["off"], []),
     "--size-weight": (["0.5"], []),
-    "--size-array": (["size"], GATHER),
+    "--size-array": (["size"], []),
     "--power": (["2"], []),
     "--target": (["input-shape"], []),
-    "--slide": (["straight"], GATHER),
+    "--slide": (["straight"], []),
     "--corner-angle": (["40"], SLIDE),
     "--deviation": (["0.1"], SLIDE),
     "--curve": (["spline"], SLIDE),
@@ -35,21 +33,21 @@ SHARED = {
     "--region-array": (["none"], []),
     "--fixed-array": (["fixed"], []),
     "--fixed-set": (["none"], []),
-    "--merge": (["0"], GATHER),
+    "--merge": (["0"], []),
     "--fixed-ids": (["ids.txt"], []),
     "--fixed-labels": (["ids.txt"], []),
-    "--project": (["xy"], GATHER),
-    "--geographic": ([], GATHER),
+    "--project": (["xy"], []),
+    "--geographic": ([], []),
     "--fields": (["keep"], []),
-    "--field-array": (["*"], GATHER),
+    "--field-array": (["*"], []),
     "--partition": (["keep"], []),
     "--format": (["off"], ["--single"]),
     "--single": ([], []),
     "--gather": ([], []),
     "--verbose": ([], []),
-    "--annotate": ([], ["--single", "--gather"]),
-    "--annotate-metrics": (["shape,min_angle"], ANNOTATE),
-    "--require": (["size_ratio<9"], GATHER),
+    "--annotate": ([], []),
+    "--annotate-metrics": (["shape,min_angle"], ["--annotate"]),
+    "--require": (["size_ratio<9"], []),
 }
 # Those that a rank refuses by itself, as the build or a job of several has them not.
 REFUSED_ALONE = {"--devices": ["0"], "--backend": ["cuda"], "--order": ["unordered"], "--layout": ["soa"]}

@@ -132,7 +132,7 @@ class SameAsOneFile(ranks_tool.RanksTest):
                     self.assertEqual(self.notes_of(ranks, "smooth", "big.pvtu", "out.pvtu"), notes)
 
     def test_marked_vertices(self):
-        """Those of a file that rank 0 reads are held as in one file. Pieces do not know them, and it is said."""
+        """Those of a file that rank 0 reads, and of pieces, are held as in one file."""
         mesh = self.random_mesh(600)
         markers = [7 if v % 20 == 0 else 0 for v in range(len(mesh.points))]
         self.write("marked.mesh", "MeshVersionFormatted 2\nDimension 2\n" + f"Vertices {len(mesh.points)}\n" +
@@ -150,11 +150,10 @@ class SameAsOneFile(ranks_tool.RanksTest):
         whole = self.report("smooth", "raw.vtu", "smooth.vtu")
         for name in ("big.pvtu", "raw.vtu"):
             with self.subTest(name):
-                said = "note: what 'medit:ref' marks inside is not held in pieces; --gather holds it as in one file"
-                self.assertEqual([said in note for note in self.notes_of(3, "smooth", name, "out.pvtu")].count(True), 1)
-                gathered = self.run_over(3, "smooth", name, "out.pvtu", "--gather", "--report", "report.json")
-                self.assertNotIn("not held in pieces", gathered.err)
-                self.assertEqual(self.read_report()["coordinates_hash"], whole["coordinates_hash"])
+                report = self.report_over(3, "smooth", name, "out.pvtu")
+                self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+                self.assertIn("whole mesh", self.run_over(3, "smooth", name, "out.pvtu").err)
+                self.assertNotIn("whole mesh", self.run_over(3, "smooth", name, "out.pvtu", "--fixed-set", "none").err)
 
     def test_sets_by_labels(self):
         """Of points, of quadrilaterals and of triangles, in pieces and handed out; at the borders of pieces, too."""
@@ -186,7 +185,7 @@ class SameAsOneFile(ranks_tool.RanksTest):
                     self.assertEqual(without_run(report["input"]), without_run(whole["input"]))
                     self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
             slid = self.report("smooth", "merged.vtu", "smooth.vtu", *options, "--slide", "straight")
-            report = self.report_over(3, "smooth", "mixed.pvtu", "out.pvtu", *options, "--slide", "straight", "--gather")
+            report = self.report_over(3, "smooth", "mixed.pvtu", "out.pvtu", *options, "--slide", "straight")
             self.assertEqual(report["coordinates_hash"], slid["coordinates_hash"])
             report = self.report_over(3, "smooth", "merged.vtu", "out.pvtu", *options)
             self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
@@ -225,7 +224,7 @@ class SameAsOneFile(ranks_tool.RanksTest):
         labels = ["--fixed-labels", "labels.txt"]
         held_ids = {ids[v] for v in held}
         for name, ranks, more in (("big.pvtu", 0, []), ("big.pvtu", 1, []), ("big.pvtu", 3, []),
-                                  ("big.pvtu", 3, ["--gather", "--fields", "interpolate"])):
+                                  ("big.pvtu", 3, ["--fields", "interpolate"])):
             with self.subTest(name, ranks=ranks, more=more):
                 report = self.report_over(ranks, "smooth", name, "out.pvtu", *labels, *more)
                 self.assertEqual(report["input"]["fixed_ids_vertices"], len(held))
@@ -241,7 +240,7 @@ class SameAsOneFile(ranks_tool.RanksTest):
         for name in ("whole.vtu", "raw.vtu", "whole.msh"):
             alone = self.report("smooth", name, "alone.vtu", *labels)
             self.assertEqual(alone["coordinates_hash"], named["coordinates_hash"])
-            for output, more in (("out.vtu", []), ("out.pvtu", []), ("out.pvtu", ["--gather", "--slide", "straight"])):
+            for output, more in (("out.vtu", []), ("out.pvtu", []), ("out.pvtu", ["--slide", "straight"])):
                 with self.subTest(name, output=output, more=more):
                     report = self.report_over(3, "smooth", name, output, *labels, *more)
                     if not more:

@@ -1,4 +1,5 @@
-"""whole_mesh.py PROGRAM: --single and --gather, by which rank 0 has the whole of a mesh in pieces."""
+"""whole_mesh.py PROGRAM: rank 0 has the whole of a mesh in pieces, to write one file or to do what is not done in
+pieces."""
 
 import os
 import random
@@ -23,35 +24,25 @@ def without_run(report):
     return report
 
 
+def write_both(test, mesh, parts=4, gap=0, **options):
+    """The mesh as whole.vtu and in pieces as big.pvtu, with its cells in the order of the pieces; `gap`: ids are
+    apart by so much more than 1."""
+    part_of_cell = pieces.stripes(mesh, parts)
+    order = sorted(range(len(mesh.cells)), key=lambda c: part_of_cell[c])
+    mesh.cells = [mesh.cells[c] for c in order]
+    mesh.types = [mesh.types[c] for c in order]
+    mesh.cell_arrays = {name: [values[c] for c in order] for name, values in mesh.cell_arrays.items()}
+    cut = pieces.cut(mesh, [part_of_cell[c] for c in order], parts, **options)
+    for piece in cut:
+        piece.point_arrays["GlobalNodeIds"] = [(1 + gap) * v for v in piece.point_arrays["GlobalNodeIds"]]
+    pieces.write_pieces(test.path("big.pvtu"), cut)
+    mesh.point_arrays["GlobalNodeIds"] = [(1 + gap) * v for v in range(len(mesh.points))]
+    pieces.write_vtu(test.path("whole.vtu"), mesh)
+
+
 class WholeMesh(ranks_tool.RanksTest):
-    def write_both(self, mesh, parts=4, gap=0, **options):
-        """The mesh as whole.vtu and in pieces as big.pvtu, with its cells in the order of the pieces; `gap`: ids are
-        apart by so much more than 1."""
-        part_of_cell = pieces.stripes(mesh, parts)
-        order = sorted(range(len(mesh.cells)), key=lambda c: part_of_cell[c])
-        mesh.cells = [mesh.cells[c] for c in order]
-        mesh.types = [mesh.types[c] for c in order]
-        mesh.cell_arrays = {name: [values[c] for c in order] for name, values in mesh.cell_arrays.items()}
-        cut = pieces.cut(mesh, [part_of_cell[c] for c in order], parts, **options)
-        for piece in cut:
-            piece.point_arrays["GlobalNodeIds"] = [(1 + gap) * v for v in piece.point_arrays["GlobalNodeIds"]]
-        pieces.write_pieces(self.path("big.pvtu"), cut)
-        mesh.point_arrays["GlobalNodeIds"] = [(1 + gap) * v for v in range(len(mesh.points))]
-        pieces.write_vtu(self.path("whole.vtu"), mesh)
-        return cut
-
-    def tangled_mesh(self):
-        """With corners that reach over triangles beside them."""
-        dice = random.Random(5)
-        mesh = self.random_mesh(400)
-        for v in dice.sample(range(400), 12):
-            x, y, z = mesh.points[v]
-            if 0.15 < x < 0.85 and 0.15 < y < 0.85:
-                mesh.points[v] = (x + dice.uniform(-0.1, 0.1), y + dice.uniform(-0.1, 0.1), z)
-        return mesh
-
     def test_single_has_the_bytes_of_one_file(self):
-        self.write_both(self.random_mesh(700))
+        write_both(self, self.random_mesh(700))
         for extension in FORMATS:
             self.run_tool("smooth", "whole.vtu", f"alone.{extension}", "--quiet")
             for ranks in RANKS if extension == "off" else (3,):
@@ -62,7 +53,7 @@ class WholeMesh(ranks_tool.RanksTest):
 
     def test_single_is_what_the_report_speaks_of(self):
         for gap, options in ((0, {}), (3, {}), (0, {"ghosts": False})):
-            self.write_both(self.random_mesh(700), gap=gap, **options)
+            write_both(self, self.random_mesh(700), gap=gap, **options)
             whole = self.report("smooth", "whole.vtu", "alone.vtu")
             outputs = set()
             for ranks in RANKS:
@@ -78,7 +69,7 @@ class WholeMesh(ranks_tool.RanksTest):
             self.assertEqual(len(outputs), 1)
 
     def test_single_on_standard_output(self):
-        self.write_both(self.random_mesh(300))
+        write_both(self, self.random_mesh(300))
         self.run_tool("smooth", "whole.vtu", "alone.off", "--quiet")
         outcome = self.run_over(3, "smooth", "big.pvtu", "-", "--single", "--format", "off", "--quiet")
         self.assertEqual(outcome.out.encode(), self.read("alone.off"))
@@ -86,7 +77,7 @@ class WholeMesh(ranks_tool.RanksTest):
     def test_arrays_of_single(self):
         """Values at points and cells, names, types and roles come along; marks of copies do not."""
         mesh = self.random_mesh(500)
-        self.write_both(mesh)
+        write_both(self, mesh)
         self.run_over(3, "smooth", "big.pvtu", "out.vtk", "--single", "--quiet")
         self.run_tool("smooth", "whole.vtu", "alone.vtk", "--quiet")
         self.assertEqual(self.read("out.vtk"), self.read("alone.vtk"))
@@ -95,36 +86,13 @@ class WholeMesh(ranks_tool.RanksTest):
         self.assertNotIn(b"vtkGhostType", self.read("out.vtk"))
 
     def test_losses_are_said(self):
-        self.write_both(self.random_mesh(300))
+        write_both(self, self.random_mesh(300))
         alone = self.run_tool("smooth", "whole.vtu", "alone.off").err
         over = self.run_over(2, "smooth", "big.pvtu", "out.off", "--single").err
         for line in alone.splitlines():
             if "is not written" in line or "are not written" in line:
                 self.assertIn(line, over)
         self.assertIn("load", over)
-
-    def test_gathered_runs_are_serial_ones(self):
-        self.write_both(self.random_mesh(500))
-        for options in (["--slide", "straight"], ["--slide", "curves", "--method", "mean-ratio"], ["--project", "xy"],
-                        ["--geographic"], ["--size-array", "height", "--method", "mean-ratio"],
-                        ["--fields", "interpolate"], ["--field-array", "hei*"]):
-            whole = self.report("smooth", "whole.vtu", "alone.vtu", *options)
-            alone = pieces.read_ascii_arrays(self.path("alone.vtu"))
-            for ranks in RANKS:
-                with self.subTest(options=options, ranks=ranks):
-                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather", *options)
-                    self.assertEqual(without_run(report), without_run(whole))
-                    self.check_pieces(alone)
-
-    def check_pieces(self, alone):
-        """Points and values of the pieces are those of the whole mesh."""
-        for name in pieces.sources(self.path("out.pvtu")):
-            arrays = pieces.read_ascii_arrays(self.path(name))
-            for i, vertex in enumerate(map(int, arrays["PointData", "GlobalNodeIds"][1])):
-                for key, components in ((("Points", "Points"), 3), (("PointData", "height"), 1)):
-                    here = arrays[key][1][components * i:components * (i + 1)]
-                    there = alone[key][1][components * vertex:components * (vertex + 1)]
-                    self.assertEqual([float(x) for x in here], [float(x) for x in there], (name, key, vertex))
 
     def test_sliding_along_lines(self):
         """Lines, in several pieces and by names of their own, are what vertices slide on."""
@@ -142,121 +110,60 @@ class WholeMesh(ranks_tool.RanksTest):
         mesh.types = [3 if len(cell) == 2 else 5 for cell in mesh.cells]
         mesh.cell_arrays["tag"] = [1 + c % 2 if len(cell) == 3 else 5 + (c > len(mesh.cells) - side // 2)
                                    for c, cell in enumerate(mesh.cells)]
-        self.write_both(mesh, parts=3)
+        write_both(self, mesh, parts=3)
         for options in (["straight"], ["curves"], ["straight", "--region-array", "none"]):
             whole = self.report("smooth", "whole.vtu", "alone.vtu", "--slide", *options)
             if "none" in options:
                 self.assertGreater(whole["smoothing"]["sliding"]["slid"], 0)
             for ranks in RANKS:
                 with self.subTest(options=options, ranks=ranks):
-                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather", "--slide", *options)
+                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--slide", *options)
                     self.assertEqual(without_run(report), without_run(whole))
-
-    def test_untangling(self):
-        self.write_both(self.tangled_mesh())
-        for options in (["--untangle", "on"], ["--untangle", "on", "--form", "a"], ["--precision", "single"],
-                        ["--untangle", "on", "--slide", "curves"]):
-            options = ["--method", "mean-ratio", *options]
-            whole = self.report("smooth", "whole.vtu", "alone.vtu", *options)
-            self.assertGreater(whole["before"]["inverted"], 0)
-            for ranks in RANKS:
-                with self.subTest(options=options, ranks=ranks):
-                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather", *options)
-                    self.assertEqual(without_run(report), without_run(whole))
-        outcome = self.run_over(3, "smooth", "big.pvtu", "no.pvtu", "--method", "mean-ratio", expect=2)
-        self.assertIn("--gather", self.errors_of(outcome)[0])
 
     def test_what_is_not_needed_is_not_gathered(self):
-        self.write_both(self.random_mesh(300))
-        self.assertNotIn("whole mesh", self.run_over(3, "smooth", "big.pvtu", "out.pvtu", "--gather").err)
-        said = self.run_over(3, "smooth", "big.pvtu", "out.pvtu", "--gather", "--slide", "straight").err
-        self.assertIn("rank 0 had the whole mesh in its memory (--gather), for --slide", said)
-        report = self.report_over(3, "smooth", "big.pvtu", "out.pvtu", "--gather", "--slide", "straight")
+        write_both(self, self.random_mesh(300))
+        self.assertNotIn("whole mesh", self.run_over(3, "smooth", "big.pvtu", "out.pvtu").err)
+        report = self.report_over(3, "smooth", "big.pvtu", "out.pvtu", "--slide", "straight")
         self.assertIn("rank 0 had the whole mesh", report["smoothing"]["backend_note"])
-
-    def test_six_nodes_and_planes(self):
-        mesh = self.random_mesh(300)
-        middles = {}
-        for c, cell in enumerate(mesh.cells):
-            for a, b in ((0, 1), (1, 2), (2, 0)):
-                ends = tuple(sorted((cell[a], cell[b])))
-                if ends not in middles:
-                    middles[ends] = len(mesh.points)
-                    mesh.points.append(tuple((p + q) / 2 for p, q in zip(mesh.points[ends[0]], mesh.points[ends[1]])))
-                mesh.cells[c] = mesh.cells[c] + [middles[ends]]
-        mesh.types = [22] * len(mesh.cells)
-        mesh.point_arrays = {}
-        tilted = self.random_mesh(300)
-        tilted.points = [(x, y, 0.5 * x + 0.25 * y) for x, y, _ in tilted.points]
-        for kind, whole_mesh in (("six nodes", mesh), ("tilted", tilted)):
-            self.write_both(whole_mesh)
-            whole = self.report("smooth", "whole.vtu", "alone.vtu")
-            for ranks in RANKS:
-                with self.subTest(kind=kind, ranks=ranks):
-                    report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather")
-                    self.assertEqual(without_run(report), without_run(whole))
-
-    def test_triangles_that_are_listed_again(self):
-        """Those at the boundary, the other way round: rank 0 takes them out, and nobody smooths them unseen."""
-        mesh = self.random_mesh(300)
-        self.write_both(mesh)
-        once = self.report("smooth", "whole.vtu", "alone.vtu")
-        again = [c for c, cell in enumerate(mesh.cells) if min(mesh.points[v][1] for v in cell) < 0.05]
-        self.assertGreater(len(again), 5)
-        mesh.cells += [mesh.cells[c][::-1] for c in again]
-        mesh.types += [5] * len(again)
-        for values in mesh.cell_arrays.values():
-            values += [values[c] for c in again]
-        self.write_both(mesh)
-        whole = self.report("smooth", "whole.vtu", "alone.vtu")
-        self.assertEqual(whole["coordinates_hash"], once["coordinates_hash"])
-        for name in ("big.pvtu", "whole.vtu"):
-            for ranks in RANKS:
-                with self.subTest(name=name, ranks=ranks):
-                    report = self.report_over(ranks, "smooth", name, "out.pvtu", "--gather")
-                    self.assertEqual(without_run(report), without_run(whole))
-                    errors = self.errors_of(self.run_over(ranks, "smooth", name, "no.pvtu", expect=2))
-                    self.assertIn(f"triangles are listed again ({len(again)}; the first is cell ", errors[0])
-                    self.assertIn("--gather", errors[0])
 
     def test_one_file_in_pieces(self):
         """Rank 0 reads the file itself then: periodic vertices and the like, which pieces do not hold, have their say."""
-        self.write_both(self.random_mesh(400))
+        write_both(self, self.random_mesh(400))
         self.run_tool("smooth", "whole.vtu", "whole.off", "--max-sweeps", "1", "--quiet")
         for name in ("whole.vtu", "whole.off"):
             for options in (["--slide", "curves"], ["--fields", "interpolate"]):
                 whole = self.report("smooth", name, "alone.vtu", *options)
                 for ranks in (1, 3):
                     with self.subTest(name=name, options=options, ranks=ranks):
-                        report = self.report_over(ranks, "smooth", name, "out.pvtu", "--gather", *options)
+                        report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
                         self.assertEqual(without_run(report), without_run(whole))
 
     def test_held_by_ids(self):
-        self.write_both(self.random_mesh(300), gap=2)
+        write_both(self, self.random_mesh(300), gap=2)
         self.write("ids.txt", "12 300 # both are ids\n 12")
         self.write("numbers.txt", "4 100")
         whole = self.report("smooth", "whole.vtu", "alone.vtu", "--slide", "straight", "--fixed-ids", "numbers.txt")
         for ranks in RANKS:
-            report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--gather", "--slide", "straight",
-                                      "--fixed-ids", "ids.txt")
+            report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--slide", "straight", "--fixed-ids",
+                                      "ids.txt")
             self.assertEqual(report["after"], whole["after"], f"{ranks} ranks")
             self.assertEqual(report["input"]["held"], whole["input"]["held"])
         self.write("ids.txt", "12 301")
-        outcome = self.run_over(3, "smooth", "big.pvtu", "no.pvtu", "--gather", "--slide", "straight", "--fixed-ids",
-                                "ids.txt", expect=3)
+        outcome = self.run_over(3, "smooth", "big.pvtu", "no.pvtu", "--slide", "straight", "--fixed-ids", "ids.txt",
+                                expect=3)
         self.assertIn("ids.txt: names vertex 301, and no piece has", self.errors_of(outcome)[0])
 
     def test_annotations(self):
-        self.write_both(self.random_mesh(300))
+        write_both(self, self.random_mesh(300))
         self.run_tool("smooth", "whole.vtu", "alone.vtk", "--annotate", "--quiet")
-        self.run_over(3, "smooth", "big.pvtu", "out.vtk", "--annotate", "--gather", "--single", "--quiet")
+        self.run_over(3, "smooth", "big.pvtu", "out.vtk", "--annotate", "--single", "--quiet")
         self.assertEqual(self.read("out.vtk"), self.read("alone.vtk"))
         self.run_tool("quality", "whole.vtu", "--annotate", "alone.vtk", "--quiet")
-        self.run_over(3, "quality", "big.pvtu", "--annotate", "out.vtk", "--gather", "--single", "--quiet")
+        self.run_over(3, "quality", "big.pvtu", "--annotate", "out.vtk", "--single", "--quiet")
         self.assertEqual(self.read("out.vtk"), self.read("alone.vtk"))
 
     def test_refusals(self):
-        self.write_both(self.random_mesh(300))
+        write_both(self, self.random_mesh(300))
         before = {name: self.read(name) for name in os.listdir(self.folder)}
         os.mkdir(self.path("folder.off"))
         for words, code, arguments in (
@@ -265,11 +172,8 @@ class WholeMesh(ranks_tool.RanksTest):
                 (["big_1.vtu is a piece of the input"], 2, ["big_1.vtu", "--single"]),
                 (["nosuch"], 4, ["out.nosuch", "--single"]),
                 (["folder.off: is a folder"], 4, ["folder.off", "--single"]),
-                (["--annotate", "--gather"], 2, ["out.pvtu", "--annotate"]),
-                (["--slide", "--gather"], 2, ["out.pvtu", "--slide", "curves"]),
-                (["--size-array", "--gather"], 2, ["out.pvtu", "--size-array", "height"]),
-                (["nosuch"], 2, ["out.pvtu", "--gather", "--method", "mean-ratio", "--size-array", "nosuch"]),
-                (["nosuch"], 2, ["out.off", "--gather", "--single", "--slide", "straight", "--region-array", "nosuch"])):
+                (["nosuch"], 2, ["out.pvtu", "--method", "mean-ratio", "--size-array", "nosuch"]),
+                (["nosuch"], 2, ["out.off", "--single", "--slide", "straight", "--region-array", "nosuch"])):
             for ranks in (0, 3):
                 with self.subTest(arguments=arguments, ranks=ranks):
                     outcome = self.run_over(ranks, "smooth", "big.pvtu", *arguments, expect=code)
