@@ -68,7 +68,8 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember(experiment_names()))
       ->capture_default_str();
   app.add_option("--vertices", settings.vertices, "default: those of each experiment");
-  app.add_option("--executions", settings.executions, "of to-stop: cpu, single-block, cdp, resident")
+  app.add_option("--executions", settings.executions,
+                 "of to-stop: cpu, resident, and of smart and laplacian single-block, cdp")
       ->capture_default_str();
   app.add_option("--layouts", settings.layouts, "of single-block and cdp")->capture_default_str();
   app.add_option("--forms", settings.forms, "of all but full-sweeps, which is Form A")->capture_default_str();

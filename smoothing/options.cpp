@@ -27,6 +27,8 @@ void SmoothingOptions::validate() const {
   require(mean_ratio.size_weight >= 0 && mean_ratio.size_weight < std::numeric_limits<double>::infinity(),
           "the size weight must be a number from 0");
   require(mean_ratio.power >= 0 && mean_ratio.power <= 8, "the power must be from 1 to 8 (0: by the mesh)");
+  require(execution == Execution::resident || method == Method::smart || method == Method::laplacian,
+          "execution single-block or cdp goes with methods smart and laplacian only; execution resident goes with all");
   require(order == Order::colour || (form == Form::in_place && execution != Execution::resident),
           "order 'unordered' goes with form b and execution single-block or cdp only");
   require(layout == Layout::aos || execution != Execution::resident,

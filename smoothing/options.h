@@ -39,8 +39,8 @@ enum class Layout : std::uint8_t {
 /// How the sweeps run on the device (CUDA only).
 enum class Execution : std::uint8_t {
   resident,      ///< the fastest: kernels that stay on the device until the smoothing stops
-  single_block,  ///< one block of threads for the whole mesh: the paper's GPU version
-  cdp,           ///< kernels started by a kernel (CUDA dynamic parallelism): the paper's CDP version
+  single_block,  ///< one block of threads for the whole mesh: the paper's GPU version, of Method::smart and laplacian
+  cdp,  ///< kernels started by a kernel (CUDA dynamic parallelism): the paper's CDP version, of the same methods
 };
 
 /// The order in which a sweep of Form B visits the vertices.
@@ -249,8 +249,8 @@ struct SmoothingOptions {
   }
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
-  /// combinations that no backend has: Order::unordered with Form::swap or Execution::resident, Layout::soa with
-  /// Execution::resident.
+  /// combinations that no backend has: an execution other than resident with a method other than smart and laplacian,
+  /// Order::unordered with Form::swap or Execution::resident, Layout::soa with Execution::resident.
   void validate() const;
 };
 

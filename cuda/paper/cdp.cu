@@ -49,21 +49,19 @@ bool built_with_cdp() {
 }
 
 template <class Mesh>
-void launch_cdp(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
-                LoopState* state, SweepSums* sums, cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(const Update& update) {
+void launch_cdp(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
+                cudaStream_t stream) {
+  visit_paper_method(method, [&]<class Update>(const Update& update) {
     sweep_with_children<Update><<<1, parent_block_size, 0, stream>>>(update, mesh, rules, state, sums);
   });
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-template void launch_cdp(const MethodInUse<float>&, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<float>&, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<double>&, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<double>&, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
+#define INSTANTIATE(Mesh) \
+  template void launch_cdp(Method, const Mesh&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
+INSTANTIATE(MeshAoS<float>);
+INSTANTIATE(MeshSoA<float>);
+INSTANTIATE(MeshAoS<double>);
+INSTANTIATE(MeshSoA<double>);
 
 }  // namespace trismooth::cuda

@@ -4,7 +4,7 @@
 
 #include "trismooth/cuda/paper/mesh_layouts.h"
 #include "trismooth/cuda/sweeps/sweep_state.h"
-#include "trismooth/smoothing/methods/methods.h"
+#include "trismooth/smoothing/options.h"
 
 namespace trismooth::cuda {
 
@@ -19,7 +19,7 @@ bool built_with_cdp();
 /// the state's `error` and ends the sweeping. Arguments otherwise as those of launch_single_block().
 /// Throws DeviceError in a build without.
 template <class Mesh>
-void launch_cdp(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
-                LoopState* state, SweepSums* sums, cudaStream_t stream);
+void launch_cdp(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
+                cudaStream_t stream);
 
 }  // namespace trismooth::cuda

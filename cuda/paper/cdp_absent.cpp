@@ -8,20 +8,18 @@ bool built_with_cdp() {
 }
 
 template <class Mesh>
-void launch_cdp(const MethodInUse<typename Mesh::Scalar>& /*method*/, const Mesh& /*mesh*/, const LoopRules& /*rules*/,
-                LoopState* /*state*/, SweepSums* /*sums*/, cudaStream_t /*stream*/) {
+void launch_cdp(Method /*method*/, const Mesh& /*mesh*/, const LoopRules& /*rules*/, LoopState* /*state*/,
+                SweepSums* /*sums*/, cudaStream_t /*stream*/) {
   throw DeviceError(
       "CUDA: this build has no dynamic parallelism (it was configured with -DTRISMOOTH_CDP=OFF); use '--execution "
       "resident' or 'single-block'");
 }
 
-template void launch_cdp(const MethodInUse<float>&, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<float>&, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<double>&, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
-template void launch_cdp(const MethodInUse<double>&, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*,
-                         cudaStream_t);
+#define INSTANTIATE(Mesh) \
+  template void launch_cdp(Method, const Mesh&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
+INSTANTIATE(MeshAoS<float>);
+INSTANTIATE(MeshSoA<float>);
+INSTANTIATE(MeshAoS<double>);
+INSTANTIATE(MeshSoA<double>);
 
 }  // namespace trismooth::cuda

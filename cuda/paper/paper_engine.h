@@ -48,20 +48,15 @@ class PaperEngine {
 
   RingsView rings() const { return rings_.view(); }
   std::pair<Points, Points> input() const { return {points_, points_}; }
-  void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
-    targets_.set_sizes(order, inverse_sizes);
-  }
-  void begin() {
-    mesh_.initiate(*context_, points_);
-    targets_.find(rings(), points_);
-  }
+  /// Never: no method of the paper aims at sizes.
+  void set_sizes(const VertexOrder& /*order*/, std::span<const double> /*inverse_sizes*/) {}
+  void begin() { mesh_.initiate(*context_, points_); }
   void begin_stage() {}
-  std::int64_t sweep(const MeanRatioStep<T>& step, const LoopRules& rules, LoopState* state, SweepSums* sums) {
-    const MethodInUse<T> method{method_, targets_.view(), step};
+  std::int64_t sweep(const MeanRatioStep<T>& /*step*/, const LoopRules& rules, LoopState* state, SweepSums* sums) {
     if (rings_.with_children) {
-      launch_cdp(method, mesh_.view(), rules, state, sums, context_->stream());
+      launch_cdp(method_, mesh_.view(), rules, state, sums, context_->stream());
     } else {
-      launch_single_block(method, mesh_.view(), rules, state, sums, context_->stream());
+      launch_single_block(method_, mesh_.view(), rules, state, sums, context_->stream());
     }
     return 1;
   }
@@ -83,7 +78,7 @@ class PaperEngine {
   PaperMesh<T, layout> mesh_;
   DeviceBuffer<PointRecord<T>> memory_;
   Points points_;
-  DeviceTargets<T> targets_;
+  DeviceTargets<T> targets_;  ///< empty: the method has none
 };
 
 }  // namespace trismooth::cuda

@@ -7,11 +7,24 @@
 #include "trismooth/cuda/sweeps/block_tally.cuh"
 #include "trismooth/cuda/sweeps/sweep_state.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/methods/methods.h"
+#include "trismooth/smoothing/methods/laplacian.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
+#include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/sweeps/sweep_tally.h"
 
 /// The parts that the paper's two versions are made of, over either layout.
 namespace trismooth::cuda {
+
+/// Calls `function` with the one-ring update of a method of the paper. The others are refused where options are
+/// checked.
+template <class Function>
+void visit_paper_method(Method method, const Function& function) {
+  if (method == Method::laplacian) {
+    function(Laplacian{});
+  } else {
+    function(SmartLaplacian{});
+  }
+}
 
 /// The positions of a vertex's neighbours as an update reads them, straight from the mesh.
 template <class Mesh>

@@ -53,21 +53,19 @@ __global__ void __launch_bounds__(single_block_size)
 }  // namespace
 
 template <class Mesh>
-void launch_single_block(const MethodInUse<typename Mesh::Scalar>& method, const Mesh& mesh, const LoopRules& rules,
-                         LoopState* state, SweepSums* sums, cudaStream_t stream) {
-  visit_method(method, [&]<class Update>(const Update& update) {
+void launch_single_block(Method method, const Mesh& mesh, const LoopRules& rules, LoopState* state, SweepSums* sums,
+                         cudaStream_t stream) {
+  visit_paper_method(method, [&]<class Update>(const Update& update) {
     sweep_in_one_block<Update><<<1, single_block_size, 0, stream>>>(update, mesh, rules, state, sums);
   });
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-template void launch_single_block(const MethodInUse<float>&, const MeshAoS<float>&, const LoopRules&, LoopState*,
-                                  SweepSums*, cudaStream_t);
-template void launch_single_block(const MethodInUse<float>&, const MeshSoA<float>&, const LoopRules&, LoopState*,
-                                  SweepSums*, cudaStream_t);
-template void launch_single_block(const MethodInUse<double>&, const MeshAoS<double>&, const LoopRules&, LoopState*,
-                                  SweepSums*, cudaStream_t);
-template void launch_single_block(const MethodInUse<double>&, const MeshSoA<double>&, const LoopRules&, LoopState*,
-                                  SweepSums*, cudaStream_t);
+#define INSTANTIATE(Mesh) \
+  template void launch_single_block(Method, const Mesh&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
+INSTANTIATE(MeshAoS<float>);
+INSTANTIATE(MeshSoA<float>);
+INSTANTIATE(MeshAoS<double>);
+INSTANTIATE(MeshSoA<double>);
 
 }  // namespace trismooth::cuda

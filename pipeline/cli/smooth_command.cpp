@@ -172,7 +172,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
       ->group(group);
   add_enum_option(command, "--execution", options.execution,
                   "resident: by all of the GPU, the fastest; single-block, cdp: the paper's versions, by one block and "
-                  "by CUDA dynamic parallelism")
+                  "by CUDA dynamic parallelism, of smart and laplacian only")
       ->group(group);
   add_enum_option(command, "--order", options.order,
                   "Of form b; unordered, as the threads happen to run: the paper's, not reproducible, for single-block "

@@ -91,6 +91,8 @@ CASES = [
     ({"devices": [0], "backend": "cpu"}, ValueError, "devices"),
     ({"devices": [0, 1], "execution": "cdp"}, ValueError, "devices"),
     ({"order": "unordered"}, ValueError, "order"),
+    ({"execution": "single-block", "method": "weighted"}, ValueError, "execution"),
+    ({"execution": "cdp", "method": "mean-ratio", "backend": "cpu"}, ValueError, "execution"),
     ({"guard": "on"}, TypeError, "guard"),
     ({"untangle": "maybe"}, ValueError, "untangle"),
     ({"max_sweeps": -1}, ValueError, "max_sweeps"),

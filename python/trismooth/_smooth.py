@@ -97,7 +97,8 @@ def smooth(
         by more has a corner there, which stays), ``deviation`` None (1e-3: how far "curves" may take a line from where
         it was, in edge lengths), ``curve`` "polyline" or "spline" and ``slide_coincident`` False; ``record_min_shape``
         False; ``devices`` None (numbers of CUDA devices that share the mesh out, as [0, 1]); ``topology`` "auto", "host", "halfedge" or "device"; ``evaluation`` "changed" or "all"; and of the
-        paper's versions on CUDA ``layout`` "aos" or "soa", ``execution`` "resident", "single-block" or "cdp",
+        paper's versions on CUDA ``layout`` "aos" or "soa", ``execution`` "resident", "single-block" or "cdp"
+        (these two with "smart" and "laplacian" only),
         ``order`` "colour" or "unordered". ``stream``: the CUDA stream of arrays on a device, else that of their
         library.
 

@@ -28,7 +28,7 @@ inline void require_cpu_results(const Mesh& mesh, SmoothingOptions options, cons
                                 Storage storage = Storage::float64) {
   const Run expected = run(mesh, options, constraints, storage);
   options.backend = &cuda::backend();
-  for (const device_ways::DeviceWay& way : device_ways::every_way()) {
+  for (const device_ways::DeviceWay& way : device_ways::every_way(options.method)) {
     for (const Topology topology : {Topology::host, Topology::device}) {
       way.choose_in(options);
       options.topology = topology;

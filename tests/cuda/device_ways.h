@@ -31,9 +31,14 @@ inline std::vector<DeviceWay> paper_ways() {
   return ways;
 }
 
-/// All.
-inline std::vector<DeviceWay> every_way() {
-  std::vector<DeviceWay> ways = paper_ways();
+/// Whether the paper's versions have this method.
+inline bool is_of_paper(trismooth::Method method) {
+  return method == trismooth::Method::smart || method == trismooth::Method::laplacian;
+}
+
+/// All that there are for a method.
+inline std::vector<DeviceWay> every_way(trismooth::Method method) {
+  std::vector<DeviceWay> ways = is_of_paper(method) ? paper_ways() : std::vector<DeviceWay>{};
   ways.push_back({trismooth::Execution::resident, trismooth::Layout::aos});
   return ways;
 }

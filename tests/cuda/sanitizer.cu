@@ -131,6 +131,9 @@ void compare_executions(const test_meshes::Mesh& mesh) {
               std::tuple(Execution::resident, Layout::aos, Topology::host),
               std::tuple(Execution::single_block, Layout::aos, Topology::device),
               std::tuple(Execution::single_block, Layout::soa, Topology::host)}) {
+          if (execution != Execution::resident && method != Method::smart && method != Method::laplacian) {
+            continue;  // not of the paper
+          }
           options.execution = execution;
           options.layout = layout;
           options.topology = topology;

@@ -127,7 +127,7 @@ TEST_CASE("random meshes have the CPU's bits, history and guard in every executi
       const Run expected = run(mesh, options, storage);
       options.backend = &cuda::backend();
       for (int times = 0; times < 2; ++times) {
-        choose_any(every_way(), options, random);
+        choose_any(every_way(options.method), options, random);
         options.topology = static_cast<Topology>(random.below(2));
         const Run found = run(mesh, options, storage);
         if (const std::string wrong = difference(found, expected); !wrong.empty()) {
@@ -146,7 +146,7 @@ TEST_CASE("random meshes in device memory have the CPU's bits, in plans used aga
     return for_some_options(mesh, 1, [&](SmoothingOptions options, Random& random) -> std::string {
       draw_the_rest(options, random);
       const Run expected = run(mesh, options, is_float ? Storage::float32 : Storage::float64);
-      choose_any(every_way(), options, random);
+      choose_any(every_way(options.method), options, random);
       OnDevice device(mesh, options);
       for (int times = 0; times < 2; ++times) {
         const Run found =
@@ -180,7 +180,7 @@ TEST_CASE("random meshes with sizes asked for have the CPU's bits, in host memor
         options.untangle = trismooth::Untangle::on;
       }
       const Run expected = run(mesh, options);
-      choose_any(every_way(), options, random);
+      choose_any(every_way(options.method), options, random);
       options.backend = &cuda::backend();
       options.topology = static_cast<Topology>(random.below(2));
       if (const std::string wrong = difference(run(mesh, options), expected); !wrong.empty()) {
@@ -239,7 +239,7 @@ TEST_CASE("unused vertices, however far, change no bit, by every way to the devi
             difference(std::span(found.xy).subspan(expected.xy.size()), std::span(before).subspan(expected.xy.size()));
         return wrong.empty() && moved.empty() ? "" : fmt::format("{}: {}{}", way, wrong, moved);
       };
-      choose_any(every_way(), options, random);
+      choose_any(every_way(options.method), options, random);
       OnDevice device(more.mesh, options);
       if (const auto wrong = verdict(device.smooth(more.mesh.mesh.xy(), Storage::float64), "a plan on the device");
           !wrong.empty()) {
@@ -261,6 +261,7 @@ TEST_CASE("in no fixed order random meshes are smoothed by the contract all the 
       options.form = Form::in_place;
       options.untangle = trismooth::Untangle::off;  // tangled meshes would go to the host
       options.order = Order::unordered;
+      options.method = is_of_paper(options.method) ? options.method : trismooth::Method::smart;
       choose_any(paper_ways(), options, random);
       const std::string wrong = breach(mesh, connectivity, run(mesh, options), true);
       return wrong.empty() ? wrong : fmt::format("{}: {}", text_of_device(options), wrong);

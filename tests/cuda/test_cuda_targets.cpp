@@ -154,16 +154,13 @@ void check_aims(const Mesh& mesh, SmoothingOptions options, bool has_sizes) {
 /// From every kind of rings.
 template <class T>
 void check_everywhere(const Mesh& mesh, const MeanRatioOptions& mean_ratio) {
-  for (const Execution execution : {Execution::resident, Execution::single_block}) {
-    for (const Form form : {Form::swap, Form::in_place}) {
-      CAPTURE(execution, form);
-      SmoothingOptions options;
-      options.mean_ratio = mean_ratio;
-      options.execution = execution;
-      options.form = form;
-      check_aims<T>(mesh, options, false);
-      check_aims<T>(mesh, options, true);
-    }
+  for (const Form form : {Form::swap, Form::in_place}) {
+    CAPTURE(form);
+    SmoothingOptions options;
+    options.mean_ratio = mean_ratio;
+    options.form = form;
+    check_aims<T>(mesh, options, false);
+    check_aims<T>(mesh, options, true);
   }
 }
 

@@ -133,8 +133,10 @@ class OnADevice(BackendTest):
             what = ("smooth", "random.off", "out.off", "--method", method, "--form", form, "--precision", precision,
                     "--max-sweeps", "40")
             expected = self.report(*what, "--backend", "cpu")
-            for execution, layout, topology in itertools.product(self.executions(), ("aos", "soa"),
-                                                                 ("host", "device")):
+            ways = [("resident", "aos")]
+            if method in ("smart", "laplacian"):
+                ways += itertools.product(self.executions()[1:], ("aos", "soa"))
+            for (execution, layout), topology in itertools.product(ways, ("host", "device")):
                 with self.subTest(method=method, form=form, precision=precision, execution=execution, layout=layout,
                                   topology=topology):
                     report = self.report(*what, "--backend", "cuda", "--execution", execution, "--layout", layout,

@@ -63,6 +63,8 @@ class Usage(CommandLineTest):
                 ("smooth", "plate.off", "out.off", "--fixed-array", "anchor"): "anchor",
                 ("smooth", "plate.off", "out.off", "--order", "unordered"): "unordered.*single-block.*cdp",
                 ("smooth", "plate.off", "out.off", "--layout", "soa"): "soa.*single-block.*cdp",
+                ("smooth", "none.off", "out.off", "--execution", "single-block", "--method", "weighted"):
+                    "single-block.*smart and laplacian only.*resident",
                 ("quality",): "INPUT",
                 ("quality", "plate.off", "out.off"): "out.off",
                 ("generate", "out.off"): "--vertices",

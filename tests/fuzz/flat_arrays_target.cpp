@@ -217,9 +217,11 @@ SmoothingOptions choose_options(InputBytes& input) {
   options.form = input.one_of({trismooth::Form::swap, trismooth::Form::in_place});
   options.precision = input.one_of({trismooth::Precision::double_precision, trismooth::Precision::single_precision});
   options.evaluation = input.one_of({trismooth::Evaluation::changed, trismooth::Evaluation::all});
-  options.layout = input.one_of({trismooth::Layout::aos, trismooth::Layout::soa});
-  options.execution =
-      options.layout == trismooth::Layout::aos ? trismooth::Execution::resident : trismooth::Execution::single_block;
+  const bool is_of_paper = options.method == Method::smart || options.method == Method::laplacian;
+  if (input.flag() && is_of_paper) {
+    options.layout = trismooth::Layout::soa;
+    options.execution = trismooth::Execution::single_block;
+  }
   options.topology = input.one_of({trismooth::Topology::host, trismooth::Topology::device});
   const int guard = input.below(256);
   options.guard = guard % 4 != 0;

@@ -44,7 +44,7 @@ TEST_CASE("without options, smooth uses the documented defaults") {
 }
 
 TEST_CASE("every option of smooth reaches the pipeline") {
-  const Outcome outcome = smooth({"--method",         "weighted",
+  const Outcome outcome = smooth({"--method",         "laplacian",
                                   "--form",           "a",
                                   "--layout",         "soa",
                                   "--backend",        "cpu",
@@ -67,7 +67,7 @@ TEST_CASE("every option of smooth reaches the pipeline") {
                                   "--annotate"});
   REQUIRE(outcome.code == 0);
   const PipelineOptions& options = *outcome.options;
-  CHECK(options.smoothing.method == trismooth::Method::weighted);
+  CHECK(options.smoothing.method == trismooth::Method::laplacian);
   CHECK(options.smoothing.form == trismooth::Form::swap);
   CHECK(options.smoothing.layout == trismooth::Layout::soa);
   CHECK(options.smoothing.execution == trismooth::Execution::single_block);
@@ -190,6 +190,8 @@ TEST_CASE("wrong usage is answered with 2, a reason and nothing run") {
       {{"smooth", "a.off", "b.off", "--order", "unordered"}, "unordered"},
       {{"smooth", "a.off", "b.off", "--layout", "soa"}, "layout 'soa' goes with execution single-block or cdp only"},
       {{"smooth", "a.off", "b.off", "--layout", "soa", "--backend", "cpu"}, "layout 'soa' goes with"},
+      {{"smooth", "a.off", "b.off", "--execution", "cdp", "--method", "mean-ratio", "--backend", "cpu"},
+       "execution single-block or cdp goes with methods smart and laplacian only; execution resident goes with all"},
       {{"smooth", "a.off", "b.off", "--order", "unordered", "--execution", "cdp"}, "CUDA"},
       {{"quality"}, "INPUT is required"},
       {{"quality", "a.off", "--form", "a"}, "--form"},

@@ -13,6 +13,7 @@
 using trismooth::Execution;
 using trismooth::Form;
 using trismooth::Layout;
+using trismooth::Method;
 using trismooth::Order;
 using trismooth::SmoothingOptions;
 
@@ -62,12 +63,23 @@ void check_layout(Layout layout, Execution execution, bool valid) {
   CHECK(said == (valid ? "" : "layout 'soa' goes with execution single-block or cdp only"));
 }
 
+void check_method(Method method, Execution execution, bool valid) {
+  CAPTURE(method, execution);
+  const std::string said = complaint([&](auto& o) {
+    o.method = method;
+    o.execution = execution;
+  });
+  CHECK(said == (valid ? ""
+                       : "execution single-block or cdp goes with methods smart and laplacian only; execution resident "
+                         "goes with all"));
+}
+
 }  // namespace
 
 TEST_CASE("the defaults are those of the contract and valid") {
   const SmoothingOptions options;
   CHECK_NOTHROW(options.validate());
-  CHECK(options.method == trismooth::Method::smart);
+  CHECK(options.method == Method::smart);
   CHECK(options.form == Form::in_place);
   CHECK(options.layout == trismooth::Layout::aos);
   CHECK(options.execution == Execution::resident);
@@ -81,11 +93,11 @@ TEST_CASE("the defaults are those of the contract and valid") {
 }
 
 TEST_CASE("untangling is for mean-ratio alone where it is not asked for nor ruled out") {
-  for (const auto& [method, name] : trismooth::EnumText<trismooth::Method>::texts) {
+  for (const auto& [method, name] : trismooth::EnumText<Method>::texts) {
     CAPTURE(name);
     SmoothingOptions options;
     options.method = method;
-    CHECK(options.untangles() == (method == trismooth::Method::mean_ratio));
+    CHECK(options.untangles() == (method == Method::mean_ratio));
     options.untangle = trismooth::Untangle::on;
     CHECK(options.untangles());
     options.untangle = trismooth::Untangle::off;
@@ -120,6 +132,17 @@ TEST_CASE("tolerances are numbers from 0, targets from -1 to 1") {
   check_target(not_a_number, false);
   check_target(-1.001, false);
   check_target(infinity, false);
+}
+
+TEST_CASE("the paper's executions go with the paper's methods alone") {
+  for (const Execution execution : {Execution::single_block, Execution::cdp}) {
+    check_method(Method::smart, execution, true);
+    check_method(Method::laplacian, execution, true);
+    check_method(Method::weighted, execution, false);
+    check_method(Method::mean_ratio, execution, false);
+  }
+  check_method(Method::weighted, Execution::resident, true);
+  check_method(Method::mean_ratio, Execution::resident, true);
 }
 
 TEST_CASE("the structure of arrays goes with a single block or CDP alone") {
