@@ -20,54 +20,12 @@ __device__ SweepData<T, std::int32_t> data_of(const PartBatch<T>& batch) {
   return {batch.rings, batch.from, batch.to, batch.next_marks, batch.tolerance};
 }
 
-/// Adds what the block's threads did. All of them call it.
-template <class T>
-__device__ void end_batch(const ThreadTally<T>& tally, SweepSums& shared, SweepSums* sums) {
-  join_in_block(tally, shared);
-  __syncthreads();
-  if (threadIdx.x == 0) {
-    add_block(shared, sums);
-  }
-}
-
 template <bool marks, class Update, class T>
-__global__ void __launch_bounds__(batch_threads, blocks_at_once<T>)
+__global__ void __launch_bounds__(batch_threads<Update, T>, blocks_at_once<Update, T>)
     visit_all(Update method, PartBatch<T> batch, Pieces pieces, SweepSums* sums) {
   __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[batch_threads / 32][enough_left_over + 32];
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
-  }
-  __syncthreads();
-  ThreadTally<T> tally;
-  sweep_pieces<marks>(method, pieces, data_of(batch), left_over[threadIdx.x / 32], tally);
-  if (thread_index() == 0) {
-    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
-  }
-  end_batch(tally, shared, sums);
-}
-
-/// The same by a thread for each vertex, which reads its ring from memory: for methods without an update in registers.
-template <bool marks, class Update, class T>
-__global__ void __launch_bounds__(threads_from_memory, blocks_from_memory)
-    visit_all_from_memory(Update method, PartBatch<T> batch, SweepSums* sums) {
-  __shared__ SweepSums shared;
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
-  }
-  __syncthreads();
-  const SweepData<T, std::int32_t> data = data_of(batch);
-  ThreadTally<T> tally;
-  const std::int64_t v = batch.begin + thread_index();
-  if (v < batch.end) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    const Point2<T> position = data.from.load(vertex);
-    settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
-                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
-                           tally);
-    tally.evaluated = 1;
-  }
-  end_batch(tally, shared, sums);
+  const ThreadTally<T> tally = sweep_by_blocks<marks>(method, pieces, data_of(batch));
+  add_to_sums(tally, shared, sums);
 }
 
 /// Threads of a block that visits marked vertices.
@@ -77,30 +35,17 @@ template <class Update, class T>
 __global__ void __launch_bounds__(marked_threads) visit_marked(Update method, PartBatch<T> batch, SweepSums* sums) {
   __shared__ SweepSums shared;
   __shared__ std::int32_t lists[marked_threads / 32][words_at_a_time * 32];
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
-  }
-  __syncthreads();
   ThreadTally<T> tally;
   constexpr bool all = false;
   sweep_marked<marked_threads>(method, batch.marks, all, batch.begin, batch.end, data_of(batch),
                                lists[threadIdx.x / 32], tally);
-  end_batch(tally, shared, sums);
+  add_to_sums(tally, shared, sums);
 }
 
 template <bool marks, class Update, class T>
 void launch_all(const Update& update, const PartBatch<T>& batch, SweepSums* sums, cudaStream_t stream) {
-  const std::int32_t count = batch.end - batch.begin;
-  if constexpr (has_register_update<Update, T>) {
-    const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
-    const auto blocks = static_cast<std::int32_t>(blocks_for(count, batch_threads));
-    const std::int32_t run_bits = blocks < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-    visit_all<marks><<<static_cast<unsigned>(std::min(blocks, most_blocks)), batch_threads, 0, stream>>>(
-        update, batch, Pieces{batch.begin, batch.end, run_bits}, sums);
-  } else {
-    visit_all_from_memory<marks>
-        <<<blocks_for(count, threads_from_memory), threads_from_memory, 0, stream>>>(update, batch, sums);
-  }
+  const auto [blocks, pieces] = launch_of_batch<Update, T>(batch.begin, batch.end, multiprocessor_count());
+  visit_all<marks><<<blocks, batch_threads<Update, T>, 0, stream>>>(update, batch, pieces, sums);
 }
 
 template <class T>

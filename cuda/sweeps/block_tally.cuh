@@ -48,8 +48,9 @@ __device__ inline void add_block(const SweepSums& shared, SweepSums* sums) {
 }
 
 /// Adds what the threads of a block did to the sums of the sweep. All threads of the block call it; `shared` is theirs.
-template <class T>
-__device__ void add_to_sums(const SweepTally<T>& tally, SweepSums& shared, SweepSums* sums) {
+/// `Tally`: as join_in_block().
+template <class Tally>
+__device__ void add_to_sums(const Tally& tally, SweepSums& shared, SweepSums* sums) {
   if (threadIdx.x == 0) {
     shared = SweepSums{};
   }

@@ -1,18 +1,26 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "trismooth/cuda/primitives/warp_list.cuh"
+#include "trismooth/cuda/runtime/launch.h"
+#include "trismooth/cuda/runtime/thread_index.cuh"
+#include "trismooth/cuda/sweeps/block_tally.cuh"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 
 /// A batch whose vertices are all evaluated, shared out to the blocks of a grid.
 namespace trismooth::cuda {
 
-/// Threads of such a block.
-constexpr std::int32_t batch_threads = 256;
-/// Blocks of a multiprocessor: what their registers allow.
-template <class T>
-constexpr std::int32_t blocks_at_once = sizeof(T) == sizeof(float) ? 3 : 2;
+/// Vertices of a piece, see Pieces.
+constexpr std::int32_t piece_size = 256;
+/// Threads of such a block, and such blocks of a multiprocessor: what their registers allow. Where a method has no
+/// update in registers a thread has one vertex, and they are as many as hide the waiting for memory without taking
+/// registers away.
+template <class Update, class T>
+constexpr std::int32_t batch_threads = has_register_update<Update, T> ? piece_size : 128;
+template <class Update, class T>
+constexpr std::int32_t blocks_at_once = has_register_update<Update, T> ? (sizeof(T) == sizeof(float) ? 3 : 2) : 4;
 constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
@@ -27,19 +35,14 @@ struct Pieces {
     const std::int32_t run =
         (i >> run_bits) * static_cast<std::int32_t>(gridDim.x) + static_cast<std::int32_t>(blockIdx.x);
     const std::int32_t piece = (run << run_bits) + (i & ((1 << run_bits) - 1));
-    return begin + static_cast<std::int64_t>(piece) * batch_threads;
+    return begin + static_cast<std::int64_t>(piece) * piece_size;
   }
 };
 
 /// More vertices than a warp leaves to its teams before it evaluates them, but for those of its last piece.
 constexpr int enough_left_over = 32;
 
-/// Threads and blocks of a multiprocessor where a thread has one vertex: as many as hide the waiting for memory without
-/// taking registers away.
-constexpr std::int32_t threads_from_memory = 128;
-constexpr std::int32_t blocks_from_memory = 4;
-
-/// Evaluates the block's vertices. `list` is the warp's own.
+/// Evaluates the block's vertices by methods with an update in registers. `list` is the warp's own.
 template <bool marks, class Update, class T, class Slot>
 __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces, const SweepData<T, Slot>& data,
                                              std::int32_t* list, ThreadTally<T>& tally) {
@@ -66,6 +69,57 @@ __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces&
     __syncwarp();
     visit_by_teams<marks>(method, listed, data, tally, [&](int i) { return list[i]; });
     __syncwarp();
+  }
+}
+
+/// Evaluates the block's vertices, a thread each, which reads its ring from memory: by methods without an update in
+/// registers.
+template <bool marks, class Update, class T, class Slot>
+__device__ __forceinline__ void sweep_from_memory(const Update& method, const Pieces& pieces,
+                                                  const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
+  const std::int64_t v = pieces.begin + thread_index();
+  if (v < pieces.end) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    const Point2<T> position = data.from.load(vertex);
+    settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
+                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
+                           tally);
+  }
+}
+
+/// Evaluates the block's vertices. All threads of the block call it; what they did counts the vertices of the whole
+/// batch as those of the grid's first thread.
+template <bool marks, class Update, class T, class Slot>
+__device__ __forceinline__ ThreadTally<T> sweep_by_blocks(const Update& method, const Pieces& pieces,
+                                                          const SweepData<T, Slot>& data) {
+  ThreadTally<T> tally;
+  if constexpr (has_register_update<Update, T>) {
+    __shared__ std::int32_t left_over[batch_threads<Update, T> / 32][enough_left_over + 32];
+    sweep_pieces<marks>(method, pieces, data, left_over[threadIdx.x / 32], tally);
+  } else {
+    sweep_from_memory<marks>(method, pieces, data, tally);
+  }
+  if (thread_index() == 0) {
+    tally.evaluated = static_cast<unsigned>(pieces.end - pieces.begin);
+  }
+  return tally;
+}
+
+/// How a batch is shared out to blocks.
+struct BatchLaunch {
+  unsigned blocks;
+  Pieces pieces;
+};
+
+/// That of the vertices begin .. end on a device of so many multiprocessors.
+template <class Update, class T>
+BatchLaunch launch_of_batch(std::int32_t begin, std::int32_t end, int multiprocessors) {
+  const unsigned blocks = blocks_for(end - begin, batch_threads<Update, T>);
+  if constexpr (has_register_update<Update, T>) {
+    const auto most = static_cast<unsigned>(multiprocessors * blocks_at_once<Update, T>);
+    return {std::min(blocks, most), {begin, end, blocks < (most << longest_run_bits) ? 0 : longest_run_bits}};
+  } else {
+    return {blocks, {begin, end, 0}};
   }
 }
 

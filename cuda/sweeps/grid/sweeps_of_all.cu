@@ -51,33 +51,10 @@ __device__ SweepData<T, Slot> data_of(const GridMesh<T, Slot>& mesh, const LoopR
           static_cast<T>(rules.tolerance)};
 }
 
-/// Joins what the block's threads did in a batch of `evaluated` vertices, of which the last ends the sweep.
-template <class T>
-__device__ void end_batch(ThreadTally<T> tally, std::int32_t evaluated, bool is_last, std::int32_t free_count,
-                          const LoopRules& rules, SweepSums& shared, LoopState* state, SweepSums* sums) {
-  if (threadIdx.x == 0 && blockIdx.x == 0) {
-    tally.evaluated = static_cast<unsigned>(evaluated);
-  }
-  join_in_block(tally, shared);
-  __syncthreads();
-  if (threadIdx.x != 0) {
-    return;
-  }
-  add_block(shared, &sums[state->sweeps]);
-  if (is_last) {
-    __threadfence();
-    if (atomicAdd(&state->blocks_done, 1U) + 1 == gridDim.x) {
-      __threadfence();
-      state->blocks_done = 0;
-      end_sweep(rules, free_count, state, sums[state->sweeps]);
-    }
-  }
-}
-
-/// Makes the sweep of one batch where the state says that all vertices are to be evaluated, and whether their moves are
-/// to be marked is what this kernel does.
+/// Makes the sweep of one batch, of which the last ends the sweep, where the state says that all vertices are to be
+/// evaluated, and whether their moves are to be marked is what this kernel does.
 template <bool marks, class Update, class T, class Slot>
-__global__ void __launch_bounds__(batch_threads, blocks_at_once<T>)
+__global__ void __launch_bounds__(batch_threads<Update, T>, blocks_at_once<Update, T>)
     sweep_batch(Update method, GridMesh<T, Slot> mesh, LoopRules rules, Pieces pieces, bool is_last, LoopState* state,
                 SweepSums* sums) {
   wait_for_launch_before();
@@ -85,41 +62,16 @@ __global__ void __launch_bounds__(batch_threads, blocks_at_once<T>)
     return;
   }
   __shared__ SweepSums shared;
-  __shared__ std::int32_t left_over[batch_threads / 32][enough_left_over + 32];
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
+  const ThreadTally<T> tally = sweep_by_blocks<marks>(method, pieces, data_of(mesh, rules, *state));
+  add_to_sums(tally, shared, &sums[state->sweeps]);
+  if (is_last && threadIdx.x == 0) {
+    __threadfence();
+    if (atomicAdd(&state->blocks_done, 1U) + 1 == gridDim.x) {
+      __threadfence();
+      state->blocks_done = 0;
+      end_sweep(rules, mesh.rings.size, state, sums[state->sweeps]);
+    }
   }
-  __syncthreads();
-  ThreadTally<T> tally;
-  sweep_pieces<marks>(method, pieces, data_of(mesh, rules, *state), left_over[threadIdx.x / 32], tally);
-  end_batch(tally, pieces.end - pieces.begin, is_last, mesh.rings.size, rules, shared, state, sums);
-}
-
-/// The same by a thread for each vertex, which reads its ring from memory: for methods without an update in registers.
-template <bool marks, class Update, class T, class Slot>
-__global__ void __launch_bounds__(threads_from_memory, blocks_from_memory)
-    sweep_batch_from_memory(Update method, GridMesh<T, Slot> mesh, LoopRules rules, std::int32_t begin,
-                            std::int32_t end, bool is_last, LoopState* state, SweepSums* sums) {
-  wait_for_launch_before();
-  if (!is_due(*state, marks, rules)) {
-    return;
-  }
-  __shared__ SweepSums shared;
-  if (threadIdx.x == 0) {
-    shared = SweepSums{};
-  }
-  __syncthreads();
-  const SweepData<T, Slot> data = data_of(mesh, rules, *state);
-  ThreadTally<T> tally;
-  const std::int64_t v = begin + thread_index();
-  if (v < end) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    const Point2<T> position = data.from.load(vertex);
-    settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
-                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
-                           tally);
-  }
-  end_batch(tally, end - begin, is_last, mesh.rings.size, rules, shared, state, sums);
 }
 
 }  // namespace
@@ -128,33 +80,18 @@ template <class T, class Slot>
 std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T, Slot>& mesh, const LoopRules& rules,
                                   std::span<const std::int32_t> batches, std::int32_t sweeps, LoopState* state,
                                   SweepSums* sums, cudaStream_t stream) {
-  const std::int32_t most_blocks = multiprocessor_count() * blocks_at_once<T>;
+  const int multiprocessors = multiprocessor_count();
   std::int32_t launches = 0;
-  // launch(begin, end, is_last) makes the sweep of a batch.
-  const auto launch_sweeps = [&](std::int32_t count, const auto& launch) {
-    for (std::int32_t sweep = 0; sweep < count; ++sweep) {
-      for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
-        launch(batches[batch], batches[batch + 1], batch + 2 == batches.size());
-        ++launches;
-      }
-    }
-  };
   visit_method(method, [&]<class Update>(const Update& update) {
     const auto launch_with = [&](auto marks, std::int32_t count) {
-      if constexpr (has_register_update<Update, T>) {
-        DependentLaunch kernel(&sweep_batch<marks(), Update, T, Slot>, stream);
-        launch_sweeps(count, [&](std::int32_t begin, std::int32_t end, bool is_last) {
-          const auto blocks = static_cast<std::int32_t>(blocks_for(end - begin, batch_threads));
-          const std::int32_t run_bits = blocks < (most_blocks << longest_run_bits) ? 0 : longest_run_bits;
-          kernel(static_cast<unsigned>(std::min(blocks, most_blocks)), batch_threads, update, mesh, rules,
-                 Pieces{begin, end, run_bits}, is_last, state, sums);
-        });
-      } else {
-        DependentLaunch kernel(&sweep_batch_from_memory<marks(), Update, T, Slot>, stream);
-        launch_sweeps(count, [&](std::int32_t begin, std::int32_t end, bool is_last) {
-          kernel(blocks_for(end - begin, threads_from_memory), threads_from_memory, update, mesh, rules, begin, end,
-                 is_last, state, sums);
-        });
+      DependentLaunch kernel(&sweep_batch<marks(), Update, T, Slot>, stream);
+      for (std::int32_t sweep = 0; sweep < count; ++sweep) {
+        for (std::size_t batch = 0; batch + 1 < batches.size(); ++batch) {
+          const auto [blocks, pieces] = launch_of_batch<Update, T>(batches[batch], batches[batch + 1], multiprocessors);
+          kernel(blocks, batch_threads<Update, T>, update, mesh, rules, pieces, batch + 2 == batches.size(), state,
+                 sums);
+          ++launches;
+        }
       }
     };
     launch_with(std::false_type{}, sweeps);
