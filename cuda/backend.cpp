@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +21,16 @@
 #include "trismooth/cuda/host_untangling.h"
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/part_offloads.h"
+#include "trismooth/cuda/parts/device_scope.h"
 #include "trismooth/cuda/runtime/host_copy.h"
 #include "trismooth/cuda/runtime/timeline.h"
+#include "trismooth/cuda/several_devices.h"
 #include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 
 namespace trismooth::cuda {
@@ -189,11 +193,40 @@ class TriangleSmoother final : public PreparedSmoother {
   Plan plan_;
 };
 
+/// A smoother of one device, whichever is current.
+class SmootherOnDevice final : public PreparedSmoother {
+ public:
+  SmootherOnDevice(int device, std::unique_ptr<PreparedSmoother> smoother)
+      : device_(device), smoother_(std::move(smoother)) {}
+  ~SmootherOnDevice() override { after_.begin(device_); }
+
+  SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
+                         const std::optional<LocalFrame>& frame) override {
+    const DeviceScope scope(device_);
+    return smoother_->smooth(points, storage, frame);
+  }
+  std::vector<std::uint8_t> fixed() const override {
+    const DeviceScope scope(device_);
+    return smoother_->fixed();
+  }
+
+ private:
+  DeviceAtEnd after_;  ///< the last to go
+  int device_;
+  std::unique_ptr<PreparedSmoother> smoother_;
+};
+
+/// On a device; none: on whichever is current.
 class CudaBackend final : public Backend {
  public:
+  explicit CudaBackend(std::optional<int> device = std::nullopt) : device_(device) {}
+
   std::string name() const override { return "cuda"; }
 
-  void require_ready() const override { require_device(); }
+  void require_ready() const override {
+    const DeviceScope scope(device_);
+    require_device();
+  }
 
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
@@ -205,13 +238,15 @@ class CudaBackend final : public Backend {
                                                  std::span<const Point2<double>> local,
                                                  const SmoothingOptions& options) const override {
     options.validate();
+    const DeviceScope scope(device_);
     require_device();
     if (mesh.part != nullptr && mesh.part->is_whole) {
       // Colours are by the ids of the whole mesh, which the device's own are not.
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
     if (mesh.part != nullptr) {
-      return prepare_part(mesh, triangles, local, options, part_offloads(*mesh.part));
+      return prepare_part(mesh, triangles, local, options,
+                          device_ ? part_offloads_on(*device_) : part_offloads(*mesh.part));
     }
     if (mesh.slidable.is_wanted()) {
       require_sliding(options);
@@ -219,11 +254,12 @@ class CudaBackend final : public Backend {
     if (mesh.slidable.any() && (!can_slide(options) || mesh.rings.neighbours.empty())) {
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
-    return std::make_unique<RingSmoother>(mesh, triangles, local, options);
+    return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
   }
 
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,
                                       const Constraints& constraints, const SmoothingOptions& options) const override {
+    const DeviceScope scope(device_);
     require_device();
     return find_rings_on_device(local, triangles, constraints, neighbour_search(options.execution),
                                 options.used_layers());
@@ -233,12 +269,21 @@ class CudaBackend final : public Backend {
                                                  const Constraints& constraints,
                                                  const SmoothingOptions& options) const override {
     options.validate();
+    const DeviceScope scope(device_);
     require_device();
     if (constraints.slide.along != Slide::off && !can_slide(options)) {
       return nullptr;
     }
-    return std::make_unique<TriangleSmoother>(vertex_count, triangles, constraints, options);
+    return on_device(std::make_unique<TriangleSmoother>(vertex_count, triangles, constraints, options));
   }
+
+ private:
+  /// Smooths where it was made.
+  std::unique_ptr<PreparedSmoother> on_device(std::unique_ptr<PreparedSmoother> smoother) const {
+    return device_ ? std::make_unique<SmootherOnDevice>(*device_, std::move(smoother)) : std::move(smoother);
+  }
+
+  std::optional<int> device_;
 };
 
 }  // namespace
@@ -246,6 +291,25 @@ class CudaBackend final : public Backend {
 const Backend& backend() {
   static const CudaBackend backend;
   return backend;
+}
+
+std::unique_ptr<Backend> backend_on(std::span<const int> devices) {
+  if (devices.empty()) {
+    throw std::invalid_argument("no devices: name one at least");
+  }
+  if (std::ranges::min(devices) < 0) {
+    throw std::invalid_argument("devices: " + std::to_string(std::ranges::min(devices)) + " is no number of a device");
+  }
+  require_device();
+  const auto there = static_cast<int>(survey_devices().devices.size());
+  if (const int last = std::ranges::max(devices); last >= there) {
+    throw DeviceError("CUDA: there is no device " + std::to_string(last) + ": this machine has " +
+                      std::to_string(there) + ", numbered from 0");
+  }
+  if (devices.size() == 1) {
+    return std::make_unique<CudaBackend>(devices.front());
+  }
+  return backend_on_several(devices);
 }
 
 }  // namespace trismooth::cuda

@@ -1,24 +1,32 @@
 #pragma once
 
+#include <optional>
+
 #include <cuda_runtime_api.h>
 
 #include "trismooth/cuda/runtime/check.h"
 
 namespace trismooth::cuda {
 
-/// Makes a device current as long as it lives, for the thread that made it.
+/// Makes a device current as long as it lives, for the thread that made it; none: leaves whichever is.
 class DeviceScope {
  public:
-  explicit DeviceScope(int device) {
-    TRISMOOTH_CUDA_CHECK(cudaGetDevice(&before_));
-    TRISMOOTH_CUDA_CHECK(cudaSetDevice(device));
+  explicit DeviceScope(std::optional<int> device) {
+    if (device) {
+      TRISMOOTH_CUDA_CHECK(cudaGetDevice(&before_.emplace()));
+      TRISMOOTH_CUDA_CHECK(cudaSetDevice(*device));
+    }
   }
   DeviceScope(const DeviceScope&) = delete;
   DeviceScope& operator=(const DeviceScope&) = delete;
-  ~DeviceScope() { cudaSetDevice(before_); }
+  ~DeviceScope() {
+    if (before_) {
+      cudaSetDevice(*before_);
+    }
+  }
 
  private:
-  int before_ = 0;
+  std::optional<int> before_;
 };
 
 /// For an object that has memory of a device: a member before all others, which go after begin() has made that device
