@@ -1,16 +1,15 @@
 #include "trismooth/pipeline/cuda_or_cpu.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/joined_blocks.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/noted_smoother.h"
@@ -88,15 +87,9 @@ class FallingBackSmoother final : public PreparedSmoother {
 
 std::int64_t count_free(const OneRings& rings, int threads) {
   constexpr std::int64_t grain = 65536;
-  std::atomic<std::int64_t> count{0};
-  Workers(threads).for_blocks(rings.vertex_count(), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::int64_t count_here = 0;
-    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-      count_here += rings.is_free(v) ? 1 : 0;
-    }
-    count.fetch_add(count_here, std::memory_order_relaxed);
-  });
-  return count;
+  Workers workers(threads);
+  return joined_sum(rings.vertex_count(), grain, workers,
+                    [&](std::int64_t v) { return rings.is_free(static_cast<std::int32_t>(v)) ? 1 : 0; });
 }
 
 }  // namespace

@@ -3,27 +3,25 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <mutex>
 #include <utility>
 
 #include "trismooth/base/hold.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/joined_blocks.h"
 
 namespace trismooth {
 
 ReasonCounts count_reasons(std::span<const std::uint8_t> reasons, Workers& workers) {
   constexpr std::int64_t grain = 65536;
-  ReasonCounts counts{};
-  std::mutex joining;
-  workers.for_blocks(std::ssize(reasons), grain, [&](std::int64_t begin, std::int64_t end) {
-    ReasonCounts own{};
-    for (std::int64_t v = begin; v < end; ++v) {
-      ++own[reasons[static_cast<std::size_t>(v)]];
-    }
-    const std::lock_guard lock(joining);
-    std::ranges::transform(own, counts, counts.begin(), std::plus<>());
-  });
-  return counts;
+  return joined_blocks(
+      std::ssize(reasons), grain, workers, ReasonCounts{},
+      [&](std::int64_t begin, std::int64_t end, ReasonCounts& counts) {
+        for (std::int64_t v = begin; v < end; ++v) {
+          ++counts[reasons[static_cast<std::size_t>(v)]];
+        }
+      },
+      [](ReasonCounts& all, const ReasonCounts& counts) {
+        std::ranges::transform(all, counts, all.begin(), std::plus<>());
+      });
 }
 
 HeldVertices count_held(const ReasonCounts& counts, const LayersResult& layers) {

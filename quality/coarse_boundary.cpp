@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <mutex>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -14,7 +13,7 @@
 
 #include "trismooth/base/digits.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/joined_blocks.h"
 
 namespace trismooth {
 
@@ -64,22 +63,12 @@ class BoundarySearch {
   template <class Found, class Look>
   std::vector<Found> found_in_triangles(const Look& look) {
     constexpr std::int64_t grain = 16384;
-    std::vector<Found> all;
-    std::mutex joining;
-    workers_.for_blocks(std::ssize(view_.triangles), grain, [&](std::int64_t begin, std::int64_t end) {
-      std::vector<Found> found;
-      for (std::int64_t t = begin; t < end; ++t) {
-        look(static_cast<std::size_t>(t), found);
-      }
-      const std::lock_guard lock(joining);
-      all.insert(all.end(), found.begin(), found.end());
-    });
-    return all;
+    return joined_lists<Found>(std::ssize(view_.triangles), grain, workers_, look);
   }
 
   /// The edges of one triangle alone. Their ends are all on the boundary, so few others have to be looked at.
   void collect_edges() {
-    auto candidates = found_in_triangles<BoundaryEdge>([&](std::size_t t, std::vector<BoundaryEdge>& found) {
+    auto candidates = found_in_triangles<BoundaryEdge>([&](std::int64_t t, std::vector<BoundaryEdge>& found) {
       const Triangle& corners = view_.triangles[t];
       if (int{on_boundary(corners[0])} + int{on_boundary(corners[1])} + int{on_boundary(corners[2])} < 2) {
         return;
@@ -112,7 +101,7 @@ class BoundarySearch {
       const auto apex = static_cast<std::size_t>(edge.apex);
       is_apex[apex] = held_[apex] == 0 ? 1 : 0;
     }
-    spokes_ = found_in_triangles<Spoke>([&](std::size_t t, std::vector<Spoke>& found) {
+    spokes_ = found_in_triangles<Spoke>([&](std::int64_t t, std::vector<Spoke>& found) {
       if (std::ranges::none_of(view_.triangles[t], [&](std::int32_t v) { return is_apex[v] != 0; })) {
         return;
       }

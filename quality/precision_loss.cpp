@@ -1,10 +1,10 @@
 #include "trismooth/quality/precision_loss.h"
 
-#include <atomic>
 #include <cmath>
 
 #include "trismooth/base/digits.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/joined_blocks.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
@@ -18,30 +18,26 @@ Point2<float> rounded(Point2<double> point) {
 }  // namespace
 
 PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
-  std::atomic<std::int64_t> collapsed{0};
-  std::atomic<std::int64_t> distorted{0};
-  const auto count = static_cast<std::int64_t>(view.triangles.size());
   constexpr std::int64_t grain = 4096;
-  Workers(threads).for_blocks(count, grain, [&](std::int64_t begin, std::int64_t end) {
-    std::int64_t collapsed_here = 0;
-    std::int64_t distorted_here = 0;
-    for (std::int64_t t = begin; t < end; ++t) {
-      const auto [i, j, k] = canonical_corners(view, static_cast<std::size_t>(t));
-      const Point2<double> a = view.points[static_cast<std::size_t>(i)];
-      const Point2<double> b = view.points[static_cast<std::size_t>(j)];
-      const Point2<double> c = view.points[static_cast<std::size_t>(k)];
-      const double exact = shape(a, b, c);
-      const float in_single = shape(rounded(a), rounded(b), rounded(c));
-      if (exact > 0 && !(in_single > 0)) {
-        ++collapsed_here;
-      } else if (!(std::abs(exact - static_cast<double>(in_single)) <= distortion_limit)) {
-        ++distorted_here;
-      }
-    }
-    collapsed.fetch_add(collapsed_here, std::memory_order_relaxed);
-    distorted.fetch_add(distorted_here, std::memory_order_relaxed);
-  });
-  return {count, collapsed, distorted};
+  Workers workers(threads);
+  return joined_blocks(
+      std::ssize(view.triangles), grain, workers, PrecisionLoss{std::ssize(view.triangles)},
+      [&](std::int64_t begin, std::int64_t end, PrecisionLoss& loss) {
+        for (std::int64_t t = begin; t < end; ++t) {
+          const auto [a, b, c] = corner_points(view, static_cast<std::size_t>(t));
+          const double exact = shape(a, b, c);
+          const float in_single = shape(rounded(a), rounded(b), rounded(c));
+          if (exact > 0 && !(in_single > 0)) {
+            ++loss.collapsed;
+          } else if (!(std::abs(exact - static_cast<double>(in_single)) <= distortion_limit)) {
+            ++loss.distorted;
+          }
+        }
+      },
+      [](PrecisionLoss& all, const PrecisionLoss& loss) {
+        all.collapsed += loss.collapsed;
+        all.distorted += loss.distorted;
+      });
 }
 
 std::string describe(const PrecisionLoss& loss) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "trismooth/quality/corner_points.h"
+
 namespace trismooth {
 
 namespace {
@@ -24,10 +26,9 @@ std::vector<double> region_areas(const TriangleView& view, std::span<const std::
                                  std::int32_t region_count) {
   std::vector<CompensatedSum> sums(static_cast<std::size_t>(region_count));
   for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(view, t);
-    const auto at = [&](std::int32_t v) { return view.points[static_cast<std::size_t>(v)]; };
+    const auto [a, b, c] = corner_points(view, t);
     CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[t])];
-    sum.add(cross(at(b) - at(a), at(c) - at(a)) / 2);
+    sum.add(cross(b - a, c - a) / 2);
   }
   std::vector<double> areas;
   areas.reserve(sums.size());

@@ -6,6 +6,7 @@
 
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/workers.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {
@@ -37,13 +38,9 @@ constexpr RegionQuality nothing{0, 0, unbounded, 0, unbounded};
 RegionQuality quality_of(const TriangleView& view, std::span<const std::int32_t> members) {
   RegionQuality quality = nothing;
   for (const std::int32_t triangle : members) {
-    const auto [a, b, c] = canonical_corners(view, static_cast<std::size_t>(triangle));
-    const auto value = [&, a = a, b = b, c = c](Metric metric) {
-      return evaluate(metric, view.points[static_cast<std::size_t>(a)], view.points[static_cast<std::size_t>(b)],
-                      view.points[static_cast<std::size_t>(c)]);
-    };
-    const double shape = value(Metric::shape);
-    append(quality, {1, shape < 0 ? 1 : 0, shape, shape, value(Metric::min_angle)});
+    const auto [a, b, c] = corner_points(view, static_cast<std::size_t>(triangle));
+    const double shape = evaluate(Metric::shape, a, b, c);
+    append(quality, {1, shape < 0 ? 1 : 0, shape, shape, evaluate(Metric::min_angle, a, b, c)});
   }
   return quality;
 }

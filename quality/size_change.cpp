@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <limits>
-#include <mutex>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -17,7 +15,7 @@
 #include <vector>
 
 #include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/joined_blocks.h"
 #include "trismooth/quality/area_ratios.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
@@ -76,25 +74,29 @@ class RatioRanks {
   struct Prefix {
     std::uint64_t value;
     int bits;
-
-    bool is_of(double ratio) const { return bits == 0 || std::bit_cast<std::uint64_t>(ratio) >> (64 - bits) == value; }
   };
+
+  /// Whether it is a number with that prefix.
+  static bool is_of(Prefix prefix, double ratio) {
+    return !std::isnan(ratio) &&
+           (prefix.bits == 0 || std::bit_cast<std::uint64_t>(ratio) >> (64 - prefix.bits) == prefix.value);
+  }
 
   /// How many ratios with that prefix have each next digit.
   std::vector<std::int64_t> count_by_next_digit(Prefix prefix) {
     const int shift = 64 - prefix.bits - digit_bits;
-    std::vector<std::int64_t> counts(std::size_t{1} << digit_bits);
-    for_parts([&](std::span<const double> part) {
-      std::vector<std::int64_t> own(counts.size());
-      for (const double ratio : part) {
-        if (!std::isnan(ratio) && prefix.is_of(ratio)) {
-          ++own[std::bit_cast<std::uint64_t>(ratio) >> shift & (counts.size() - 1)];
-        }
-      }
-      const std::lock_guard lock(joining_);
-      std::ranges::transform(counts, own, counts.begin(), std::plus<>());
-    });
-    return counts;
+    return joined_blocks(
+        std::ssize(ratios_), grain, workers_, std::vector<std::int64_t>(std::size_t{1} << digit_bits),
+        [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& counts) {
+          for (std::int64_t i = begin; i < end; ++i) {
+            if (is_of(prefix, ratios_[i])) {
+              ++counts[std::bit_cast<std::uint64_t>(ratios_[i]) >> shift & (counts.size() - 1)];
+            }
+          }
+        },
+        [](std::vector<std::int64_t>& all, const std::vector<std::int64_t>& counts) {
+          std::ranges::transform(all, counts, all.begin(), std::plus<>());
+        });
   }
 
   /// Appends to the prefix the digit of the ratio with that rank, which becomes the rank among those with this prefix.
@@ -109,27 +111,15 @@ class RatioRanks {
   }
 
   std::vector<double> those_with(Prefix prefix) {
-    std::vector<double> all;
-    for_parts([&](std::span<const double> part) {
-      std::vector<double> own;
-      std::ranges::copy_if(part, std::back_inserter(own),
-                           [&](double ratio) { return !std::isnan(ratio) && prefix.is_of(ratio); });
-      const std::lock_guard lock(joining_);
-      all.insert(all.end(), own.begin(), own.end());
-    });
-    return all;
-  }
-
-  template <class Body>
-  void for_parts(const Body& body) {
-    workers_.for_blocks(std::ssize(ratios_), grain, [&](std::int64_t begin, std::int64_t end) {
-      body(ratios_.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+    return joined_lists<double>(std::ssize(ratios_), grain, workers_, [&](std::int64_t i, std::vector<double>& found) {
+      if (is_of(prefix, ratios_[i])) {
+        found.push_back(ratios_[i]);
+      }
     });
   }
 
   std::span<const double> ratios_;
   Workers& workers_;
-  std::mutex joining_;
   std::vector<std::int64_t> by_first_digit_;
   std::int64_t total_ = 0;
 };

@@ -5,16 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "trismooth/base/ordered_sum.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/quality/corner_points.h"
 
 namespace trismooth {
 
 namespace {
 
-/// Triangles are taken in blocks of this size whatever the number of threads; sums of blocks are added up in their
-/// order, so no rounding depends on scheduling.
-constexpr std::int64_t ratios_a_block = 1024;
+constexpr std::int64_t ratio_grain = 1024;
 
 double ratio_of(double a, double b) {
   const double smaller = std::min(a, b);
@@ -23,11 +22,10 @@ double ratio_of(double a, double b) {
 
 std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
   std::vector<double> areas(view.triangles.size());
-  workers.for_blocks(std::ssize(areas), ratios_a_block, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(std::ssize(areas), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      const auto [a, b, c] = canonical_corners(view, t);
-      areas[t] = std::abs(evaluate(Metric::area, view.points[static_cast<std::size_t>(a)],
-                                   view.points[static_cast<std::size_t>(b)], view.points[static_cast<std::size_t>(c)]));
+      const auto [a, b, c] = corner_points(view, t);
+      areas[t] = std::abs(evaluate(Metric::area, a, b, c));
     }
   });
   return areas;
@@ -40,7 +38,7 @@ std::vector<double> size_ratios(const TriangleView& view, int threads) {
   const MatchedSides sides = match_sides(static_cast<std::int32_t>(view.points.size()), view.triangles, workers);
   const std::vector<double> areas = areas_of(view, workers);
   std::vector<double> ratios(areas.size(), 1);
-  workers.for_blocks(std::ssize(ratios), ratios_a_block, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(std::ssize(ratios), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
       for (std::size_t side = 3 * t; side < 3 * t + 3; ++side) {
         if (const std::int32_t twin = sides.twins[side]; twin >= 0) {
@@ -61,20 +59,8 @@ MetricSummary size_ratio_summary(const TriangleView& view, int threads) {
   const auto count = static_cast<double>(ratios.size());
   Workers workers(threads);
   const auto sum_of = [&](const auto& value) {
-    std::vector<double> sums((ratios.size() + ratios_a_block - 1) / ratios_a_block, 0);
-    workers.for_blocks(std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
-        const std::size_t last = std::min(ratios.size(), (block + 1) * ratios_a_block);
-        for (std::size_t t = block * ratios_a_block; t < last; ++t) {
-          sums[block] += value(ratios[t]);
-        }
-      }
-    });
-    double sum = 0;
-    for (const double of_block : sums) {
-      sum += of_block;
-    }
-    return sum;
+    return ordered_sum(
+        std::ssize(ratios), [&](std::int64_t t) { return value(ratios[t]); }, workers);
   };
   const auto [min, max] = std::ranges::minmax(ratios);
   const double mean = sum_of([](double ratio) { return ratio; }) / count;

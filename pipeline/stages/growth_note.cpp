@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/stages/run_state.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
 
@@ -82,10 +83,8 @@ std::optional<std::size_t> worst_with_free_corner(const TriangleView& view, std:
   std::optional<std::size_t> worst;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(view, t);
-    const double quotient =
-        shape_quotient(view.points[static_cast<std::size_t>(a)], view.points[static_cast<std::size_t>(b)],
-                       view.points[static_cast<std::size_t>(c)]);
+    const auto [a, b, c] = corner_points(view, t);
+    const double quotient = shape_quotient(a, b, c);
     if (quotient < smallest && std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) {
           return fixed[static_cast<std::size_t>(v)] == 0;
         })) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "trismooth/base/joined_blocks.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 
 namespace trismooth {
@@ -15,11 +16,6 @@ namespace {
 
 void add(std::uint64_t& sum, std::uint64_t value) {
   std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
-}
-void add(AreaSum& sum, const AreaSum& more) {
-  for (int i = 0; i < AreaSum::part_count; ++i) {
-    add(sum.parts[i], more.parts[i]);
-  }
 }
 void raise(std::uint64_t& largest, std::uint64_t value) {
   const std::atomic_ref shared(largest);
@@ -145,45 +141,35 @@ class HostTargets<T>::Finder {
     }
   }
 
-  /// Calls visit(v, ring, sums) for every free vertex, with sums of its own for each block of them; then(sums) behind
-  /// each block.
-  template <class Visit, class Then>
-  void for_blocks(const Visit& visit, const Then& then) {
-    workers_.for_blocks(rings_.free_count(), grain, [&](std::int64_t begin, std::int64_t end) {
-      RingGatherer<T> gatherer;
-      MeanRatioSums own{};  // threads meet once a block, not at every vertex
-      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        visit(v, gatherer.gather(points_, view_[v]), own);
-      }
-      then(own);
-    });
+  /// Calls visit(v, ring, sums) for every free vertex; the sums that they add up to.
+  template <class Visit>
+  MeanRatioSums sum_over_rings(const Visit& visit) {
+    return joined_blocks(
+        rings_.free_count(), grain, workers_, MeanRatioSums{},
+        [&](std::int64_t begin, std::int64_t end, MeanRatioSums& own) {
+          RingGatherer<T> gatherer;
+          for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+            visit(v, gatherer.gather(points_, view_[v]), own);
+          }
+        },
+        [](MeanRatioSums& all, const MeanRatioSums& own) { all.add(own); });
   }
   template <class Visit>
   void for_rings(const Visit& visit) {
-    for_blocks([&](std::int32_t v, const Ring& ring, MeanRatioSums& /*own*/) { visit(v, ring); },
-               [](const MeanRatioSums& /*own*/) {});
+    sum_over_rings([&](std::int32_t v, const Ring& ring, MeanRatioSums& /*own*/) { visit(v, ring); });
   }
 
   /// The first pass: leaves each vertex's mean area in inverse_areas_ and its largest share in largest_shares_. Calls
   /// visit(v, ring, sums) with what adds up.
   template <class Visit>
   MeanRatioSums measure(const Visit& visit) {
-    MeanRatioSums sums{};
-    for_blocks(
-        [&](std::int32_t v, const Ring& ring, MeanRatioSums& own) {
-          const MeanRatioRing<T> found = measure_for_mean_ratio(points_[v], ring);
-          own.add(found.sums);
-          inverse_area(v) = found.mean_area;
-          share(v) = found.largest_share;
-          visit(v, ring, own);
-        },
-        [&](const MeanRatioSums& own) {
-          add(sums.areas, own.areas);
-          add(sums.sizes, own.sizes);
-          add(sums.quotients, own.quotients);
-          add(sums.count, own.count);
-          raise(sums.worst_quotient, own.worst_quotient);
-        });
+    const MeanRatioSums sums = sum_over_rings([&](std::int32_t v, const Ring& ring, MeanRatioSums& own) {
+      const MeanRatioRing<T> found = measure_for_mean_ratio(points_[v], ring);
+      own.add(found.sums);
+      inverse_area(v) = found.mean_area;
+      share(v) = found.largest_share;
+      visit(v, ring, own);
+    });
     return halo_ == nullptr ? sums : of_all_parts(*halo_, sums);
   }
 

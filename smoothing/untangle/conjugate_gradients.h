@@ -2,47 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "trismooth/base/ordered_sum.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
-
-/// Sums over parts of a fixed size, added up in their order: the same bits for every number of threads.
-class OrderedSum {
- public:
-  explicit OrderedSum(Workers& workers) : workers_(workers) {}
-
-  /// The sum of term(i) for i below `count`. term is called once for each i, from several threads.
-  template <class Term>
-  double operator()(std::int64_t count, const Term& term) {
-    parts_.assign(static_cast<std::size_t>((count + part_size - 1) / part_size), 0);
-    workers_.for_blocks(std::ssize(parts_), 4, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t part = begin; part < end; ++part) {
-        double sum = 0;
-        for (std::int64_t i = part * part_size; i < std::min((part + 1) * part_size, count); ++i) {
-          sum += term(static_cast<std::int32_t>(i));
-        }
-        parts_[static_cast<std::size_t>(part)] = sum;
-      }
-    });
-    double total = 0;
-    for (const double part : parts_) {
-      total += part;
-    }
-    return total;
-  }
-
- private:
-  static constexpr std::int64_t part_size = 1024;
-
-  Workers& workers_;
-  std::vector<double> parts_;
-};
 
 /// Preconditioned conjugate gradients for a symmetric positive definite system over points. apply(x, v) is row v of the
 /// matrix times x, precondition(v, r) the preconditioner's answer to the residual r of v. `x` holds the start and gets
@@ -52,16 +20,16 @@ template <class Apply, class Precondition>
 double conjugate_gradients(const Apply& apply, const Precondition& precondition, std::span<Point2<double>> x,
                            std::span<Point2<double>> residual, double reference, double tolerance, int most,
                            Workers& workers) {
-  const auto count = static_cast<std::int64_t>(x.size());
+  const auto count = static_cast<std::int32_t>(x.size());
   const auto dot = [](Point2<double> a, Point2<double> b) { return a.x * b.x + a.y * b.y; };
-  OrderedSum sum(workers);
+  const auto sum = [&](const auto& term) { return ordered_sum(count, term, workers); };
   std::vector<Point2<double>> answer(x.size());
   std::vector<Point2<double>> direction(x.size(), {0, 0});
   std::vector<Point2<double>> image(x.size());
   double rho = 0;
   double beta = 0;
   for (int step = 0;; ++step) {
-    const double next_rho = sum(count, [&](std::int32_t v) {
+    const double next_rho = sum([&](std::int32_t v) {
       answer[v] = precondition(v, residual[v]);
       return dot(answer[v], residual[v]);
     });
@@ -75,7 +43,7 @@ double conjugate_gradients(const Apply& apply, const Precondition& precondition,
         direction[v] = {answer[v].x + beta * direction[v].x, answer[v].y + beta * direction[v].y};
       }
     });
-    const double curvature = sum(count, [&](std::int32_t v) {
+    const double curvature = sum([&](std::int32_t v) {
       image[v] = apply(direction, v);
       return dot(direction[v], image[v]);
     });

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "trismooth/base/ordered_sum.h"
 #include "trismooth/smoothing/untangle/conjugate_gradients.h"
 
 namespace trismooth {
@@ -35,21 +36,24 @@ void tutte(const Patch& patch, std::span<Point2<double>> points, double toleranc
   const double held = static_cast<double>(points.size() - free.size());
   centre = {centre.x / held, centre.y / held};
   std::vector<Point2<double>> residual(free.size());
-  const double reference = std::sqrt(OrderedSum(workers)(patch.free_count, [&](std::int32_t v) {
-    Point2<double> pull{0, 0};
-    Point2<double> load{0, 0};
-    for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
-      const std::int32_t neighbour = patch.neighbours[k];
-      pull.x += points[neighbour].x - points[v].x;
-      pull.y += points[neighbour].y - points[v].y;
-      if (neighbour >= patch.free_count) {
-        load.x += points[neighbour].x - centre.x;
-        load.y += points[neighbour].y - centre.y;
-      }
-    }
-    residual[v] = pull;
-    return (load.x * load.x + load.y * load.y) / degree(v);
-  }));
+  const double reference = std::sqrt(ordered_sum(
+      patch.free_count,
+      [&](std::int32_t v) {
+        Point2<double> pull{0, 0};
+        Point2<double> load{0, 0};
+        for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
+          const std::int32_t neighbour = patch.neighbours[k];
+          pull.x += points[neighbour].x - points[v].x;
+          pull.y += points[neighbour].y - points[v].y;
+          if (neighbour >= patch.free_count) {
+            load.x += points[neighbour].x - centre.x;
+            load.y += points[neighbour].y - centre.y;
+          }
+        }
+        residual[v] = pull;
+        return (load.x * load.x + load.y * load.y) / degree(v);
+      },
+      workers));
   constexpr int most_steps = 20000;
   conjugate_gradients(apply, precondition, free, residual, reference, tolerance, most_steps, workers);
 }

@@ -1,15 +1,13 @@
 #include "trismooth/smoothing/untangle/untangle.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <mutex>
 #include <vector>
 
+#include "trismooth/base/joined_blocks.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/untangle/coarse_to_fine.h"
@@ -134,27 +132,24 @@ class Untangler {
 
   /// All faulty triangles of the mesh.
   void find_faulty() {
-    faulty_.clear();
-    faults_ = {};
-    std::mutex joining;
-    workers_.for_blocks(rings_.size(), counting_grain, [&](std::int64_t begin, std::int64_t end) {
-      std::vector<Triangle> found;
-      Faults faults;
-      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        for_own_triangles(rings_, v, [&](const Triangle& triangle) { look_at(triangle, found, faults); });
-      }
-      const std::lock_guard lock(joining);
-      faulty_.insert(faulty_.end(), found.begin(), found.end());
-      faults_.inverted += faults.inverted;
-      faults_.weak += faults.weak;
-    });
+    const auto look = [this](std::int64_t v, std::vector<Triangle>& found) {
+      for_own_triangles(rings_, static_cast<std::int32_t>(v), [&](const Triangle& triangle) {
+        if (faults_of(triangle).any()) {
+          found.push_back(triangle);
+        }
+      });
+    };
+    faulty_ = joined_lists<Triangle>(rings_.size(), counting_grain, workers_, look);
+    count_faults();
   }
 
-  void look_at(const Triangle& triangle, std::vector<Triangle>& found, Faults& faults) const {
-    if (const Faults own = faults_of(triangle); own.any()) {
-      found.push_back(triangle);
-      faults.inverted += own.inverted;
-      faults.weak += own.weak;
+  /// Of the faulty triangles of now.
+  void count_faults() {
+    faults_ = {};
+    for (const Triangle& triangle : faulty_) {
+      const Faults own = faults_of(triangle);
+      faults_.inverted += own.inverted;
+      faults_.weak += own.weak;
     }
   }
 
@@ -186,17 +181,17 @@ class Untangler {
       listed_[v] = 1;
     }
     faulty_.clear();
-    faults_ = {};
     for (const std::int32_t v : moved) {
       const auto ring = rings_[v];
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const std::int32_t b = ring[k];
         const std::int32_t c = ring[k + 1 == ring.size() ? 0 : k + 1];
-        if (!(b < v && listed_[b] != 0) && !(c < v && listed_[c] != 0)) {
-          look_at({v, b, c}, faulty_, faults_);
+        if (!(b < v && listed_[b] != 0) && !(c < v && listed_[c] != 0) && faults_of({v, b, c}).any()) {
+          faulty_.push_back({v, b, c});
         }
       }
     }
+    count_faults();
     unlist(moved);
   }
 
@@ -416,20 +411,16 @@ class Untangler {
 }  // namespace
 
 std::int64_t inverted_triangles(const RingView& rings, std::span<const Point2<double>> points, Workers& workers) {
-  std::atomic<std::int64_t> total{0};
-  workers.for_blocks(rings.size(), counting_grain, [&](std::int64_t begin, std::int64_t end) {
+  return joined_sum(rings.size(), counting_grain, workers, [&](std::int64_t v) {
     std::int64_t inverted = 0;
-    for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-      for_own_triangles(rings, v, [&](const Triangle& t) {
-        inverted += canonical_quotient(points[t[0]], points[t[1]], points[t[2]], rings.input(t[0]), rings.input(t[1]),
-                                       rings.input(t[2])) > 0
-                        ? 0
-                        : 1;
-      });
-    }
-    total.fetch_add(inverted, std::memory_order_relaxed);
+    for_own_triangles(rings, static_cast<std::int32_t>(v), [&](const Triangle& t) {
+      inverted += canonical_quotient(points[t[0]], points[t[1]], points[t[2]], rings.input(t[0]), rings.input(t[1]),
+                                     rings.input(t[2])) > 0
+                      ? 0
+                      : 1;
+    });
+    return inverted;
   });
-  return total;
 }
 
 std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<const Point2<double>> points) {

@@ -1,14 +1,12 @@
 #include "trismooth/smoothing/untangle/untangling_newton.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/workers.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/base/ordered_sum.h"
 #include "trismooth/smoothing/untangle/conjugate_gradients.h"
 #include "trismooth/smoothing/untangle/regularised_energy.h"
 
@@ -33,9 +31,9 @@ struct BlockMatrix {
 class RegularisedMinimiser {
  public:
   RegularisedMinimiser(const Patch& patch, std::span<Point2<double>> points, Workers& workers)
-      : patch_(patch), points_(points), workers_(workers), sum_(workers) {
+      : patch_(patch), points_(points), workers_(workers) {
     find_target_areas();
-    pieces_.resize(patch_.triangles.size());
+    derivatives_.resize(patch_.triangles.size());
     gradient_.resize(static_cast<std::size_t>(patch_.free_count));
     matrix_.diagonal.resize(gradient_.size());
     matrix_.blocks.resize(patch_.neighbours.size());
@@ -80,11 +78,6 @@ class RegularisedMinimiser {
 
   /// lambda: enough that no triangle shrinks to a point where that is cheaper than to turn it.
   static constexpr double size_weight = 0.5;
-
-  /// A triangle's part of the system, by e and t.
-  struct Piece {
-    RegularisedEnergy::Derivatives derivatives;
-  };
 
   /// The size that each triangle is to have: the mean of the sizes around its corners, three times. So it follows a
   /// grading, and a triangle that the start has collapsed gets the size of its neighbours.
@@ -140,16 +133,21 @@ class RegularisedMinimiser {
     return smallest > 0 ? 1e-10 : std::sqrt(1e-6 + 0.04 * smallest * smallest);
   }
 
+  template <class Term>
+  double sum(std::int32_t count, const Term& term) {
+    return ordered_sum(count, term, workers_);
+  }
+
   double value_at(std::span<const Point2<double>> points) {
-    return sum_(patch_.triangle_count(), [&](std::int32_t t) { return energy_.value(shape_of(t, points)); });
+    return sum(patch_.triangle_count(), [&](std::int32_t t) { return energy_.value(shape_of(t, points)); });
   }
   double value() { return value_at(points_); }
 
   /// Gradient and matrix at the points; returns the energy.
   double differentiate() {
-    const double total = sum_(patch_.triangle_count(), [&](std::int32_t t) {
-      pieces_[t].derivatives = energy_.derivatives(shape_of(t, points_), targets_[t]);
-      return pieces_[t].derivatives.value;
+    const double total = sum(patch_.triangle_count(), [&](std::int32_t t) {
+      derivatives_[t] = energy_.derivatives(shape_of(t, points_), targets_[t]);
+      return derivatives_[t].value;
     });
     workers_.for_blocks(patch_.free_count, newton_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
@@ -164,17 +162,16 @@ class RegularisedMinimiser {
   static constexpr double into_t[3] = {0, 0.5 * RegularisedEnergy::root3, -0.5 * RegularisedEnergy::root3};
 
   /// What a triangle gives to the block of its corners i and j.
-  static BlockMatrix::Block block_of(const RegularisedEnergy::Derivatives& piece, int i, int j) {
+  static BlockMatrix::Block block_of(const RegularisedEnergy::Derivatives& of, int i, int j) {
     const double aa = into_e[i] * into_e[j];
     const double ab = into_e[i] * into_t[j];
     const double ba = into_t[i] * into_e[j];
     const double bb = into_t[i] * into_t[j];
     // et J, its transpose, and J^T tt J; J = (0 -1; 1 0).
-    const double m[4] = {piece.et[1], -piece.et[0], piece.et[3], -piece.et[2]};
-    return {aa * piece.ee[0] + ab * m[0] + ba * m[0] + bb * piece.tt[2],
-            aa * piece.ee[1] + ab * m[1] + ba * m[2] - bb * piece.tt[1],
-            aa * piece.ee[1] + ab * m[2] + ba * m[1] - bb * piece.tt[1],
-            aa * piece.ee[2] + ab * m[3] + ba * m[3] + bb * piece.tt[0]};
+    const double m[4] = {of.et[1], -of.et[0], of.et[3], -of.et[2]};
+    return {
+        aa * of.ee[0] + ab * m[0] + ba * m[0] + bb * of.tt[2], aa * of.ee[1] + ab * m[1] + ba * m[2] - bb * of.tt[1],
+        aa * of.ee[1] + ab * m[2] + ba * m[1] - bb * of.tt[1], aa * of.ee[2] + ab * m[3] + ba * m[3] + bb * of.tt[0]};
   }
 
   static void add(BlockMatrix::Block& to, const BlockMatrix::Block& from) {
@@ -193,17 +190,17 @@ class RegularisedMinimiser {
     for (std::int32_t k = begin; k < end; ++k) {
       const std::int32_t t = patch_.around[k];
       const Triangle& corners = patch_.triangles[t];
-      const RegularisedEnergy::Derivatives& piece = pieces_[t].derivatives;
+      const RegularisedEnergy::Derivatives& of_triangle = derivatives_[t];
       const int i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
       // J^T by_t = (by_t.y, -by_t.x).
-      gradient.x += into_e[i] * piece.by_e.x + into_t[i] * piece.by_t.y;
-      gradient.y += into_e[i] * piece.by_e.y - into_t[i] * piece.by_t.x;
-      const BlockMatrix::Block own = block_of(piece, i, i);
+      gradient.x += into_e[i] * of_triangle.by_e.x + into_t[i] * of_triangle.by_t.y;
+      gradient.y += into_e[i] * of_triangle.by_e.y - into_t[i] * of_triangle.by_t.x;
+      const BlockMatrix::Block own = block_of(of_triangle, i, i);
       diagonal.xx += own.xx;
       diagonal.xy += 0.5 * (own.xy + own.yx);
       diagonal.yy += own.yy;
-      add(matrix_.blocks[k], block_of(piece, i, (i + 1) % 3));
-      add(matrix_.blocks[k + 1 == end ? begin : k + 1], block_of(piece, i, (i + 2) % 3));
+      add(matrix_.blocks[k], block_of(of_triangle, i, (i + 1) % 3));
+      add(matrix_.blocks[k + 1 == end ? begin : k + 1], block_of(of_triangle, i, (i + 2) % 3));
     }
     matrix_.diagonal[v] = diagonal;
     gradient_[v] = gradient;
@@ -235,7 +232,7 @@ class RegularisedMinimiser {
     };
     step_.assign(gradient_.size(), {0, 0});
     residual_.resize(gradient_.size());
-    const double reference = std::sqrt(sum_(patch_.free_count, [&](std::int32_t v) {
+    const double reference = std::sqrt(sum(patch_.free_count, [&](std::int32_t v) {
       residual_[v] = {-gradient_[v].x, -gradient_[v].y};
       const Point2<double> answer = precondition(v, residual_[v]);
       return answer.x * residual_[v].x + answer.y * residual_[v].y;
@@ -251,8 +248,8 @@ class RegularisedMinimiser {
 
   /// Moves the points along the step as far as the energy gets smaller.
   bool search_line(double before) {
-    const double slope = sum_(
-        patch_.free_count, [&](std::int32_t v) { return gradient_[v].x * step_[v].x + gradient_[v].y * step_[v].y; });
+    const double slope = sum(patch_.free_count,
+                             [&](std::int32_t v) { return gradient_[v].x * step_[v].x + gradient_[v].y * step_[v].y; });
     if (!(slope < 0)) {
       return false;
     }
@@ -273,10 +270,9 @@ class RegularisedMinimiser {
   const Patch& patch_;
   std::span<Point2<double>> points_;
   Workers& workers_;
-  OrderedSum sum_;
   RegularisedEnergy energy_;
-  std::vector<double> targets_;  ///< A* of each triangle
-  std::vector<Piece> pieces_;
+  std::vector<double> targets_;                              ///< A* of each triangle
+  std::vector<RegularisedEnergy::Derivatives> derivatives_;  ///< of each triangle's energy, by e and t
   std::vector<Point2<double>> gradient_;
   BlockMatrix matrix_;
   std::vector<Point2<double>> step_;
@@ -285,19 +281,6 @@ class RegularisedMinimiser {
 };
 
 }  // namespace
-
-std::int64_t inverted_triangles(const Patch& patch, std::span<const Point2<double>> points, Workers& workers) {
-  std::atomic<std::int64_t> total{0};
-  workers.for_blocks(patch.triangle_count(), 4096, [&](std::int64_t begin, std::int64_t end) {
-    std::int64_t inverted = 0;
-    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      const auto [a, b, c] = patch.triangles[t];
-      inverted += shape_quotient(points[a], points[b], points[c]) > 0 ? 0 : 1;
-    }
-    total.fetch_add(inverted, std::memory_order_relaxed);
-  });
-  return total;
-}
 
 void minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps, Workers& workers) {
   RegularisedMinimiser(patch, points, workers).run(most_steps);

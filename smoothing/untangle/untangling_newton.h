@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "trismooth/base/point2.h"
@@ -16,8 +15,5 @@ class Workers;
 /// the start and gets the result.
 /// Complexity: a step is conjugate gradients on the patch.
 void minimise_regularised(const Patch& patch, std::span<Point2<double>> points, int most_steps, Workers& workers);
-
-/// The triangles of the patch that are inverted or degenerate.
-std::int64_t inverted_triangles(const Patch& patch, std::span<const Point2<double>> points, Workers& workers);
 
 }  // namespace trismooth
