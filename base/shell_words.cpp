@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/utf8.h"
 
 namespace trismooth {
@@ -73,11 +74,7 @@ std::string shell_word(std::string_view word) {
 }
 
 std::string shell_command(std::span<const std::string> words) {
-  std::string command;
-  for (const std::string& word : words) {
-    command.append(command.empty() ? "" : " ").append(shell_word(word));
-  }
-  return command;
+  return list_text(words, shell_word, " ");
 }
 
 }  // namespace trismooth

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/suggestion.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/quality/metrics.h"
@@ -137,10 +138,7 @@ double gate_value(std::string_view name, const QualityReport& report,
   if (const auto value = find_value(name, report, quadratic)) {
     return *value;
   }
-  std::string prefixes;
-  for (const auto& [prefix, statistic] : statistics) {
-    prefixes.append(prefixes.empty() ? "" : ", ").append(prefix);
-  }
+  const std::string prefixes = list_text(statistics, [](const auto& statistic) { return statistic.first; });
   throw std::invalid_argument(
       fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, {}, min_angle, max_angle, {}, and "
                   "one of {} before one of {}, {}{}",

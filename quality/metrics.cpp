@@ -1,11 +1,9 @@
 #include "trismooth/quality/metrics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <utility>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/quality/metric_formulas.h"
 #include "trismooth/quality/metric_lanes.h"
 
@@ -53,11 +51,7 @@ std::optional<Metric> metric_named(std::string_view name) {
 }
 
 std::string metric_names() {
-  std::string names;
-  for (const MetricInfo& metric : metric_table) {
-    names.append(names.empty() ? "" : ", ").append(metric.name);
-  }
-  return names;
+  return list_text(metric_table, &MetricInfo::name);
 }
 
 bool is_acceptable(Metric metric, double value) {

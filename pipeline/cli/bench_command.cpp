@@ -16,6 +16,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/worker_threads.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
@@ -103,17 +104,12 @@ std::string now_text() {
 /// As it would be typed: with the program's name alone, so that reports hold no path of the machine.
 std::string command_text(const BenchSettings& settings) {
   const experiments::ExperimentOptions& options = settings.experiment;
-  std::string sizes;
-  for (const std::int64_t size : options.sizes) {
-    sizes += fmt::format("{}{}", sizes.empty() ? "" : ",", size);
-  }
-  std::string versions;
-  for (const experiments::Version version : options.versions) {
-    versions.append(versions.empty() ? "" : ",").append(to_string(version));
-  }
+  const std::string versions = list_text(
+      options.versions, [](experiments::Version version) { return to_string(version); }, ",");
   std::string text =
-      fmt::format("trismooth bench --sizes {} --versions {} --precision {} --runs {} --seconds {} --seed {}", sizes,
-                  versions, to_string(options.precision), options.runs, options.seconds, options.seed);
+      fmt::format("trismooth bench --sizes {} --versions {} --precision {} --runs {} --seconds {} --seed {}",
+                  fmt::join(options.sizes, ","), versions, to_string(options.precision), options.runs, options.seconds,
+                  options.seed);
   if (options.threads > 0) {
     text += fmt::format(" --threads {}", options.threads);
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 
 namespace trismooth {
@@ -16,12 +17,11 @@ FileFormat parse_format(const std::string& text) {
     return *format;
   }
   std::vector<std::string> names;
-  std::string list;
   for (const FileFormat format : all_formats()) {
     names.emplace_back(to_string(format));
-    list.append(list.empty() ? "" : ", ").append(to_string(format));
   }
-  throw std::invalid_argument("unknown format '" + text + "'; valid are " + list + did_you_mean(text, names));
+  throw std::invalid_argument("unknown format '" + text + "'; valid are " + list_text(names) +
+                              did_you_mean(text, names));
 }
 
 }  // namespace

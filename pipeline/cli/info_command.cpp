@@ -2,10 +2,12 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "trismooth/base/instruction_set.h"
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/cli/rank_job.h"
@@ -65,17 +67,13 @@ std::string wrapped_lines(const std::string& lines) {
 
 /// "off (.off), obj (.obj), ...": the names that --format takes, with their extensions.
 std::string names_of_formats() {
-  std::string list;
+  std::vector<std::string> names;
   for (const FileFormat format : all_formats()) {
     if (is_available(format)) {
-      std::string extensions;
-      for (const std::string_view extension : extensions_of(format)) {
-        extensions.append(extensions.empty() ? "" : " ").append(extension);
-      }
-      list.append(fmt::format("{}{} ({})", list.empty() ? "" : ", ", to_string(format), extensions));
+      names.push_back(fmt::format("{} ({})", to_string(format), fmt::join(extensions_of(format), " ")));
     }
   }
-  return list;
+  return list_text(names);
 }
 
 /// "; .vtu, .vtp need a build with VTK", or empty.

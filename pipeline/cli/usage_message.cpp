@@ -4,6 +4,7 @@
 #include <iterator>
 #include <vector>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/suggestion.h"
 
 namespace trismooth {
@@ -59,11 +60,8 @@ std::string unknown_option(const CLI::App& app, const std::string& word) {
 }
 
 std::string stray_arguments(const Words& words) {
-  std::string list;
-  for (const std::string& word : words) {
-    list += (list.empty() ? "'" : ", '") + word + "'";
-  }
-  return (words.size() == 1 ? "unexpected argument " : "unexpected arguments ") + list;
+  return (words.size() == 1 ? "unexpected argument " : "unexpected arguments ") +
+         list_text(words, [](const std::string& word) { return "'" + word + "'"; });
 }
 
 }  // namespace

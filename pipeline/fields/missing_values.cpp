@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "trismooth/base/list_text.h"
 
 namespace trismooth {
 
@@ -154,12 +155,9 @@ std::string MissingValues::names() const {
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   values.insert(values.end(), infinite_.begin(), infinite_.end());
-  std::string text;
-  for (const double value : values) {
-    text += text.empty() ? "" : ", ";
-    text += is_single_ ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
-  }
-  return text;
+  return list_text(values, [this](double value) {
+    return is_single_ ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
+  });
 }
 
 }  // namespace trismooth

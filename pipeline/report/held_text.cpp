@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "trismooth/base/list_text.h"
 
 namespace trismooth {
 
 namespace {
 
 std::string quoted_names(const std::vector<RegionArray>& arrays) {
-  std::string names;
-  for (const RegionArray& array : arrays) {
-    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", array.name);
-  }
-  return names;
+  return list_text(arrays, [](const RegionArray& array) { return "'" + array.name + "'"; });
 }
 
 std::vector<FilePointSet> held_sets(const std::vector<FilePointSet>& sets) {
@@ -28,11 +27,10 @@ std::vector<FilePointSet> held_sets(const std::vector<FilePointSet>& sets) {
 template <class Group>
 std::string counted_names(const std::vector<Group>& groups, std::int64_t Group::*count) {
   constexpr std::size_t most = 12;
-  std::string names;
   const std::size_t shown = groups.size() <= most + 1 ? groups.size() : most;
-  for (std::size_t g = 0; g < shown; ++g) {
-    names += fmt::format("{}{} '{}'", names.empty() ? "" : ", ", groups[g].*count, groups[g].name);
-  }
+  const std::string names = list_text(std::span(groups).first(shown), [count](const Group& group) {
+    return fmt::format("{} '{}'", group.*count, group.name);
+  });
   return shown < groups.size() ? names + fmt::format(" and {} more", groups.size() - shown) : names;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/held_html.h"
@@ -362,11 +363,7 @@ std::string outcome_table(const PipelineResult& result) {
     rows.emplace_back("sliding", sliding_text(result));
   }
   if (!fields.empty()) {
-    std::string names;
-    for (const InterpolatedField& field : fields) {
-      names.append(names.empty() ? "" : ", ").append(field.name);
-    }
-    rows.emplace_back("fields interpolated", escape_html(names));
+    rows.emplace_back("fields interpolated", escape_html(list_text(fields, &InterpolatedField::name)));
   }
   if (ran_on_device(smoothing)) {
     rows.emplace_back("kernel launches", launches_text(smoothing));

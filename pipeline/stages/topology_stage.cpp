@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/counted.h"
+#include "trismooth/base/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
@@ -269,9 +270,7 @@ void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
   input.regions = run.regions.count();
   input.region_arrays = run.regions.arrays;
   run.result.region_names = run.regions.names;
-  for (const RegionArray& array : run.regions.arrays) {
-    input.region_array.append(input.region_array.empty() ? "" : ", ").append(array.name);
-  }
+  input.region_array = list_text(run.regions.arrays, &RegionArray::name);
   input.components = run.found.components;
   input.free_vertices = reasons[0];
   input.quadratic_triangles = std::ssize(run.mesh.quadratics);

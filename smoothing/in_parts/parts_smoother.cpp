@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/list_text.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/base/workers.h"
@@ -29,11 +30,10 @@ std::string listed(std::span<const SmoothingResult> results) {
   for (const SmoothingResult& result : results) {
     ++counts[result.device];
   }
-  std::string text;
-  for (const auto& [device, count] : counts) {
-    text += (text.empty() ? "" : " and ") + (count > 1 ? std::to_string(count) + " x " : "") + device;
-  }
-  return text;
+  const auto counted_device = [](const auto& counted) {
+    return (counted.second > 1 ? std::to_string(counted.second) + " x " : "") + counted.first;
+  };
+  return list_text(counts, counted_device, " and ");
 }
 
 class PartsSmoother final : public PreparedSmoother {
