@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "trismooth/base/box.h"
 #include "trismooth/base/exact_arithmetic.h"
 #include "trismooth/base/point2.h"
 
@@ -140,16 +141,13 @@ struct LocalFrame {
 /// vertices that its cells use.
 template <class Counts>
 [[nodiscard]] LocalFrame local_frame(std::span<const Point2<double>> stored, const Counts& counts) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Point2<double> low{infinity, infinity};
-  Point2<double> high{-infinity, -infinity};
+  Box box;
   for (std::size_t v = 0; v < stored.size(); ++v) {
     if (counts(v)) {
-      low = {std::min(low.x, stored[v].x), std::min(low.y, stored[v].y)};
-      high = {std::max(high.x, stored[v].x), std::max(high.y, stored[v].y)};
+      box.add(stored[v]);
     }
   }
-  return local_frame(low, high);
+  return local_frame(box.low, box.high);
 }
 
 }  // namespace trismooth

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "trismooth/base/exact_arithmetic.h"
+#include "trismooth/base/hilbert_curve.h"
 
 namespace trismooth {
 
@@ -14,19 +15,10 @@ namespace {
 constexpr std::size_t triangles_a_leaf = 8;
 constexpr std::size_t children_a_node = 4;
 
-/// The bits of the number at every second place.
-std::uint64_t spread_bits(std::uint64_t bits) {
-  bits = (bits | bits << 16U) & 0x0000FFFF0000FFFFU;
-  bits = (bits | bits << 8U) & 0x00FF00FF00FF00FFU;
-  bits = (bits | bits << 4U) & 0x0F0F0F0F0F0F0F0FU;
-  bits = (bits | bits << 2U) & 0x3333333333333333U;
-  return (bits | bits << 1U) & 0x5555555555555555U;
-}
-
 /// Where a number of the local frame, which is within [-4, 4], is among 2^32 steps.
-std::uint64_t step_of(double coordinate) {
+std::uint32_t step_of(double coordinate) {
   constexpr double steps = 0x1p29;
-  return static_cast<std::uint64_t>(std::clamp((coordinate + 4) * steps, 0.0, 0x1p32 - 1));
+  return static_cast<std::uint32_t>(std::clamp((coordinate + 4) * steps, 0.0, 0x1p32 - 1));
 }
 
 std::array<Point2<double>, 3> corners_of(std::span<const Point2<double>> points, const Triangle& triangle) {
@@ -38,16 +30,11 @@ double beyond(double low, double high, double value) {
   return value < low ? low - value : (value > high ? value - high : 0);
 }
 
+double squared_distance(const Box& box, Point2<double> point) {
+  return squared_length(Point2<double>{beyond(box.low.x, box.high.x, point.x), beyond(box.low.y, box.high.y, point.y)});
+}
+
 }  // namespace
-
-void TriangleTree::Box::add(const Box& other) {
-  low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y)};
-  high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y)};
-}
-
-double TriangleTree::Box::squared_distance(Point2<double> point) const {
-  return squared_length(Point2<double>{beyond(low.x, high.x, point.x), beyond(low.y, high.y, point.y)});
-}
 
 struct TriangleTree::Search {
   Point2<double> at;
@@ -63,8 +50,7 @@ TriangleTree::TriangleTree(std::span<const Point2<double>> points, std::span<con
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = corners_of(points, triangles[t]);
     const Point2<double> centre{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-    along_curve[t] = {spread_bits(step_of(centre.x)) | spread_bits(step_of(centre.y)) << 1U,
-                      static_cast<std::int32_t>(t)};
+    along_curve[t] = {hilbert_index(step_of(centre.x), step_of(centre.y)), static_cast<std::int32_t>(t)};
   }
   std::ranges::sort(along_curve);
   std::vector<Box> boxes((triangles.size() + triangles_a_leaf - 1) / triangles_a_leaf);
@@ -72,11 +58,8 @@ TriangleTree::TriangleTree(std::span<const Point2<double>> points, std::span<con
     order_[i] = along_curve[i].second;
     Box& box = boxes[i / triangles_a_leaf];
     const auto corners = corners_of(points, triangles[static_cast<std::size_t>(order_[i])]);
-    if (i % triangles_a_leaf == 0) {
-      box = {corners[0], corners[0]};
-    }
     for (const Point2<double> corner : corners) {
-      box.add({corner, corner});
+      box.add(corner);
     }
   }
   levels_.push_back(std::move(boxes));
@@ -84,11 +67,7 @@ TriangleTree::TriangleTree(std::span<const Point2<double>> points, std::span<con
     const std::vector<Box>& below = levels_.back();
     std::vector<Box> above((below.size() + children_a_node - 1) / children_a_node);
     for (std::size_t child = 0; child < below.size(); ++child) {
-      Box& box = above[child / children_a_node];
-      if (child % children_a_node == 0) {
-        box = below[child];
-      }
-      box.add(below[child]);
+      above[child / children_a_node].add(below[child]);
     }
     levels_.push_back(std::move(above));
   }
@@ -103,7 +82,7 @@ MeshPlace TriangleTree::nearest(Point2<double> at, std::span<const std::int32_t>
 }
 
 void TriangleTree::look(Search& search, std::size_t level, std::size_t node) const {
-  if (levels_[level][node].squared_distance(search.at) > search.squared_distance) {
+  if (squared_distance(levels_[level][node], search.at) > search.squared_distance) {
     return;
   }
   if (level > 0) {
@@ -112,7 +91,7 @@ void TriangleTree::look(Search& search, std::size_t level, std::size_t node) con
     const std::size_t first = node * children_a_node;
     const std::size_t count = std::min(children_a_node, boxes.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      children[i] = {boxes[first + i].squared_distance(search.at), first + i};
+      children[i] = {squared_distance(boxes[first + i], search.at), first + i};
     }
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i) {

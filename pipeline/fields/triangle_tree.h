@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/box.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/pipeline/fields/mesh_place.h"
@@ -23,13 +24,6 @@ class TriangleTree {
   MeshPlace nearest(Point2<double> at, std::span<const std::int32_t> regions, std::int32_t region) const;
 
  private:
-  struct Box {
-    Point2<double> low;
-    Point2<double> high;
-
-    void add(const Box& other);
-    double squared_distance(Point2<double> point) const;
-  };
   struct Search;
 
   void look(Search& search, std::size_t level, std::size_t node) const;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "trismooth/base/blocks.h"
+#include "trismooth/base/box.h"
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/hilbert_curve.h"
+#include "trismooth/base/joined_blocks.h"
 #include "trismooth/base/workers.h"
 
 namespace trismooth {
@@ -16,27 +16,15 @@ namespace {
 constexpr std::int64_t order_grain = 16384;
 constexpr int curve_order = 15;  // 30 bits of curve and 1 of kind make a key of 32 bits
 
-struct Box {
-  Point2<double> low;
-  Point2<double> high;
-};
-
-/// The bounding box of all points; there is one at least.
 Box bounding_box(std::span<const Point2<double>> points, Workers& workers) {
-  const Blocks blocks(std::ssize(points), order_grain, workers);
-  std::vector<Box> boxes(static_cast<std::size_t>(blocks.count()));
-  const auto joined = [](const Box& a, const Box& b) {
-    return Box{{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-               {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-  };
-  blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    Box box{points[begin], points[begin]};
-    for (std::int64_t v = begin; v < end; ++v) {
-      box = joined(box, {points[v], points[v]});
-    }
-    boxes[block] = box;
-  });
-  return std::accumulate(boxes.begin() + 1, boxes.end(), boxes.front(), joined);
+  return joined_blocks(
+      std::ssize(points), order_grain, workers, Box{},
+      [&](std::int64_t begin, std::int64_t end, Box& found) {
+        for (std::int64_t v = begin; v < end; ++v) {
+          found.add(points[v]);
+        }
+      },
+      [](Box& all, const Box& found) { all.add(found); });
 }
 
 }  // namespace

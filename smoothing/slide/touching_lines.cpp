@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "trismooth/base/box.h"
 #include "trismooth/base/point_squares.h"
 
 namespace trismooth {
@@ -50,9 +51,7 @@ class VertexTree {
     double distance;
   };
   /// Around vertices. The box of their first half comes next, if there are more than few.
-  struct Box {
-    Point2<double> low;
-    Point2<double> high;
+  struct VertexBox : Box {
     std::size_t second_half;
 
     bool meets(const Edge& edge) const {
@@ -83,15 +82,13 @@ class VertexTree {
   static std::size_t middle(std::size_t begin, std::size_t end) { return begin + (end - begin) / 2; }
 
   void add_box(std::size_t begin, std::size_t end) {
-    Point2<double> low = point(vertices_[begin]);
-    Point2<double> high = low;
+    Box box;
     for (std::size_t i = begin; i < end; ++i) {
-      const Point2<double> here = point(vertices_[i]);
-      low = {std::min(low.x, here.x), std::min(low.y, here.y)};
-      high = {std::max(high.x, here.x), std::max(high.y, here.y)};
+      box.add(point(vertices_[i]));
     }
+    const auto& [low, high] = box;
     const std::size_t number = boxes_.size();
-    boxes_.push_back({low, high, 0});
+    boxes_.push_back({box, 0});
     if (end - begin <= few) {
       return;
     }
@@ -107,7 +104,7 @@ class VertexTree {
 
   template <class Visit>
   void walk(std::size_t number, std::size_t begin, std::size_t end, const Edge& edge, const Visit& visit) const {
-    const Box& box = boxes_[number];
+    const VertexBox& box = boxes_[number];
     if (!box.meets(edge)) {
       return;
     }
@@ -122,7 +119,7 @@ class VertexTree {
 
   std::span<const Point2<double>> points_;
   std::vector<std::int32_t> vertices_;
-  std::vector<Box> boxes_;
+  std::vector<VertexBox> boxes_;
 };
 
 class TouchingSearch {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "trismooth/base/box.h"
+
 namespace trismooth {
 
 namespace {
@@ -31,12 +33,11 @@ std::ptrdiff_t quarter_turns(std::span<const Point2<double>> ring) {
 
 std::optional<Point2<double>> kernel_centre(std::span<const Point2<double>> ring,
                                             std::vector<Point2<double>>& scratch) {
-  Point2<double> low = ring.front();
-  Point2<double> high = low;
+  Box box;
   for (const Point2<double> p : ring) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    box.add(p);
   }
+  const auto& [low, high] = box;
   // The kernel is the bounding box cut by the line of every edge.
   std::vector<Point2<double>> kernel{low, {high.x, low.y}, high, {low.x, high.y}};
   // A ring that is turned by a right angle has the same corners in the same order: their sum is rounded alike.
