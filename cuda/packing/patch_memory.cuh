@@ -12,14 +12,14 @@ namespace trismooth::cuda {
 template <class T>
 struct PatchMemory {
   Point2<T>* points;       ///< before a sweep
-  Point2<T>* next_points;  ///< after it; the same in Form B
+  Point2<T>* next_points;  ///< after it; in Form B the same memory
   std::uint16_t* begins;   ///< ring of local vertex v: entries[begins[v] .. begins[v + 1])
   std::uint16_t* entries;
   std::uint16_t* list;   ///< the vertices that are evaluated, colour by colour (Form B)
   std::uint8_t* sweeps;  ///< of Patches
   std::uint8_t* colours;
   std::uint8_t* marked;       ///< the closed neighbourhood changed since the last evaluation
-  std::uint8_t* next_marked;  ///< the same for the next sweep; the same in Form B
+  std::uint8_t* next_marked;  ///< what is marked for the next sweep; in Form B `marked` itself
   std::uint8_t* moved;        ///< in which sweep the vertex moved last: see stamp()
   // Of MeanRatioTargets, where the patches are for that method.
   T* inverse_areas;

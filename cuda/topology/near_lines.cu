@@ -30,7 +30,7 @@ struct ListNear {
   }
 };
 
-/// The same of the vertices that something else holds.
+/// Lists the vertices that something else holds, as threads happen to run; all are counted.
 struct ListOthers {
   const std::uint8_t* fixed;
   std::int32_t* list;

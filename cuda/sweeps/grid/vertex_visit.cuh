@@ -17,7 +17,7 @@ template <class T, class Slot>
 struct SweepData {
   SlottedRingsView<Slot> rings;
   PointArray<T> from;
-  PointArray<T> to;      ///< the same in Form B
+  PointArray<T> to;      ///< in Form B `from`
   std::uint32_t* marks;  ///< for the next sweep (Form A), or for those to come (Form B)
   T tolerance;
   /// Set where a vertex is elsewhere than `to` had it, that is two sweeps before (Form A). Null: nobody asks.
