@@ -1,12 +1,12 @@
 #include <utility>
 
+#include "trismooth/base/parity_forest.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/primitives/reduce.cuh"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/component_votes.cuh"
 #include "trismooth/cuda/topology/components.h"
-#include "trismooth/cuda/topology/parity_forest.h"
 
 namespace trismooth::cuda {
 

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "trismooth/base/parity_forest.h"
 #include "trismooth/cuda/device_constraints.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/topology/findings.h"
 #include "trismooth/cuda/topology/incident_corners.h"
-#include "trismooth/cuda/topology/parity_forest.h"
 #include "trismooth/cuda/topology/triangle_list.h"
 
 namespace trismooth::cuda {

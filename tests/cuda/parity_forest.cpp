@@ -1,4 +1,4 @@
-#include "trismooth/cuda/topology/parity_forest.h"
+#include "trismooth/base/parity_forest.h"
 
 #include <atomic>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "support/test_meshes.h"
 
 using test_meshes::Random;
-using trismooth::cuda::ParityForest;
+using trismooth::ParityForest;
 
 namespace {
 
