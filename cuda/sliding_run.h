@@ -91,11 +91,10 @@ class SlidingRun {
     }
   }
 
-  /// The ending of the run. Lines and elements have their say in turn: who goes back for one may spoil the other. When
-  /// nobody has anything to say, all is written to `stored`. Mostly nobody has: so the device judges both at first, and
-  /// the host sees to lines where the device finds something. Where that gives sliding up, as the result says, nothing
-  /// is written. `free_count`: of vertices; `host_record`: what `record`, on the device, was read as. Waits for the
-  /// device.
+  /// The ending of the run. Lines and elements have their say in turn; when nobody has anything to say, all is written
+  /// to `stored`. Mostly nobody has: so the device judges both at first, and the host sees to lines where the device
+  /// finds something. Where that gives sliding up, as the result says, nothing is written. `free_count`: of vertices;
+  /// `host_record`: what `record`, on the device, was read as. Waits for the device.
   template <class Engine>
   void end(Context& context, Engine& engine, std::int64_t free_count, GuardInput<T> input, GuardBuffers& buffers,
            Point2<double>* stored, DeviceBuffer<RunRecord>& record, RunRecord& host_record, SmoothingResult& result) {
@@ -123,28 +122,24 @@ class SlidingRun {
     const LineVerdict verdict = host_record.lines;
     if (!verdict.is_good(host_record.guard.all.before) || !host_record.guard.nothing_offends()) {
       input.held.lines = nullptr;
+      // What is queued already is the first say that elements have.
       bool is_guarded = verdict.has_good_lines();
-      for (bool again = true; again; is_guarded = false) {
-        again = false;
-        if (!is_guarded) {
-          result.guard_rounds += slide_->settle(input.before, list);
+      const auto settle_lines = [&] { return is_guarded ? std::int64_t{0} : slide_->settle(input.before, list); };
+      const auto guard_elements = [&] {
+        if (!std::exchange(is_guarded, false)) {
+          reset();
+          guard();
+          record.download({&host_record, 1});
         }
-        if (options_.guard) {
-          if (!is_guarded) {
-            reset();
-            guard();
-            record.download({&host_record, 1});
-          }
-          const DeviceGuardOutcome outcome =
-              finish_guard(context, rings, input, buffers, stored, state, host_record.guard, result.kernel_launches);
-          result.guard_rounds += outcome.rounds;
-          result.reverted.insert(result.reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
-          slide_->note_reverted(outcome.held, list);
-          const std::int64_t rounds = slide_->settle_triangles(input.before, outcome.threshold, list);
-          result.guard_rounds += rounds;
-          again = rounds > 0 || !outcome.held.empty();
-        }
-      }
+        const DeviceGuardOutcome outcome =
+            finish_guard(context, rings, input, buffers, stored, state, host_record.guard, result.kernel_launches);
+        result.reverted.insert(result.reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
+        slide_->note_reverted(outcome.held, list);
+        return ElementRounds{outcome.rounds, outcome.threshold, !outcome.held.empty()};
+      };
+      result.guard_rounds += settle_in_turn(options_.guard, settle_lines, guard_elements, [&](double threshold) {
+        return slide_->settle_triangles(input.before, threshold, list);
+      });
       SlidingResult sliding = slide_->lines();
       if (ran_to_its_end(result.stop_reason) &&
           is_spoilt_by_sliding(std::ssize(result.reverted), free_count + sliding.vertices)) {

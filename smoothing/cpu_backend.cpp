@@ -242,12 +242,10 @@ class CpuSmoother final : public PreparedSmoother {
     }
   }
 
-  /// The same of the guard; whether some were vertices that slide.
   template <class T>
-  bool list(Run<T>& run, const GuardOutcome& outcome) {
+  void list(Run<T>& run, const GuardOutcome& outcome) {
     run.result.guard_rounds += outcome.rounds;
     list(run, std::span<const std::int32_t>(outcome.reverted));
-    return !outcome.reverted.empty() && outcome.reverted.back() >= rings_.free_count();
   }
 
   template <class T>
@@ -284,30 +282,23 @@ class CpuSmoother final : public PreparedSmoother {
     }
   }
 
-  /// Lines and elements have their say in turn: who goes back for one may spoil the other.
   template <class T>
   void guard_with_lines(Run<T>& run, const NumberLists& held) {
     SlideGuard lines(run.chains, run.slide->places(), run.before, run.after);
-    std::int64_t put_back = 0;
-    bool again = true;
-    while (again) {
-      std::vector<std::int32_t> reverted;
-      run.result.guard_rounds += lines.settle(reverted);
-      again = false;
-      if (options_.guard) {
-        const GuardOutcome outcome = keep_never_worse(rings_.view(), run.before, run.after, workers_, held);
-        again = list(run, outcome);
-        put_back += std::ssize(outcome.reverted);
-        const std::int64_t rounds = lines.settle_triangles(outcome.threshold, reverted);
-        run.result.guard_rounds += rounds;
-        again = again || rounds > 0;
-      }
-      list(run, std::span<const std::int32_t>(reverted));
-      put_back += std::ssize(reverted);
-    }
+    std::vector<std::int32_t> reverted;
+    const auto guard_elements = [&] {
+      const GuardOutcome outcome = keep_never_worse(rings_.view(), run.before, run.after, workers_, held);
+      reverted.insert(reverted.end(), outcome.reverted.begin(), outcome.reverted.end());
+      return ElementRounds{outcome.rounds, outcome.threshold,
+                           !outcome.reverted.empty() && outcome.reverted.back() >= rings_.free_count()};
+    };
+    run.result.guard_rounds += settle_in_turn(
+        options_.guard, [&] { return lines.settle(reverted); }, guard_elements,
+        [&](double threshold) { return lines.settle_triangles(threshold, reverted); });
+    list(run, std::span<const std::int32_t>(reverted));
     SlidingResult& sliding = *run.result.sliding;
     if (ran_to_its_end(run.result.stop_reason) &&
-        is_spoilt_by_sliding(put_back, rings_.free_count() + sliding.vertices)) {
+        is_spoilt_by_sliding(std::ssize(reverted), rings_.free_count() + sliding.vertices)) {
       sliding.given_up = true;
       return;
     }

@@ -11,9 +11,9 @@ namespace trismooth {
 /// these lie in that plane: the numbers themselves, those of a tilted plane in space, of a map, of few digits. All of
 /// it is asked from any thread.
 struct StoredImage {
-  static constexpr std::size_t most_numbers = 3;
+  static constexpr std::size_t most_numbers = 3;  ///< of a vertex
 
-  std::size_t numbers = most_numbers;  ///< of a vertex
+  std::size_t numbers = most_numbers;  ///< of a vertex, in an array of those of all
   /// Where the vertex lies of which these numbers are stored.
   std::function<Point2<double>(std::size_t vertex, const double* stored)> place;
   /// Writes to `moved` what is stored of a vertex that moves from one place to another, before it is rounded. `stored`:

@@ -18,6 +18,32 @@ constexpr bool is_spoilt_by_sliding(std::int64_t put_back, std::int64_t movable)
   return 4 * put_back > movable;
 }
 
+/// What the guard of the elements around free vertices has done.
+struct ElementRounds {
+  std::int64_t rounds = 0;
+  double threshold = 0;    ///< GuardOutcome::threshold
+  bool took_held = false;  ///< a vertex on a line is among those that went back
+};
+
+/// Lines and elements have their say in turn, until nobody has anything to say: who goes back for one may spoil the
+/// other. `lines()` and `triangles(threshold)`: the rounds of SlideGuard::settle() and settle_triangles();
+/// `elements()`: ElementRounds. Unless `guards`, lines alone are asked. Returns all rounds.
+template <class Lines, class Elements, class Triangles>
+std::int64_t settle_in_turn(bool guards, const Lines& lines, const Elements& elements, const Triangles& triangles) {
+  std::int64_t rounds = 0;
+  for (bool again = true; again;) {
+    rounds += lines();
+    again = false;
+    if (guards) {
+      const ElementRounds done = elements();
+      const std::int64_t of_triangles = triangles(done.threshold);
+      rounds += done.rounds + of_triangles;
+      again = done.took_held || of_triangles > 0;
+    }
+  }
+  return rounds;
+}
+
 /// What comes of smoothed(true), with sliding; where that says that it is given up, of smoothed(false), and that it
 /// was.
 template <class Smoothed>
