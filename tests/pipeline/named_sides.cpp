@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/input/slide_lines.h"
 

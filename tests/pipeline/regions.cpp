@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/pipeline/input/planar_mesh.h"
 
 #include "catch.h"
 #include "mesh_io/byte_files.h"
