@@ -21,9 +21,7 @@
 #include "trismooth/pipeline/cli/failure.h"
 #include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/ranks/metis_parts.h"
-#include "trismooth/pipeline/ranks/one_file_run.h"
-#include "trismooth/pipeline/ranks/piece_options.h"
-#include "trismooth/pipeline/ranks/piece_run.h"
+#include "trismooth/pipeline/ranks/rank_run.h"
 #endif
 
 #include <stdexcept>
@@ -130,7 +128,7 @@ class MpiJob final : public RankJob {
       return {};
     }
     try {
-      return ranks_->together([&] { return run_together(options); });
+      return ranks_->together([&] { return run_over_ranks(options, ranks_); });
     } catch (const std::exception&) {
       if (rank() == 0) {
         throw;
@@ -157,40 +155,6 @@ class MpiJob final : public RankJob {
   }
 
  private:
-  /// Throws mpi::KnownToAll, or what has happened on this rank alone.
-  PipelineResult run_together(const PipelineOptions& options) {
-    require_same_options(options, *ranks_);
-    if (names_parallel_file(options.input) || (options.written() && names_parallel_file(*options.written()))) {
-      return run_pieces(options, ranks_);
-    }
-    return ranks_->size() > 1 ? run_file(options) : run_pipeline(options);
-  }
-
-  /// Of one file, which no rank need have as a whole where it is only looked at.
-  PipelineResult run_file(const PipelineOptions& options) {
-    if (!options.written()) {
-      try {
-        return run_by_ranges(options, ranks_);
-      } catch (const mpi::KnownToAll& known) {
-        // It is a file for one rank, or wrong in a way that reading it as a whole tells.
-        if (is_cancelled(known.error)) {
-          throw;
-        }
-      }
-    }
-    return run_one_file(options, ranks_);
-  }
-
-  static bool is_cancelled(const std::exception_ptr& error) {
-    try {
-      std::rethrow_exception(error);
-    } catch (const Cancelled&) {
-      return true;
-    } catch (...) {
-      return false;
-    }
-  }
-
   /// What rank 0 says of whether there is a run.
   bool starts(bool own) {
     int starts = own ? 1 : 0;

@@ -40,13 +40,6 @@ void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& shar
   share.line_groups = find_line_groups(document);
 }
 
-void require_carried(const PipelineOptions& options, const MeshDocument& document) {
-  if (!document.cell_labels.empty()) {
-    throw ReadError(options.input, "holds texts at cells ('" + document.cell_labels.front().name +
-                                       "'), which a mesh in pieces may not have yet");
-  }
-}
-
 /// Of rank 0; the others have nothing.
 MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers) {
   MeshShare share;
@@ -63,9 +56,48 @@ MeshShare read_whole(const PipelineOptions& options, const mpi::Communicator& ra
 
 }  // namespace
 
+void require_carried(const PipelineOptions& options, const MeshDocument& document) {
+  if (!document.cell_labels.empty()) {
+    throw ReadError(options.input, "holds texts at cells ('" + document.cell_labels.front().name +
+                                       "'), which a mesh in pieces may not have yet");
+  }
+}
+
+FileInPieces put_in_pieces(MeshShare share, const PipelineOptions& options, const mpi::Communicator& ranks,
+                           Workers& workers) {
+  FileInPieces made;
+  MeshDocument& document = share.document;
+  made.input.path = shown_input(options.input);
+  made.input.format = document.format;
+  made.input.point_sets = std::move(share.point_sets);
+  made.input.cell_sets = std::move(share.cell_sets);
+  made.input.line_groups = std::move(share.line_groups);
+  std::vector<std::string> notes = std::move(share.notes);
+  std::vector<std::int64_t> labelled = std::move(share.labelled);
+  std::set<std::string> said(document.notes.begin(), document.notes.end());
+  std::set<std::string> lost(document.losses.begin(), document.losses.end());
+  if (options.written() && ranks.rank() == 0) {
+    std::ranges::move(what_is_lost(document, FileFormat::vtu), std::inserter(lost, lost.end()));
+    if (!document.periodic_pairs.empty()) {
+      lost.insert("pieces hold no pairs of points that are the same place of what repeats itself: " +
+                  std::to_string(document.periodic_pairs.size()) + " are not written");
+    }
+  }
+  const std::set<std::string> of_places(document.arrays_of_places.begin(), document.arrays_of_places.end());
+  made.files = shared_out(std::move(share), options.partition.value_or(Partition::bisect), options.input,
+                          options.written(), ranks, workers, notes);
+  made.files.labelled = std::move(labelled);
+  const std::vector<std::string> all_said = texts_of_all(said, ranks);
+  made.losses = texts_of_all(lost, ranks);
+  made.arrays_of_places = texts_of_all(of_places, ranks);
+  // What the reader says of the file is said of what another format loses.
+  std::ranges::copy(all_said, std::back_inserter(options.written() ? made.losses : made.notes));
+  std::ranges::move(notes, std::back_inserter(made.notes));
+  return made;
+}
+
 FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading, const mpi::Communicator& ranks,
                             Workers& workers) {
-  FileInPieces read;
   // Files that are read by ranges have no sets to name, and who has which label is known of the whole file.
   const bool asks_for_whole = !options.fixed_sets.empty() || options.fixed_ids_are_labels;
   std::optional<MeshShare> share = asks_for_whole ? std::nullopt : read_share(options.input, ranks, workers);
@@ -76,34 +108,8 @@ FileInPieces read_in_pieces(const PipelineOptions& options, FileReading reading,
     }
     share = read_whole(options, ranks, workers);
   }
-  MeshDocument& document = share->document;
-  read.input.path = shown_input(options.input);
-  read.input.format = document.format;
-  read.input.point_sets = std::move(share->point_sets);
-  read.input.cell_sets = std::move(share->cell_sets);
-  read.input.line_groups = std::move(share->line_groups);
-  std::vector<std::string> notes = std::move(share->notes);
-  std::vector<std::int64_t> labelled = std::move(share->labelled);
-  std::set<std::string> said(document.notes.begin(), document.notes.end());
-  std::set<std::string> lost(document.losses.begin(), document.losses.end());
-  if (options.output && ranks.rank() == 0) {
-    std::ranges::move(what_is_lost(document, FileFormat::vtu), std::inserter(lost, lost.end()));
-    if (!document.periodic_pairs.empty()) {
-      lost.insert("pieces hold no pairs of points that are the same place of what repeats itself: " +
-                  std::to_string(document.periodic_pairs.size()) + " are not written");
-    }
-  }
-  const std::set<std::string> of_places(document.arrays_of_places.begin(), document.arrays_of_places.end());
-  read.files = shared_out(std::move(*share), options.partition.value_or(Partition::bisect), options.input,
-                          options.output, ranks, workers, notes);
+  FileInPieces read = put_in_pieces(std::move(*share), options, ranks, workers);
   read.files.was_read_whole = !by_ranges;
-  read.files.labelled = std::move(labelled);
-  const std::vector<std::string> all_said = texts_of_all(said, ranks);
-  read.losses = texts_of_all(lost, ranks);
-  read.arrays_of_places = texts_of_all(of_places, ranks);
-  // What the reader says of the file is said of what another format loses.
-  std::ranges::copy(all_said, std::back_inserter(options.output ? read.losses : read.notes));
-  std::ranges::move(notes, std::back_inserter(read.notes));
   if (!by_ranges && ranks.size() > 1) {
     read.notes.emplace_back(
         "rank 0 has read the file whole and handed it out: what is read by ranges is OFF as text, VTU with raw "

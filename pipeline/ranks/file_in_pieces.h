@@ -7,6 +7,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/ranks/mesh_share.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 
 namespace trismooth {
@@ -25,6 +26,15 @@ struct FileInPieces {
   std::vector<std::string> losses;
   std::vector<std::string> arrays_of_places;  ///< MeshDocument::arrays_of_places, on all ranks
 };
+
+/// Throws ReadError naming the file of the options where it has what a mesh in pieces may not have yet. Local.
+void require_carried(const PipelineOptions& options, const MeshDocument& document);
+
+/// Shares out what the ranks have of the file of the options, as their PipelineOptions::written() wants it. Collective.
+/// Throws on all ranks ReadError for more than 32 bits number, std::invalid_argument for cells that .pvtp does not
+/// hold.
+FileInPieces put_in_pieces(MeshShare share, const PipelineOptions& options, const mpi::Communicator& ranks,
+                           Workers& workers);
 
 /// Reads the file of the options, by ranges where that can be done (see read_share()), else on rank 0, which hands out
 /// what it has read. Collective. Throws on all ranks ReadError as read_mesh() does and std::invalid_argument as the

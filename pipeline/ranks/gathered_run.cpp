@@ -4,21 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/mesh_io/parallel_file.h"
-#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/ranks/one_file_run.h"
+#include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/rank_constraints.h"
+#include "trismooth/pipeline/ranks/run_on_first.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/whole_mesh.h"
 
@@ -65,23 +65,32 @@ class HeldByIds {
   std::int64_t count_ = 0;
 };
 
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
+/// With an output that is a piece of that format: it is written later, and so is what belongs to it.
+PipelineOptions of_piece(PipelineOptions options, FileFormat format) {
+  if (options.output) {
+    options.output = std::filesystem::path("piece").replace_extension(extensions_of(format).front());
+  }
+  options.beside = {};
+  return options;
 }
 
 PipelineResult run_here(WholeMesh& whole, const PieceFiles& files, PipelineOptions options, AddedArrays& annotations) {
   const HeldByIds held(options, whole.ids, files);
-  if (options.output && !options.single) {
-    options.output = std::filesystem::path("piece").replace_extension(extensions_of(files.file.piece_format).front());
-  }
-  if (!options.single) {
-    options.beside = {};  // the pieces are written later
-  }
-  PipelineResult result = options.single ? run_pipeline_on(std::move(whole.document), options)
-                                         : run_on_document(whole.document, options, annotations);
+  PipelineResult result =
+      options.single ? run_pipeline_on(std::move(whole.document), options)
+                     : run_on_document(whole.document, of_piece(options, files.file.piece_format), annotations);
   held.report(result.input);
   return result;
+}
+
+/// The last step. Collective.
+void write_result(PieceFiles& files, const PipelineOptions& options, PipelineResult& result,
+                  const mpi::Communicator& ranks, Workers& workers, const Stopwatch& watch) {
+  const auto completed = [&]() -> const PipelineResult& {
+    result.timings_ms.write += watch.milliseconds();
+    return result;
+  };
+  write_pieces(files, *options.written(), ranks, workers, completed, options.beside);
 }
 
 }  // namespace
@@ -89,11 +98,10 @@ PipelineResult run_here(WholeMesh& whole, const PieceFiles& files, PipelineOptio
 PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
                             const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers) {
   const mpi::Communicator& ranks = *communicator;
-  // (What is no file on a disk can be read once.)
-  const bool is_of_pieces = names_parallel_file(options.input) || is_standard_stream(options.input) ||
-                            ranks.any(ranks.rank() == 0 && !is_file(options.input));
-  WholeMesh whole =
-      is_of_pieces ? WholeMesh(files, ranks) : WholeMesh(files, FileOptions{workers.count(), options.format}, ranks);
+  for (Piece& piece : files.pieces) {
+    piece.mesh = {};
+  }
+  WholeMesh whole(files, ranks);
   AddedArrays annotations;
   PipelineResult result = run_on_first(
       options, communicator, [&](const PipelineOptions& own) { return run_here(whole, files, own, annotations); });
@@ -106,11 +114,43 @@ PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
     moved.insert(field.name);
   }
   whole.hand_back(files, texts_of_all(moved, ranks), annotations, ranks);
-  const auto completed = [&]() -> const PipelineResult& {
-    result.timings_ms.write += watch.milliseconds();
-    return result;
-  };
-  write_pieces(files, *options.written(), ranks, workers, completed, options.beside);
+  drop_annotations(files);
+  write_result(files, options, result, ranks, workers, watch);
+  return result;
+}
+
+PipelineResult run_file_gathered(const PipelineOptions& options,
+                                 const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers) {
+  const mpi::Communicator& ranks = *communicator;
+  if (!options.written()) {
+    return run_on_first(options, communicator, &run_pipeline);
+  }
+  const FileFormat format = extension_of(*options.written()) == ".pvtp" ? FileFormat::vtp : FileFormat::vtu;
+  MeshShare share;
+  PipelineResult result = run_on_first(options, communicator, [&](const PipelineOptions& own) {
+    const Stopwatch watch;
+    MeshDocument& document = share.document;
+    document = read_mesh(own.input, FileOptions{workers.count(), own.format});
+    document.original.reset();
+    require_carried(own, document);
+    const double read_ms = watch.milliseconds();
+    AddedArrays annotations;
+    PipelineResult made = run_on_document(document, of_piece(own, format), annotations);
+    made.timings_ms.read = read_ms;
+    std::ranges::move(annotations.point_arrays, std::back_inserter(document.point_arrays));
+    std::ranges::move(annotations.cell_arrays, std::back_inserter(document.cell_arrays));
+    return made;
+  });
+  const Stopwatch watch;
+  FileInPieces shared = put_in_pieces(std::move(share), options, ranks, workers);
+  agree(ranks, [&] {
+    if (ranks.rank() == 0) {
+      require_own_pieces(shared.files, *options.written(), options.single);
+    }
+  });
+  put_in_front(shared.losses, result.losses);
+  put_in_front(shared.notes, result.notes);
+  write_result(shared.files, options, result, ranks, workers, watch);
   return result;
 }
 

@@ -16,4 +16,10 @@ namespace trismooth {
 PipelineResult run_gathered(PieceFiles& files, const PipelineOptions& options,
                             const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers);
 
+/// run_pipeline() of one file, by rank 0 with the whole mesh in its memory, which does all but the sweeps for all. The
+/// output is pieces, in which the result is shared out. Collective: throws the same on all ranks. The result is rank
+/// 0's, that of other ranks is empty.
+PipelineResult run_file_gathered(const PipelineOptions& options,
+                                 const std::shared_ptr<const mpi::Communicator>& communicator, Workers& workers);
+
 }  // namespace trismooth

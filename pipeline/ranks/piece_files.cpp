@@ -137,8 +137,8 @@ void write_text(OutputFile& file, const std::filesystem::path& target, const std
   }
 }
 
-/// The text of a parallel file without what it says of annotations.
-std::string without_annotations(const std::string& text) {
+/// The text of a parallel file without what it says of annotations that are none of these arrays.
+std::string without_annotations(const std::string& text, const std::vector<PieceArray>& arrays) {
   constexpr std::string_view element = "<PDataArray";
   constexpr std::string_view end_tag = "</PDataArray>";
   std::string kept;
@@ -146,10 +146,13 @@ std::string without_annotations(const std::string& text) {
   for (std::size_t at = text.find(element); at != std::string::npos; at = text.find(element, at + 1)) {
     std::size_t end = std::min(text.find('>', at), text.size() - 1) + 1;
     const std::string_view tag = std::string_view(text).substr(at, end - at);
-    const auto names_ours = [&tag](char quote) {
-      return tag.find(std::string("Name=") + quote + std::string(annotation_prefix)) != std::string_view::npos;
+    const auto names = [&tag](const std::string& name) {
+      return tag.find("Name=\"" + name) != std::string_view::npos ||
+             tag.find("Name='" + name) != std::string_view::npos;
     };
-    if (!names_ours('"') && !names_ours('\'')) {
+    const bool is_there = std::ranges::any_of(
+        arrays, [&](const PieceArray& array) { return is_annotation(array.name) && names(array.name); });
+    if (is_there || !names(std::string(annotation_prefix))) {
       continue;
     }
     if (!tag.ends_with("/>")) {
@@ -255,7 +258,6 @@ void prepare_beside(const BesideOutput& beside, const PipelineResult& result, co
 void write_pieces(PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
                   Workers& workers, const std::function<const PipelineResult&()>& completed,
                   const BesideOutput& beside) {
-  drop_annotations(files);
   std::vector<std::unique_ptr<OutputFile>> written;
   agree(ranks, [&] {
     const std::vector<std::string> sources = output_sources(files, output);
@@ -272,9 +274,9 @@ void write_pieces(PieceFiles& files, const std::filesystem::path& output, const 
     }
     if (ranks.rank() == 0) {
       written.push_back(std::make_unique<OutputFile>(output));
-      write_text(
-          *written.back(), output,
-          with_arrays(without_annotations(with_sources(files.bytes, files.file, sources)), files.pieces.front().added));
+      write_text(*written.back(), output,
+                 with_arrays(without_annotations(with_sources(files.bytes, files.file, sources), files.arrays),
+                             files.pieces.front().added));
       written.back()->prepare();
     }
   });

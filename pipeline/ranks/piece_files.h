@@ -63,11 +63,11 @@ std::vector<std::string> output_sources(const PieceFiles& files, const std::file
 /// would overwrite those of another file, the input.
 void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single);
 
-/// Writes the pieces with their points as they are now, with Piece::added and no other annotations, and the parallel
-/// file: all of them beside their targets first, then, when every rank has done so, in their places, the parallel file
-/// last. In between `completed`, which is collective, gives the result, which `beside` is told by rank 0, and what that
-/// has prepared takes its place. Collective. Throws WriteError on all ranks, and what `beside` throws; whatever stood
-/// there survives that.
+/// Writes the pieces with their points as they are now and with Piece::added, and the parallel file, of which no other
+/// annotations are listed: all of them beside their targets first, then, when every rank has done so, in their places,
+/// the parallel file last. In between `completed`, which is collective, gives the result, which `beside` is told by
+/// rank 0, and what that has prepared takes its place. Collective. Throws WriteError on all ranks, and what `beside`
+/// throws; whatever stood there survives that.
 void write_pieces(PieceFiles& files, const std::filesystem::path& output, const mpi::Communicator& ranks,
                   Workers& workers, const std::function<const PipelineResult&()>& completed,
                   const BesideOutput& beside);

@@ -1,11 +1,13 @@
 #include "trismooth/pipeline/ranks/piece_run.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -48,13 +50,34 @@ namespace trismooth {
 
 namespace {
 
-/// Puts those sentences in front that are not there already.
-void put_in_front(const std::vector<std::string>& sentences, std::vector<std::string>& all) {
-  std::vector<std::string> joined = sentences;
-  std::ranges::copy_if(all, std::back_inserter(joined), [&](const std::string& sentence) {
-    return std::ranges::find(sentences, sentence) == sentences.end();
-  });
-  all = std::move(joined);
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+/// What stands for a rank that has the whole mesh anyway, where the serial run has nothing to share.
+constexpr std::string_view is_alone = "the only rank";
+
+/// Whether the vertices of the rank's pieces are numbered from 0 on. A mesh that is gathered is; where ids are missing,
+/// that is another mesh.
+bool are_numbered_without_gaps(const PieceFiles& files) {
+  std::size_t points = 0;
+  for (const Piece& piece : files.pieces) {
+    points += piece.ids.size();
+  }
+  std::vector<std::uint8_t> is_there(points, 0);
+  std::size_t end = 0;
+  for (const Piece& piece : files.pieces) {
+    for (const std::int64_t id : piece.ids) {
+      const auto place = static_cast<std::size_t>(id);
+      if (place >= points) {
+        return false;
+      }
+      is_there[place] = 1;
+      end = std::max(end, place + 1);
+    }
+  }
+  return std::ranges::count(is_there, 1) == static_cast<std::ptrdiff_t>(end);
 }
 
 /// One run: the stages in their order, as those of run_pipeline().
@@ -74,9 +97,20 @@ class PieceRun {
       options_.smoothing.validate();
       require_piece_options(options_);
     });
-    timed(Stage::read, result_.timings_ms.read, [&] { read(); });
-    if (const std::string reason = run_in_pieces(); !reason.empty()) {
-      run_with_whole_mesh(reason);
+    begin(Stage::read);
+    const bool is_one_file = !names_parallel_file(options_.input);
+    std::string reason(!is_one_file ? "" : ranks_->size() == 1 ? is_alone : what_needs_whole_mesh(options_));
+    bool reads_file = is_one_file;
+    if (reason.empty()) {
+      const Stopwatch watch;
+      read();
+      result_.timings_ms.read = watch.milliseconds();
+      reason = run_in_pieces();
+      // (What is no file on a disk can be read once.)
+      reads_file = is_one_file && !ranks_->any(ranks_->rank() == 0 && !is_file(options_.input));
+    }
+    if (!reason.empty()) {
+      run_with_whole_mesh(reason, reads_file);
     }
     complete();
     return std::move(result_);
@@ -88,6 +122,9 @@ class PieceRun {
   std::string run_in_pieces() {
     if (const std::string_view option = what_needs_whole_mesh(options_); !option.empty()) {
       return std::string(option);
+    }
+    if (ranks_->size() == 1 && are_numbered_without_gaps(files_)) {
+      return std::string(is_alone);
     }
     if (const std::string_view kind = what_is_not_joined(files_, *ranks_); !kind.empty()) {
       return std::string(kind);
@@ -120,14 +157,20 @@ class PieceRun {
     return {};
   }
 
-  /// All stages behind reading by rank 0, with what the readers have said. `reason`: as run_in_pieces() gives it.
-  void run_with_whole_mesh(const std::string& reason) {
+  /// All stages by rank 0, on the mesh of the one file, which is read (again), or else on that of the pieces, with what
+  /// their readers have said. `reason`: as run_in_pieces() gives it.
+  void run_with_whole_mesh(const std::string& reason, bool reads_file) {
     PipelineResult read = std::exchange(result_, {});
     topology_.reset();
     quality_.reset();
     mesh_ = {};
+    if (reads_file) {
+      files_ = {};
+      read_losses_.clear();
+      read_notes_.clear();
+    }
     const auto with_what_was_read = [&](PipelineResult result) {
-      result.timings_ms.read = read.timings_ms.read;
+      result.timings_ms.read += read.timings_ms.read;
       result.timings_ms.total = watch_.milliseconds();
       put_in_front(read_losses_, result.losses);
       put_in_front(read_notes_, result.notes);
@@ -144,7 +187,8 @@ class PieceRun {
     if (options_.beside.prepare) {
       own.beside.prepare = [&](const PipelineResult& result) { options_.beside.prepare(with_what_was_read(result)); };
     }
-    result_ = with_what_was_read(run_gathered(files_, own, ranks_, workers_));
+    result_ = with_what_was_read(reads_file ? run_file_gathered(own, ranks_, workers_)
+                                            : run_gathered(files_, own, ranks_, workers_));
   }
 
   /// Collective.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 
 namespace trismooth {
 
@@ -21,6 +23,14 @@ std::vector<std::string> texts_of_all(const std::set<std::string>& own, const mp
     }
   }
   return {all.begin(), all.end()};
+}
+
+void put_in_front(const std::vector<std::string>& sentences, std::vector<std::string>& all) {
+  std::vector<std::string> joined = sentences;
+  std::ranges::copy_if(all, std::back_inserter(joined), [&](const std::string& sentence) {
+    return std::ranges::find(sentences, sentence) == sentences.end();
+  });
+  all = std::move(joined);
 }
 
 std::vector<char> first_bytes(const std::vector<char>& own, const mpi::Communicator& ranks) {

@@ -161,14 +161,33 @@ AddedArrays known_to_all(const AddedArrays& added, const mpi::Communicator& rank
   return {std::move(told.point_arrays), std::move(told.cell_arrays)};
 }
 
+/// Whether the points of a piece are the mesh's as they stand, and its cells are.
+bool is_whole(const Piece& piece) {
+  for (std::size_t i = 0; i < piece.ids.size(); ++i) {
+    if (piece.ids[i] != static_cast<std::int64_t>(i)) {
+      return false;
+    }
+  }
+  return std::ranges::count(piece.ghost_cells, 0) == std::ssize(piece.ghost_cells);
+}
+
 bool are_same(const DataArray* a, const DataArray* b) {
   return a != nullptr && b != nullptr && packed_field(*a) == packed_field(*b);
 }
 
 }  // namespace
 
-WholeMesh::WholeMesh(const PieceFiles& files, const mpi::Communicator& ranks) {
+WholeMesh::WholeMesh(PieceFiles& files, const mpi::Communicator& ranks) {
   document.format = files.file.piece_format;
+  if (ranks.size() == 1 && files.pieces.size() == 1 && is_whole(files.pieces.front())) {
+    is_of_piece_ = true;
+    exchange_with(files.pieces.front().document);
+    const SharedNumbers& numbers = files.pieces.front().ids;
+    ids.assign(numbers.begin(), numbers.end());
+    leave_out_copy_marks(document.point_arrays);
+    leave_out_copy_marks(document.cell_arrays);
+    return;
+  }
   find_vertices(files);
   number_points(files, ranks);
   gather_points(files, ranks);
@@ -177,17 +196,16 @@ WholeMesh::WholeMesh(const PieceFiles& files, const mpi::Communicator& ranks) {
   gather_fields(files, ranks);
 }
 
-WholeMesh::WholeMesh(const PieceFiles& files, const FileOptions& reading, const mpi::Communicator& ranks) {
-  find_vertices(files);
-  number_points(files, ranks);
-  agree(ranks, [&] {
-    if (ranks.rank() == 0) {
-      document = read_mesh(files.path, reading);
-      if (document.point_count() != ids.size()) {
-        throw ReadError(files.path, "has changed while it was read");
-      }
-    }
-  });
+void WholeMesh::exchange_with(MeshDocument& of_piece) {
+  std::swap(document.points, of_piece.points);
+  std::swap(document.point_type, of_piece.point_type);
+  std::swap(document.has_float32_axis, of_piece.has_float32_axis);
+  std::swap(document.points_description, of_piece.points_description);
+  std::swap(document.cells, of_piece.cells);
+  std::swap(document.point_arrays, of_piece.point_arrays);
+  std::swap(document.cell_arrays, of_piece.cell_arrays);
+  std::swap(document.field_arrays, of_piece.field_arrays);
+  std::swap(document.has_stale_annotations, of_piece.has_stale_annotations);
 }
 
 void WholeMesh::find_vertices(const PieceFiles& files) {
@@ -501,7 +519,12 @@ mpi::ByRank<std::int32_t> WholeMesh::cells_of_ranks(const PieceFiles& files, con
 }
 
 void WholeMesh::hand_back(PieceFiles& files, std::span<const std::string> point_arrays, const AddedArrays& added,
-                          const mpi::Communicator& ranks) const {
+                          const mpi::Communicator& ranks) {
+  if (is_of_piece_) {
+    exchange_with(files.pieces.front().document);
+    files.pieces.front().added = added;
+    return;
+  }
   const auto rows_of_rank = [&](std::span<const std::byte> rows, std::size_t size,
                                 const mpi::ByRank<std::int32_t>& places, std::size_t count) {
     std::vector<std::int64_t> counts(places.size(), 0);

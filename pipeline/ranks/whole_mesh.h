@@ -18,13 +18,10 @@ namespace trismooth {
 /// marks copies, and those of the whole mesh (fields) that are the same in all pieces.
 class WholeMesh {
  public:
-  /// Piece::ids are known. Collective. Throws ReadError on all ranks for more points or cells than 32 bits number.
-  /// Complexity: n log n in the whole mesh on rank 0, in what they have on the others.
-  WholeMesh(const PieceFiles& files, const mpi::Communicator& ranks);
-
-  /// The same of a file that was shared out in pieces: rank 0 reads it, with all that pieces do not have. Throws what
-  /// read_mesh() throws.
-  WholeMesh(const PieceFiles& files, const FileOptions& reading, const mpi::Communicator& ranks);
+  /// Piece::ids are known. Where there is one rank, and one piece that is the mesh as it stands, the piece's document
+  /// is without points, cells and arrays until hand_back(). Collective. Throws ReadError on all ranks for more points
+  /// or cells than 32 bits number. Complexity: n log n in the whole mesh on rank 0, in what they have on the others.
+  WholeMesh(PieceFiles& files, const mpi::Communicator& ranks);
 
   MeshDocument document;          ///< empty on other ranks, as `ids` is
   std::vector<std::int64_t> ids;  ///< of the document's points, ascending
@@ -34,7 +31,7 @@ class WholeMesh {
   /// cells have, those of which no piece has the cell zeros. Collective. Complexity: linear, and n log n in the cells
   /// where there are copies of some.
   void hand_back(PieceFiles& files, std::span<const std::string> point_arrays, const AddedArrays& added,
-                 const mpi::Communicator& ranks) const;
+                 const mpi::Communicator& ranks);
 
  private:
   /// A vertex of the rank, and the point that stands for it.
@@ -45,6 +42,8 @@ class WholeMesh {
     std::int32_t point;
   };
 
+  /// Points, cells and arrays.
+  void exchange_with(MeshDocument& of_piece);
   void find_vertices(const PieceFiles& files);
   void number_points(const PieceFiles& files, const mpi::Communicator& ranks);
   void gather_points(const PieceFiles& files, const mpi::Communicator& ranks);
@@ -56,6 +55,7 @@ class WholeMesh {
   mpi::ByRank<std::int32_t> cells_of_ranks(const PieceFiles& files, const mpi::Communicator& ranks) const;
   std::vector<std::int32_t> cells_of_copies(std::span<const std::int32_t> copies, std::size_t rank) const;
 
+  bool is_of_piece_ = false;                            ///< from the only piece
   std::vector<RankVertex> vertices_;                    ///< of this rank, ascending by id
   std::vector<std::vector<std::int32_t>> vertices_of_;  ///< for each piece and point: its place in vertices_
   mpi::ByRank<std::int32_t> places_;                    ///< on rank 0: the points of the vertices of each rank

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/ranks/one_file_run.h"
+#include "trismooth/pipeline/ranks/run_on_first.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -195,6 +195,9 @@ class RanksRelease {
 
 PipelineResult run_on_first(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks,
                             const std::function<PipelineResult(const PipelineOptions&)>& run) {
+  if (ranks->size() == 1) {
+    return run(options);
+  }
   const Partition partition = options.partition.value_or(Partition::bisect);
   PipelineResult result;
   std::exception_ptr error;  // of rank 0, between the sweeps: the others listen then
@@ -205,7 +208,7 @@ PipelineResult run_on_first(const PipelineOptions& options, const std::shared_pt
     try {
       const RankBackend backend(options.smoothing.backend, partition, ranks);
       PipelineOptions own = options;
-      own.smoothing.backend = ranks->size() > 1 ? &backend : options.smoothing.backend;
+      own.smoothing.backend = &backend;
       result = run(own);
     } catch (...) {
       error = std::current_exception();
@@ -217,10 +220,6 @@ PipelineResult run_on_first(const PipelineOptions& options, const std::shared_pt
     }
   });
   return result;
-}
-
-PipelineResult run_one_file(const PipelineOptions& options, const std::shared_ptr<const mpi::Communicator>& ranks) {
-  return run_on_first(options, ranks, &run_pipeline);
 }
 
 }  // namespace trismooth
