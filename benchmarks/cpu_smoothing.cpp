@@ -16,8 +16,8 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
+#include "trismooth/pipeline/report/spread.h"
 #include "trismooth/smoothing/rings/listed_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -50,10 +50,10 @@ class Series {
   explicit Series(std::string name) : name_(std::move(name)) {}
   void add(double value) { values_.push_back(value); }
   void print() const {
-    const experiments::Spread s(values_);
+    const Spread s(values_);
     fmt::print("  {:<34}{:>10.1f} ms   ({:.1f} to {:.1f})\n", name_, s.median, s.least, s.most);
   }
-  double median() const { return experiments::Spread(values_).median; }
+  double median() const { return Spread(values_).median; }
 
  private:
   std::string name_;

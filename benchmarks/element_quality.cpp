@@ -26,11 +26,11 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/report/spread.h"
 #include "trismooth/quality/size_change.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
@@ -188,7 +188,7 @@ std::vector<Row> rows_of(const Input& input, const Settings& settings, const std
     row.method = to_string(method);
     row.sizes = size_change(before, view, settings.threads);
     row.smoothing = std::move(result);
-    row.milliseconds = experiments::Spread(times).median;
+    row.milliseconds = Spread(times).median;
     measure(view, found.fixed, row);
     rows.push_back(row);
   }

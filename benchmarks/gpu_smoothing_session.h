@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
+#include "trismooth/pipeline/report/spread.h"
 #include "trismooth/smoothing/options.h"
 
 /// What the experiments of gpu_smoothing have in common.
@@ -38,7 +38,7 @@ struct Settings {
   std::string json;
 };
 
-using trismooth::experiments::Spread;
+using trismooth::Spread;
 
 Json json_of(const Spread& spread);
 

@@ -21,8 +21,8 @@
 
 #include "trismooth/base/processor_name.h"
 #include "trismooth/base/stopwatch.h"
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_document.h"
+#include "trismooth/pipeline/report/spread.h"
 
 #include "mesh_files.h"
 #include "run_reporting.h"
@@ -79,7 +79,7 @@ std::vector<std::pair<std::string, double>> medians(
     }
   }
   for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].second = experiments::Spread(values[i]).median;
+    result[i].second = Spread(values[i]).median;
   }
   return result;
 }

@@ -17,8 +17,8 @@
 #include "trismooth/base/processor_name.h"
 #include "trismooth/base/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/generate/random_document.h"
+#include "trismooth/pipeline/report/spread.h"
 
 #include "mesh_files.h"
 #include "run_reporting.h"
@@ -62,7 +62,7 @@ void print(const Settings& settings, const std::vector<Row>& rows) {
              "of " + rows.front().kind);
   for (const Row& row : rows) {
     for (std::size_t t = 0; t < settings.threads.size(); ++t) {
-      const experiments::Spread spread(row.milliseconds[t]);
+      const Spread spread(row.milliseconds[t]);
       // Run by run: what is measured side by side is compared.
       std::vector<double> ratios;
       for (std::size_t run = 0; run < row.milliseconds[t].size(); ++run) {
@@ -71,7 +71,7 @@ void print(const Settings& settings, const std::vector<Row>& rows) {
       fmt::print("{:<11} {:>8.1f} {:>3} {:>8.1f} {:>17} {:>7.0f} {:>9.2f}\n", row.kind,
                  static_cast<double>(row.bytes) / 1e6, settings.threads[t], spread.median,
                  fmt::format("({:.1f} to {:.1f})", spread.least, spread.most),
-                 static_cast<double>(row.bytes) / 1e3 / spread.median, experiments::Spread(ratios).median);
+                 static_cast<double>(row.bytes) / 1e3 / spread.median, Spread(ratios).median);
     }
   }
 }

@@ -9,8 +9,8 @@
 
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/experiments/published.h"
-#include "trismooth/pipeline/experiments/spread.h"
 #include "trismooth/pipeline/experiments/versions.h"
+#include "trismooth/pipeline/report/spread.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth::experiments {

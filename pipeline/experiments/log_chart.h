@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/report/spread.h"
 
 namespace trismooth::experiments {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/report/spread.h"
 
 namespace trismooth::experiments {
 

@@ -16,6 +16,7 @@
 using trismooth::CudaSupport;
 using trismooth::Form;
 using trismooth::Order;
+using trismooth::Spread;
 using trismooth::experiments::Case;
 using trismooth::experiments::ExperimentOptions;
 using trismooth::experiments::ExperimentProgress;
@@ -24,7 +25,6 @@ using trismooth::experiments::Lack;
 using trismooth::experiments::Measurement;
 using trismooth::experiments::Row;
 using trismooth::experiments::run_experiment;
-using trismooth::experiments::Spread;
 using trismooth::experiments::Version;
 
 namespace {

@@ -13,6 +13,7 @@
 
 #include "catch.h"
 
+using trismooth::Spread;
 using trismooth::experiments::ChartPanel;
 using trismooth::experiments::ChartPoint;
 using trismooth::experiments::ChartSeries;
@@ -20,7 +21,6 @@ using trismooth::experiments::LineStyle;
 using trismooth::experiments::log_chart_svg;
 using trismooth::experiments::LogChart;
 using trismooth::experiments::Marker;
-using trismooth::experiments::Spread;
 
 namespace {
 

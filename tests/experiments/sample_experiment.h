@@ -13,10 +13,10 @@ namespace sample {
 using trismooth::Form;
 using trismooth::Layout;
 using trismooth::Order;
+using trismooth::Spread;
 using trismooth::experiments::Case;
 using trismooth::experiments::ExperimentResult;
 using trismooth::experiments::Measurement;
-using trismooth::experiments::Spread;
 using trismooth::experiments::Version;
 
 /// The milliseconds of smoothing of a case on a mesh; nothing where it was not measured.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace trismooth::experiments {
+namespace trismooth {
 
 /// Several measurements of the same.
 struct Spread {
@@ -29,4 +29,4 @@ Spread ratio(const Spread& one, const Spread& other);
 /// A positive number in about three digits: "0.041", "0.412", "4.12", "41.2", "412", "41203".
 std::string three_digits(double value);
 
-}  // namespace trismooth::experiments
+}  // namespace trismooth

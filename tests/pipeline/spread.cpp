@@ -1,13 +1,13 @@
-#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/report/spread.h"
 
 #include <stdexcept>
 #include <vector>
 
 #include "catch.h"
 
-using trismooth::experiments::ratio;
-using trismooth::experiments::Spread;
-using trismooth::experiments::three_digits;
+using trismooth::ratio;
+using trismooth::Spread;
+using trismooth::three_digits;
 
 TEST_CASE("a spread has the middle and both ends of its values, in whatever order they come") {
   const Spread odd(std::vector<double>{5, 1, 3});

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/experiments/spread.h"
+#include "trismooth/pipeline/report/spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace trismooth::experiments {
+namespace trismooth {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, decimals_of(value));
 }
 
-}  // namespace trismooth::experiments
+}  // namespace trismooth
