@@ -1,7 +1,6 @@
 #include "trismooth/pipeline/cli/command_line.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -61,9 +60,12 @@ std::string help_hint(const CLI::App& app) {
 }
 
 ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const CommandEnvironment& environment) {
-  const std::array<Subcommand, 5> subcommands{
-      add_smooth_command(app, environment), add_quality_command(app, environment),
-      add_generate_command(app, environment), add_bench_command(app, environment), add_info_command(app, environment)};
+  std::vector<Subcommand> subcommands{add_smooth_command(app, environment), add_quality_command(app, environment),
+                                      add_generate_command(app, environment)};
+  for (const AddSubcommand add : environment.more_commands) {
+    subcommands.push_back(add(app, environment));
+  }
+  subcommands.push_back(add_info_command(app, environment));
   for (const Subcommand& subcommand : subcommands) {
     subcommand.app->group("Commands");
   }
@@ -118,7 +120,8 @@ int run_words(int argc, const char* const* argv, const CommandEnvironment& given
   PrintableStream out(given.out);
   PrintableStream err(given.err);
   const CommandEnvironment environment{
-      out, err, given.terminal, given.run, given.cuda, {}, given.over_ranks, given.follows, given.whose};
+      out,           err,         given.terminal,     given.run, given.cuda, {}, given.over_ranks,
+      given.follows, given.whose, given.more_commands};
   CLI::App app(description, "trismooth");
   app.set_version_flag("--version,-V", "trismooth " + std::string(version()), "Print the version and exit");
   app.set_help_flag("--help,-h", "Print this help and exit");
@@ -149,7 +152,7 @@ int run_command_line(int argc, const char* const* argv, const CommandEnvironment
 
 namespace {
 
-int run_process(int argc, const char* const* argv) {
+int run_process(int argc, const char* const* argv, const std::vector<AddSubcommand>& more_commands) {
   reserve_memory_for_the_end();
   silence_libraries();
   reserve_standard_streams();
@@ -165,6 +168,7 @@ int run_process(int argc, const char* const* argv) {
   std::ostringstream unread;
   CommandEnvironment environment{follows ? static_cast<std::ostream&>(unread) : std::cout,
                                  follows ? static_cast<std::ostream&>(unread) : std::cerr, terminal};
+  environment.more_commands = more_commands;
   if (job == nullptr) {
     return run_command_line(argc, argv, environment);
   }
@@ -181,9 +185,9 @@ int run_process(int argc, const char* const* argv) {
 
 }  // namespace
 
-int run_command_line(int argc, const char* const* argv) {
+int run_program(int argc, const char* const* argv, const std::vector<AddSubcommand>& more_commands) {
   try {
-    return run_process(argc, argv);
+    return run_process(argc, argv, more_commands);
   } catch (...) {
     return static_cast<int>(report_failure(std::cerr, launched_rank()));
   }

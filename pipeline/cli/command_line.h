@@ -3,12 +3,23 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "trismooth/pipeline/cuda_support.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/report/terminal.h"
 
+namespace CLI {  // NOLINT(readability-identifier-naming): as CLI11 calls it
+class App;
+}
+
 namespace trismooth {
+
+struct CommandEnvironment;
+struct Subcommand;
+
+/// A function that adds a command: see subcommands.h.
+using AddSubcommand = Subcommand (*)(CLI::App& app, const CommandEnvironment& environment);
 
 /// What a command line is connected to. Tests hand in streams, a run and a CUDA of their own.
 struct CommandEnvironment {
@@ -23,6 +34,7 @@ struct CommandEnvironment {
   /// This is one of its ranks but the first: it takes part in the run and does nothing else.
   bool follows = false;
   std::string whose = {};  ///< what stands in front of errors: that rank, where it is one of those
+  std::vector<AddSubcommand> more_commands = {};  ///< that the program has beside those of pipeline/cli
 };
 
 /// Runs the command line (argv[0] is the program's name) and answers its exit code, see exit_code.h. Never throws for
@@ -30,9 +42,9 @@ struct CommandEnvironment {
 /// progress alone moves the cursor.
 int run_command_line(int argc, const char* const* argv, const CommandEnvironment& environment);
 
-/// Runs the command line as the program does, once in a process, which it takes over: the standard streams (closed ones
-/// are opened), the signals (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what
-/// VTK says.
-int run_command_line(int argc, const char* const* argv);
+/// Runs the program, once in a process, which it takes over: the standard streams (closed ones are opened), the signals
+/// (end_on_interrupt(); SIGXFSZ is ignored), the handler for memory that is used up, and what VTK says.
+/// `more_commands`: what CommandEnvironment::more_commands has.
+int run_program(int argc, const char* const* argv, const std::vector<AddSubcommand>& more_commands);
 
 }  // namespace trismooth

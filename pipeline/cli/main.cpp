@@ -1,5 +1,6 @@
+#include "trismooth/paper/bench_command.h"
 #include "trismooth/pipeline/cli/command_line.h"
 
 int main(int argc, char** argv) {
-  return trismooth::run_command_line(argc, argv);
+  return trismooth::run_program(argc, argv, {&trismooth::add_bench_command});
 }

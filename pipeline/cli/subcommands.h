@@ -21,7 +21,6 @@ struct Subcommand {
 Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environment);
-Subcommand add_bench_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_info_command(CLI::App& app, const CommandEnvironment& environment);
 
 }  // namespace trismooth

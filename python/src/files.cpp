@@ -22,6 +22,7 @@
 #include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/paper/bench_command.h"
 #include "trismooth/pipeline/cli/command_line.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/pipeline.h"
@@ -356,7 +357,7 @@ int run_program(const std::vector<nb::bytes>& arguments) {
     pointers.push_back(argument.c_str());
   }
   const nb::gil_scoped_release no_gil;
-  return run_command_line(static_cast<int>(pointers.size()), pointers.data());
+  return trismooth::run_program(static_cast<int>(pointers.size()), pointers.data(), {&add_bench_command});
 }
 
 }  // namespace

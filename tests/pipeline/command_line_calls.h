@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/paper/bench_command.h"
 #include "trismooth/pipeline/cli/command_line.h"
 
 #include "sample_run.h"
@@ -54,8 +55,9 @@ inline Outcome call(Words words, const Run& run, bool terminal = false, const Cu
     outcome.options = options;
     return run(options);
   };
-  outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(),
-                                             {out, err, {terminal ? &err : nullptr}, recorded, [&] { return cuda; }});
+  trismooth::CommandEnvironment environment{out, err, {terminal ? &err : nullptr}, recorded, [&] { return cuda; }};
+  environment.more_commands = {&trismooth::add_bench_command};
+  outcome.code = trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(), environment);
   outcome.out = out.str();
   outcome.err = err.str();
   return outcome;
