@@ -10,11 +10,7 @@
 
 #include "catch.h"
 
-using trismooth::parse_enum;
-using trismooth::to_string;
-using trismooth::valid_texts;
-
-namespace {
+namespace trismooth::enum_text_test {
 
 template <class Enum>
 std::string complaint(std::string_view text) {
@@ -25,8 +21,6 @@ std::string complaint(std::string_view text) {
   }
   return "no complaint";
 }
-
-}  // namespace
 
 TEMPLATE_TEST_CASE("every text reads back as its value, and no two are alike", "", trismooth::Method, trismooth::Form,
                    trismooth::Layout, trismooth::Execution, trismooth::Order, trismooth::Precision,
@@ -65,3 +59,5 @@ TEST_CASE("a bad value's message says what it is and which are valid") {
         "unknown method 'Smart'; valid are smart, laplacian, weighted, mean-ratio");
   CHECK(complaint<trismooth::Precision>("half") == "unknown precision 'half'; valid are double, single");
 }
+
+}  // namespace trismooth::enum_text_test

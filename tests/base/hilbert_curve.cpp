@@ -8,9 +8,7 @@
 
 #include "catch.h"
 
-using trismooth::hilbert_index;
-
-namespace {
+namespace trismooth::hilbert_curve_test {
 
 using Cell = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -31,8 +29,6 @@ std::uint64_t index_by_rotation(std::uint32_t x, std::uint32_t y, int order) {
   }
   return index;
 }
-
-}  // namespace
 
 TEST_CASE("the Hilbert curve visits every cell once, and each next cell shares a side with the last") {
   for (int order = 1; order <= 9; ++order) {
@@ -81,3 +77,5 @@ TEST_CASE("a cell's Hilbert index starts with that of the coarser cell that hold
     }
   }
 }
+
+}  // namespace trismooth::hilbert_curve_test

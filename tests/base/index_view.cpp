@@ -19,11 +19,9 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using test_meshes::Mesh;
-using trismooth::IndexView;
-using trismooth::Triangle;
+namespace trismooth::index_view_test {
 
-namespace {
+using test_meshes::Mesh;
 
 static_assert(std::is_convertible_v<const std::vector<std::int32_t>&, IndexView>);
 // Temporaries that own their numbers are gone before anybody can look.
@@ -90,8 +88,6 @@ std::string refusal(const std::function<void()>& function) {
   return "none";
 }
 
-}  // namespace
-
 TEST_CASE("vertex numbers of every type, in every form of memory, are the same triangles") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(5, 6, 0.3, 3), 5);
   check_type<std::int32_t>(mesh);
@@ -133,3 +129,5 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
   CHECK(refusal([] { static_cast<void>(trismooth::plan(std::int64_t{1} << 31, std::span<const int>{})); }) ==
         "mesh: more than 2147483647 vertices");
 }
+
+}  // namespace trismooth::index_view_test

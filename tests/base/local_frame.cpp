@@ -11,11 +11,7 @@
 #include "catch.h"
 #include "support/same_bits.h"
 
-using trismooth::local_frame;
-using trismooth::LocalFrame;
-using trismooth::Point2;
-
-namespace {
+namespace trismooth::local_frame_test {
 
 using Point = Point2<double>;
 using Points = std::vector<Point>;
@@ -99,8 +95,6 @@ void require_lossless(const Points& stored) {
   CHECK(extent >= 0.5);
   CHECK(extent <= 1);
 }
-
-}  // namespace
 
 TEST_CASE("stored coordinates survive the way into the local frame and back") {
   SECTION("unit square") {
@@ -314,3 +308,5 @@ TEST_CASE("points that do not count have no say in the frame, and enter it at it
   CHECK(of_nothing.exponent == 0);
   CHECK(of_nothing.centre_x == 0);
 }
+
+}  // namespace trismooth::local_frame_test

@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::LocalFrame;
-using trismooth::Point2;
+namespace trismooth::local_points_test {
 
 TEST_CASE("the frame of cells is that of the vertices that a cell uses") {
   namespace hold = trismooth::hold;
@@ -31,3 +30,5 @@ TEST_CASE("points enter their frame one by one") {
     CHECK(local.points[v] == frame.enter(points[v]));
   }
 }
+
+}  // namespace trismooth::local_points_test

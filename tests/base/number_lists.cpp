@@ -6,7 +6,7 @@
 
 #include "catch.h"
 
-using trismooth::NumberLists;
+namespace trismooth::number_lists_test {
 
 TEST_CASE("each number has the entries that it was given, in their order") {
   const std::vector<std::pair<std::int32_t, std::int32_t>> pairs{{7, 3}, {5, 1}, {7, 2}, {5, 9}, {7, 3}};
@@ -21,3 +21,5 @@ TEST_CASE("each number has the entries that it was given, in their order") {
 TEST_CASE("lists of nothing are empty, whatever the number") {
   CHECK(NumberLists()[12].empty());
 }
+
+}  // namespace trismooth::number_lists_test

@@ -8,7 +8,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::NumberPlaces;
+namespace trismooth::number_places_test {
 
 TEST_CASE("numbers have their places in the order of those that differ, and others have none") {
   test_meshes::Random random(1);
@@ -31,3 +31,5 @@ TEST_CASE("numbers have their places in the order of those that differ, and othe
     }
   }
 }
+
+}  // namespace trismooth::number_places_test

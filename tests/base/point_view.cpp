@@ -21,19 +21,9 @@
 #include "support/fake_backend.h"
 #include "support/test_meshes.h"
 
-using test_meshes::Mesh;
-using trismooth::ConstPointView;
-using trismooth::MeshError;
-using trismooth::plan;
-using trismooth::Point2;
-using trismooth::PointView;
-using trismooth::smooth;
-using trismooth::SmoothingOptions;
-using trismooth::Storage;
-using trismooth::xy_points;
-using trismooth::xyz_points;
+namespace trismooth::point_view_test {
 
-namespace {
+using test_meshes::Mesh;
 
 template <class Points>
 concept Smoothable = requires(Points&& points, const std::vector<std::int32_t>& triangles) {
@@ -234,8 +224,6 @@ std::string refusal(const std::function<void()>& function) {
   }
   return "none";
 }
-
-}  // namespace
 
 TEST_CASE("points of double in every form of memory are smoothed to the same bits, and all else there is left alone") {
   const Mesh mesh = sample();
@@ -441,3 +429,5 @@ TEST_CASE("the first vertex with a coordinate that is not finite is named, howev
           "mesh: vertex 70001 has a coordinate that is not finite");
   }
 }
+
+}  // namespace trismooth::point_view_test

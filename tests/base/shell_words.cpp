@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::shell_command;
-using trismooth::shell_word;
+namespace trismooth::shell_words_test {
 
 TEST_CASE("what needs no quotes has none, and nothing that a terminal obeys is left") {
   CHECK(shell_command(std::vector<std::string>{"trismooth", "smooth", "--require", "inverted == 0", "it's"}) ==
@@ -32,3 +31,5 @@ TEST_CASE("what needs no quotes has none, and nothing that a terminal obeys is l
     CHECK(shell_word(quoted) == "'" + std::string(quoted) + "'");
   }
 }
+
+}  // namespace trismooth::shell_words_test

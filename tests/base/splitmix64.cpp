@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::coloured_before;
-using trismooth::splitmix64;
+namespace trismooth::splitmix64_test {
 
 TEST_CASE("splitmix64 gives the published sequence of the generator") {
   constexpr std::uint64_t step = 0x9e3779b97f4a7c15U;
@@ -32,3 +31,5 @@ TEST_CASE("the colouring order is strict and total") {
   CHECK(coloured_before(0, std::numeric_limits<std::int32_t>::max()) !=
         coloured_before(std::numeric_limits<std::int32_t>::max(), 0));
 }
+
+}  // namespace trismooth::splitmix64_test

@@ -4,8 +4,7 @@
 
 #include "catch.h"
 
-using trismooth::canonical_corners;
-using trismooth::Triangle;
+namespace trismooth::triangle_view_test {
 
 TEST_CASE("rotations of a triangle have the same canonical corners, the smallest first") {
   for (const Triangle triangle : {Triangle{1, 5, 9}, Triangle{5, 9, 1}, Triangle{9, 1, 5}}) {
@@ -25,3 +24,5 @@ TEST_CASE("a view without reversal flags has no reversed triangle") {
   CHECK(canonical_corners({{}, triangles, reversed, 0}, 0) == Triangle{0, 1, 2});
   CHECK(canonical_corners({{}, triangles, reversed, 0}, 1) == Triangle{3, 5, 4});
 }
+
+}  // namespace trismooth::triangle_view_test

@@ -14,14 +14,7 @@
 
 #include "catch.h"
 
-using trismooth::CellList;
-using trismooth::fit_plane;
-using trismooth::Plane;
-using trismooth::PlaneFit;
-using trismooth::Point2;
-using trismooth::Workers;
-
-namespace {
+namespace trismooth::plane_test {
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -74,8 +67,6 @@ double distortion(const Plane& plane, const Points& points, double size) {
   }
   return largest;
 }
-
-}  // namespace
 
 TEST_CASE("a mesh along two coordinate axes keeps its coordinates as they are") {
   std::mt19937_64 random(1);
@@ -224,8 +215,6 @@ TEST_CASE("a point that does not move keeps its bits, one that does its offset f
   }
 }
 
-namespace {
-
 /// n x n vertices a unit apart, and the triangles between them.
 struct Grid {
   Points points;
@@ -251,8 +240,6 @@ bool same_plane(const Plane& a, const Plane& b) {
   return a.aligned == b.aligned && a.axes == b.axes && a.slope == b.slope && a.origin == b.origin && a.u == b.u &&
          a.v == b.v && a.foot == b.foot && a.deviation == b.deviation;
 }
-
-}  // namespace
 
 TEST_CASE("points that do not count have no say in the plane, wherever they are") {
   std::mt19937_64 random(6);
@@ -428,3 +415,5 @@ TEST_CASE("where free vertices far away hide that the fixed ones are in another 
     CHECK(std::abs(kept->plane.normal().dot(moved - kept->plane.foot)) < 1e-12);
   }
 }
+
+}  // namespace trismooth::plane_test

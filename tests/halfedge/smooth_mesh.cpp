@@ -23,14 +23,9 @@
 #include "support/fake_backend.h"
 #include "support/planar_samples.h"
 
-using planar_samples::Sample;
-using trismooth::Form;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-using trismooth::Triangle;
-using trismooth::TriangleMesh;
+namespace trismooth::smooth_mesh_test {
 
-namespace {
+using planar_samples::Sample;
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -98,8 +93,6 @@ Eigen::Matrix3d random_rotation(std::mt19937_64& random) {
   const Eigen::Quaterniond rotation(normal(random), normal(random), normal(random), normal(random));
   return rotation.normalized().toRotationMatrix();
 }
-
-}  // namespace
 
 TEST_CASE("a halfedge mesh along two axes is smoothed to the bits of the flat arrays") {
   const Form form = GENERATE(Form::swap, Form::in_place);
@@ -397,3 +390,5 @@ TEST_CASE("stopping from the progress callback leaves a valid mesh") {
   CHECK(worst_shape(points_of(mesh), triangles, Eigen::Vector3d::UnitZ()) >=
         worst_shape(before, triangles, Eigen::Vector3d::UnitZ()));
 }
+
+}  // namespace trismooth::smooth_mesh_test

@@ -21,13 +21,13 @@
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
 
+namespace sliding_test {
+
 using namespace properties;
 using trismooth::Evaluation;
 using trismooth::Slide;
 using trismooth::SlideCurve;
 using trismooth::Triangle;
-
-namespace {
 
 using Number = long double;
 using Spot = Point2<Number>;
@@ -203,8 +203,6 @@ std::string for_some_slides(const RandomMesh& mesh, std::uint64_t count, const C
   });
 }
 
-}  // namespace
-
 TEST_CASE("only vertices of one line slide, on it and no further from it than they may, and nothing gets worse") {
   std::int64_t slid = 0;
   for_random_meshes(4000, [&](const RandomMesh& mesh) {
@@ -260,3 +258,5 @@ TEST_CASE("sliding gives the same bits again, by plans, evaluating all, and in w
         });
   });
 }
+
+}  // namespace sliding_test

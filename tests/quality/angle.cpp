@@ -8,9 +8,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::angle_above_axis;
-
-namespace {
+namespace trismooth::angle_test {
 
 /// How far from the true angle, in units in the last place of it.
 double error_in_units(double y, double x) {
@@ -19,8 +17,6 @@ double error_in_units(double y, double x) {
   const double unit = std::nextafter(rounded, std::numeric_limits<double>::infinity()) - rounded;
   return static_cast<double>(std::abs((static_cast<long double>(angle_above_axis(y, x)) - true_angle) / unit));
 }
-
-}  // namespace
 
 TEST_CASE("angles are those of long double within three units in the last place") {
   test_meshes::Random random(3);
@@ -51,3 +47,5 @@ TEST_CASE("angles where the formula changes are exact, or as near as the others"
     }
   }
 }
+
+}  // namespace trismooth::angle_test

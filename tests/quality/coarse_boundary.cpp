@@ -13,11 +13,9 @@
 #include "support/says.h"
 #include "support/test_meshes.h"
 
-namespace coarse_boundary_test {
+namespace trismooth::coarse_boundary_test {
 
-namespace hold = trismooth::hold;
 using test_meshes::Mesh;
-using trismooth::CoarseBoundary;
 
 /// Why vertices are held: those of edges with one triangle.
 std::vector<std::uint8_t> held_of(const Mesh& mesh) {
@@ -159,4 +157,4 @@ TEST_CASE("a mesh without triangles or without free vertices has no coarse bound
   CHECK_FALSE(find(test_meshes::jittered_grid(2, 2, 0, 1)).any());
 }
 
-}  // namespace coarse_boundary_test
+}  // namespace trismooth::coarse_boundary_test

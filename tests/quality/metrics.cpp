@@ -21,20 +21,7 @@
 #include "catch.h"
 #include "support/same_bits.h"
 
-using trismooth::all_metrics;
-using trismooth::evaluate;
-using trismooth::evaluate_all;
-using trismooth::info;
-using trismooth::is_acceptable;
-using trismooth::Metric;
-using trismooth::metric_count;
-using trismooth::metric_named;
-using trismooth::MetricInfo;
-using trismooth::MetricValues;
-using trismooth::Point2;
-using trismooth::shape;
-
-namespace {
+namespace trismooth::metrics_test {
 
 using Point = Point2<double>;
 
@@ -74,8 +61,6 @@ constexpr std::array signed_metrics{Metric::shape, Metric::area, Metric::conditi
 bool is_signed(Metric metric) {
   return std::find(signed_metrics.begin(), signed_metrics.end(), metric) != signed_metrics.end();
 }
-
-}  // namespace
 
 TEST_CASE("every metric agrees with Verdict on random triangles") {
   using VerdictFunction = double (*)(vtkCell*);
@@ -341,3 +326,5 @@ TEST_CASE("acceptable is what Verdict's manual says, open at the ideal end, and 
   CHECK(is_acceptable(Metric::area, 0));
   CHECK_FALSE(is_acceptable(Metric::area, -1e-300));
 }
+
+}  // namespace trismooth::metrics_test

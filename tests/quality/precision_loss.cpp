@@ -9,11 +9,9 @@
 
 #include "catch.h"
 
-using trismooth::PrecisionLoss;
-using trismooth::Triangle;
-using Point = trismooth::Point2<double>;
+namespace trismooth::precision_loss_test {
 
-namespace {
+using Point = trismooth::Point2<double>;
 
 /// A large triangle and small right-angled ones of size `small` near the point (1/3, 1/5), whose coordinates have all
 /// digits.
@@ -27,8 +25,6 @@ PrecisionLoss loss_beside(double small, std::int32_t count, int threads = 1) {
   }
   return trismooth::single_precision_loss({points, triangles, {}}, threads);
 }
-
-}  // namespace
 
 TEST_CASE("a mesh of one size is held by single precision") {
   const PrecisionLoss loss = loss_beside(0.01, 100);
@@ -77,3 +73,5 @@ TEST_CASE("the description says how many of what") {
   CHECK(describe(PrecisionLoss{18, 0, 1}) == begin + distorted);
   CHECK(describe(PrecisionLoss{18, 4, 1}) == begin + collapsed + ", " + distorted);
 }
+
+}  // namespace trismooth::precision_loss_test

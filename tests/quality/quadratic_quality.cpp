@@ -6,10 +6,7 @@
 
 #include "catch.h"
 
-using trismooth::Point2;
-using trismooth::quadratic_quality;
-using trismooth::QuadraticTriangle;
-using trismooth::Triangle;
+namespace trismooth::quadratic_quality_test {
 
 TEST_CASE("quadratic triangles are counted, the invalid ones in the orientation of their component") {
   // A square of two triangles with middles, the second listed clockwise.
@@ -32,3 +29,5 @@ TEST_CASE("quadratic triangles are counted, the invalid ones in the orientation 
   CHECK(none.elements == 0);
   CHECK(std::isinf(none.min_jacobian));
 }
+
+}  // namespace trismooth::quadratic_quality_test

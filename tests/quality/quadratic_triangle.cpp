@@ -9,12 +9,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::jacobian_bound;
-using trismooth::JacobianBound;
-using trismooth::Point2;
-using trismooth::QuadraticNodes;
-
-namespace {
+namespace trismooth::quadratic_triangle_test {
 
 using Node = Point2<double>;
 
@@ -74,8 +69,6 @@ QuadraticNodes random_nodes(test_meshes::Random& random, double bend) {
   }
   return nodes;
 }
-
-}  // namespace
 
 TEST_CASE("a triangle of straight sides has one Jacobian everywhere") {
   const JacobianBound bound = jacobian_bound(straight({0, 0}, {1, 0}, {0, 0.5}));
@@ -182,3 +175,5 @@ TEST_CASE("where the triangle is and in which power of two it is measured does n
     REQUIRE(jacobian_bound(turned).lowest == Approx(jacobian_bound(nodes).lowest).margin(1e-13 + 1e-12 * size));
   }
 }
+
+}  // namespace trismooth::quadratic_triangle_test

@@ -18,13 +18,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::Metric;
-using trismooth::quality;
-using trismooth::QualityReport;
-using trismooth::xy_points;
-using trismooth::xyz_points;
-
-namespace {
+namespace trismooth::quality_test {
 
 template <class Points, class Triangles>
 concept HasQuality = requires(Points&& points, Triangles&& triangles) {
@@ -80,8 +74,6 @@ std::string refusal(const std::function<void()>& function) {
   }
   return "none";
 }
-
-}  // namespace
 
 TEST_CASE("the quality of arrays is that of their triangles, and the arrays stay as they are") {
   const test_meshes::Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(12, 9, 0.3, 4), 5);
@@ -240,3 +232,5 @@ TEST_CASE("triangles analysed once have the quality of those analysed each time"
         "argument: points: 107 of them, expected one for each of 108 vertices");
   CHECK(refusal([&] { trismooth::MeshQuality(2, mesh.triangles); }).starts_with("mesh: triangle 0 names vertex"));
 }
+
+}  // namespace trismooth::quality_test

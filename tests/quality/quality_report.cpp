@@ -19,22 +19,7 @@
 #include "catch.h"
 #include "support/same_bits.h"
 
-using trismooth::all_metrics;
-using trismooth::evaluate;
-using trismooth::is_acceptable;
-using trismooth::Metric;
-using trismooth::metric_count;
-using trismooth::MetricInfo;
-using trismooth::MetricSummary;
-using trismooth::Point2;
-using trismooth::quality_report;
-using trismooth::QualityReport;
-using trismooth::shape;
-using trismooth::smallest_shape;
-using trismooth::Triangle;
-using trismooth::TriangleView;
-
-namespace {
+namespace trismooth::quality_report_test {
 
 using Point = Point2<double>;
 
@@ -107,8 +92,6 @@ std::vector<double> naive_values(const Mesh& mesh, Metric metric) {
   }
   return values;
 }
-
-}  // namespace
 
 TEST_CASE("the report agrees with plain loops in extended precision") {
   const Mesh mesh = random_mesh(20000);
@@ -337,3 +320,5 @@ TEST_CASE("a number of threads that no machine has is refused by every measure o
     CHECK_THROWS_AS(trismooth::single_precision_loss({points, triangles, {}}, threads), std::invalid_argument);
   }
 }
+
+}  // namespace trismooth::quality_report_test

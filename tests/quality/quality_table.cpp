@@ -9,17 +9,7 @@
 
 #include "catch.h"
 
-using trismooth::all_metrics;
-using trismooth::format_summary;
-using trismooth::format_table;
-using trismooth::Metric;
-using trismooth::MetricInfo;
-using trismooth::Point2;
-using trismooth::quality_report;
-using trismooth::QualityReport;
-using trismooth::Triangle;
-
-namespace {
+namespace trismooth::quality_table_test {
 
 /// A strip of triangles whose upper side is shifted by `shear`: the larger, the worse.
 QualityReport strip_report(double shear, int triangle_pairs = 1000) {
@@ -71,8 +61,6 @@ std::vector<std::string> words_below(const std::string& text, const std::string&
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("a table shows every metric once, in plain ASCII within 80 columns") {
   const QualityReport before = strip_report(2.5);
@@ -247,3 +235,5 @@ TEST_CASE("a report prints itself as its table") {
   stream << report;
   CHECK(stream.str() == format_table(report));
 }
+
+}  // namespace trismooth::quality_table_test

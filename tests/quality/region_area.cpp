@@ -6,6 +6,8 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::region_area_test {
+
 TEST_CASE("areas of regions are those of their triangles, wherever the vertices inside are") {
   const test_meshes::Mesh even = test_meshes::jittered_grid(9, 9, 0, 1);
   const test_meshes::Mesh jittered = test_meshes::jittered_grid(9, 9, 0.3, 1);
@@ -27,3 +29,5 @@ TEST_CASE("a reversed triangle counts as the orientation has it") {
   CHECK(trismooth::region_areas({mesh.points, mesh.triangles, reversed}, {}, 1) == std::vector<double>{1});
   CHECK(trismooth::region_areas({mesh.points, mesh.triangles, {}}, {}, 1) == std::vector<double>{0});
 }
+
+}  // namespace trismooth::region_area_test

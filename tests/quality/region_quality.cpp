@@ -11,10 +11,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::Metric;
-using trismooth::region_quality;
-using trismooth::RegionQuality;
-using trismooth::Triangle;
+namespace trismooth::region_quality_test {
 
 TEST_CASE("the quality of a region is that of a mesh of its triangles alone") {
   const auto mesh = test_meshes::tangled(40, 3);
@@ -68,3 +65,5 @@ TEST_CASE("regions get the same bits from every number of threads") {
     }
   }
 }
+
+}  // namespace trismooth::region_quality_test

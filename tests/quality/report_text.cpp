@@ -2,7 +2,7 @@
 
 #include "catch.h"
 
-using trismooth::size_text;
+namespace trismooth::report_text_test {
 
 TEST_CASE("sizes are written short where that is exact") {
   CHECK(size_text(4) == "4");
@@ -21,3 +21,5 @@ TEST_CASE("an amount of memory has the digits that matter") {
   CHECK(trismooth::bytes_text(std::int64_t{213} << 20) == "213 MiB");
   CHECK(trismooth::bytes_text((std::int64_t{139} << 30) + (std::int64_t{1} << 29)) == "139.5 GiB");
 }
+
+}  // namespace trismooth::report_text_test

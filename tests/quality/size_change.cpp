@@ -10,12 +10,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::size_change;
-using trismooth::SizeChange;
-using trismooth::Triangle;
-using trismooth::TriangleView;
-
-namespace size_change_test {
+namespace trismooth::size_change_test {
 
 using test_meshes::Mesh;
 using test_meshes::triangles_of_areas;
@@ -146,4 +141,4 @@ TEST_CASE("the change of sizes is of one list of triangles") {
                   std::invalid_argument);
 }
 
-}  // namespace size_change_test
+}  // namespace trismooth::size_change_test

@@ -8,11 +8,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::size_fit;
-using trismooth::SizeFit;
-using trismooth::TriangleView;
-
-namespace size_fit_test {
+namespace trismooth::size_fit_test {
 
 using test_meshes::Mesh;
 using test_meshes::triangles_of_areas;
@@ -68,4 +64,4 @@ TEST_CASE("how far sizes are off does not depend on the number of threads") {
   }
 }
 
-}  // namespace size_fit_test
+}  // namespace trismooth::size_fit_test

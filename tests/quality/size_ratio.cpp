@@ -14,14 +14,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::MetricSummary;
-using trismooth::Point2;
-using trismooth::size_ratio_summary;
-using trismooth::size_ratios;
-using trismooth::Triangle;
-using trismooth::TriangleView;
-
-namespace size_ratio_test {
+namespace trismooth::size_ratio_test {
 
 using test_meshes::Mesh;
 
@@ -112,4 +105,4 @@ TEST_CASE("a mesh without triangles has no size ratio, and reports have it where
   CHECK(format_table(report, &report).find("\nsize_ratio ") != std::string::npos);
 }
 
-}  // namespace size_ratio_test
+}  // namespace trismooth::size_ratio_test

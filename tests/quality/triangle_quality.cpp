@@ -6,9 +6,7 @@
 
 #include "catch.h"
 
-using trismooth::Point2;
-using trismooth::shape;
-using trismooth::shape_quotient;
+namespace trismooth::triangle_quality_test {
 
 using Point = Point2<double>;
 
@@ -86,3 +84,5 @@ TEST_CASE("the quotient from edges is the quotient from points") {
   CHECK(shape_quotient(b - a, c - a, squared_length(b - a), squared_length(c - b), squared_length(c - a)) ==
         shape_quotient(a, b, c));
 }
+
+}  // namespace trismooth::triangle_quality_test

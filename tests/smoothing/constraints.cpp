@@ -11,11 +11,7 @@
 
 #include "catch.h"
 
-using trismooth::ArrayView;
-using trismooth::check_constraints;
-using trismooth::Constraints;
-
-namespace {
+namespace trismooth::constraints_test {
 
 using Flags = std::vector<std::uint8_t>;
 using Ids = std::vector<std::int32_t>;
@@ -55,8 +51,6 @@ std::string complaint(const Constraints& constraints, std::int32_t vertices, std
   return "none";
 }
 
-}  // namespace
-
 TEST_CASE("constraints of the right length, or none, fit") {
   const Flags flags(4, 1);
   const Ids ids{3, 0, 3};
@@ -75,3 +69,5 @@ TEST_CASE("constraints show the caller's numbers, not a copy") {
   CHECK(constraints.fixed_ids.size() == 2);
   CHECK(constraints.fixed.empty());
 }
+
+}  // namespace trismooth::constraints_test

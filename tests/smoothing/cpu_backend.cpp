@@ -20,20 +20,10 @@
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::cpu_backend_test {
+
 using test_meshes::Mesh;
 using test_meshes::Point;
-using trismooth::Form;
-using trismooth::Method;
-using trismooth::Precision;
-using trismooth::Progress;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-using trismooth::StopReason;
-using trismooth::Storage;
-using trismooth::SweepRecord;
-using trismooth::Workers;
-
-namespace {
 
 const Mesh& grid() {
   static const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(20, 20, 0.3, 1), 2);
@@ -60,8 +50,6 @@ double smallest_shape_of(const Mesh& mesh, const std::vector<double>& xy) {
 }
 
 constexpr Form forms[] = {Form::swap, Form::in_place};
-
-}  // namespace
 
 TEST_CASE("at a fixed point the last sweep, in which nothing moved, counts") {
   for (const Form form : forms) {
@@ -276,15 +264,11 @@ TEST_CASE("layout and execution mean nothing to the CPU") {
   CHECK(smoothed(grid(), options).xy == expected);
 }
 
-namespace {
-
 /// A mesh as backends take it, listed counter-clockwise.
 trismooth::MeshRings found_in(const Mesh& mesh) {
   Workers workers(1);
   return trismooth::find_mesh_rings(mesh.points, mesh.triangles, {}, workers);
 }
-
-}  // namespace
 
 TEST_CASE("the points that a mesh is made ready with steer its order in memory and no result") {
   const Mesh& mesh = grid();
@@ -354,3 +338,5 @@ TEST_CASE("a prepared mesh knows its triangles without a free vertex, wherever t
     CHECK(result.history[0].min_shape == Approx(expected).epsilon(1e-14));
   }
 }
+
+}  // namespace trismooth::cpu_backend_test

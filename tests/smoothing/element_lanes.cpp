@@ -9,11 +9,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::ElementLanes;
-using trismooth::InstructionSet;
-using trismooth::Point2;
-
-namespace {
+namespace trismooth::element_lanes_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -35,8 +31,6 @@ Point2<double> random_point(test_meshes::Random& random) {
   const double y = on_grid ? random.below(3) - 1 : random.between(-1, 1);
   return {x, y};
 }
-
-}  // namespace
 
 TEST_CASE("elements side by side are measured as one by one, to the bit, by all instructions and in any number") {
   test_meshes::Random random(11);
@@ -88,3 +82,5 @@ TEST_CASE("elements side by side are measured as one by one, to the bit, by all 
   CHECK(worse > 100);
   CHECK(lost > 100);
 }
+
+}  // namespace trismooth::element_lanes_test

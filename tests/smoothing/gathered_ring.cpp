@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::Point2;
-using trismooth::RingGatherer;
+namespace trismooth::gathered_ring_test {
 
 TEMPLATE_TEST_CASE("a gathered ring holds the positions of its vertices in ring order, whatever its size", "", float,
                    double) {
@@ -29,3 +28,5 @@ TEMPLATE_TEST_CASE("a gathered ring holds the positions of its vertices in ring 
     }
   }
 }
+
+}  // namespace trismooth::gathered_ring_test

@@ -7,10 +7,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::GuardMinimum;
-using trismooth::GuardTree;
-
-namespace {
+namespace trismooth::guard_tree_test {
 
 GuardMinimum smallest_of(const std::vector<GuardMinimum>& blocks) {
   GuardMinimum smallest;
@@ -39,8 +36,6 @@ void require_same(const GuardTree& tree, const std::vector<GuardMinimum>& blocks
   tree.find_below(threshold, found);
   REQUIRE(found == below(blocks, threshold));
 }
-
-}  // namespace
 
 TEST_CASE("the minimum of all blocks and the blocks below a threshold are those of a look at every block") {
   test_meshes::Random random(1);
@@ -77,3 +72,5 @@ TEST_CASE("where no vertex has moved there is nothing below any threshold") {
     CHECK(found.empty());
   }
 }
+
+}  // namespace trismooth::guard_tree_test

@@ -12,18 +12,10 @@
 #include "support/packed_mesh.h"
 #include "support/test_meshes.h"
 
-namespace host_targets_test {
+namespace trismooth::host_targets_test {
 
 using naive::Real;
 using test_meshes::PackedMesh;
-using trismooth::Form;
-using trismooth::growth_bound;
-using trismooth::HostTargets;
-using trismooth::inverse_target_area;
-using trismooth::MeanRatioMesh;
-using trismooth::MeanRatioOptions;
-using trismooth::MeanRatioTargets;
-using trismooth::TargetShape;
 
 TEMPLATE_TEST_CASE("what it aims at is what a plain computation finds, bit for bit, by any number of threads", "",
                    float, double) {
@@ -103,4 +95,4 @@ TEST_CASE("the larger means of areas, the looser the growth bound; never below t
   CHECK(inverse_target_area(0.0, mesh) == Approx(100));
 }
 
-}  // namespace host_targets_test
+}  // namespace trismooth::host_targets_test

@@ -11,13 +11,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::Method;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-using trismooth::Untangle;
-using trismooth::xy_points;
-
-namespace {
+namespace trismooth::invalid_triangles_test {
 
 /// What the quality report says of the result is what the result says of itself.
 void require_counted(const std::vector<double>& xy, std::span<const std::int32_t> triangles,
@@ -32,8 +26,6 @@ struct Folded {
   std::vector<double> xy{0, 0, 4, 0, 4, 1, 1, 1, 1, 4, 0, 4, -3, 6, 8, 0, 9, 0, 10, 0};
   std::vector<std::int32_t> triangles{0, 1, 6, 1, 2, 6, 2, 3, 6, 3, 4, 6, 4, 5, 6, 5, 0, 6, 7, 8, 9};
 };
-
-}  // namespace
 
 TEST_CASE("a result says what is inverted and without area where nobody asked for an untangling") {
   Folded mesh;
@@ -110,3 +102,5 @@ TEST_CASE("triangles of six nodes are counted by their corners") {
   CHECK(result.inverted == 3);
   require_counted(xy, corners, result);
 }
+
+}  // namespace trismooth::invalid_triangles_test

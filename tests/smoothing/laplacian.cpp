@@ -14,13 +14,7 @@
 #include "support/naive_smoothing.h"
 #include "support/random_rings.h"
 
-using trismooth::Form;
-using trismooth::Laplacian;
-using trismooth::Point2;
-using trismooth::SmoothingOptions;
-using trismooth::StopReason;
-
-namespace {
+namespace trismooth::laplacian_test {
 
 /// Where every free vertex is the mean of its neighbours: the solution of the linear system, x and y.
 std::vector<double> harmonic_positions(const test_meshes::Mesh& mesh) {
@@ -61,8 +55,6 @@ std::vector<double> harmonic_positions(const test_meshes::Mesh& mesh) {
   return xy;
 }
 
-}  // namespace
-
 TEMPLATE_TEST_CASE("a vertex moves to the mean of its neighbours, whatever that does", "", float, double) {
   test_meshes::Random random(1);
   for (int i = 0; i < 2000; ++i) {
@@ -100,3 +92,5 @@ TEST_CASE("plain Laplacian smoothing converges to the solution of its linear sys
     }
   }
 }
+
+}  // namespace trismooth::laplacian_test

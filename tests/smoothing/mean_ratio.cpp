@@ -14,15 +14,9 @@
 #include "support/sanitized.h"
 #include "support/test_meshes.h"
 
-using naive::Real;
-using trismooth::MeanRatioScales;
-using trismooth::MeanRatioStep;
-using trismooth::MeanRatioTargets;
-using trismooth::Method;
-using trismooth::Move;
-using trismooth::Point2;
+namespace trismooth::mean_ratio_test {
 
-namespace mean_ratio_test {
+using naive::Real;
 
 /// A vertex, number 0, in a ring, numbers 1, 2, ..., and what the method aims at there.
 template <class T>
@@ -345,4 +339,4 @@ TEMPLATE_TEST_CASE("around an inverted or flat triangle, and where a position is
   CHECK(moves > 1000);
 }
 
-}  // namespace mean_ratio_test
+}  // namespace trismooth::mean_ratio_test

@@ -17,15 +17,7 @@
 #include "support/sanitized.h"
 #include "support/test_meshes.h"
 
-using trismooth::InstructionSet;
-using trismooth::MeanRatioScales;
-using trismooth::MeanRatioStep;
-using trismooth::MeanRatioTargets;
-using trismooth::Point2;
-using trismooth::RingView;
-using trismooth::VertexMove;
-
-namespace {
+namespace trismooth::mean_ratio_lanes_test {
 
 /// A ring that knows of no lanes.
 template <class T>
@@ -73,8 +65,6 @@ struct Stars {
   RingView rings() const { return {offsets, neighbours, {}}; }
 };
 
-}  // namespace
-
 TEMPLATE_TEST_CASE(
     "vertices that the mean-ratio method visits in lanes get the bits that each gets alone, by all instructions", "",
     float, double) {
@@ -116,3 +106,5 @@ TEMPLATE_TEST_CASE(
   CHECK(moved > (is_sanitized ? 1000 : 10000));
   CHECK(stayed > (is_sanitized ? 10 : 100));
 }
+
+}  // namespace trismooth::mean_ratio_lanes_test

@@ -13,15 +13,9 @@
 #include "support/naive_smoothing.h"
 #include "support/test_meshes.h"
 
-using naive::Real;
-using trismooth::Form;
-using trismooth::MeanRatioOptions;
-using trismooth::Method;
-using trismooth::Point2;
-using trismooth::SmoothingOptions;
-using trismooth::TargetShape;
+namespace trismooth::mean_ratio_meshes_test {
 
-namespace mean_ratio_meshes_test {
+using naive::Real;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -110,7 +104,7 @@ struct Layers {
       const std::int32_t first = stretched.vertex_count() - 3;
       stretched.triangles.push_back({first, first + 1, first + 2});
     }
-    return mean_ratio_meshes_test::shapes(stretched, stretched.xy());
+    return shapes(stretched, stretched.xy());
   }
 };
 
@@ -204,4 +198,4 @@ TEST_CASE("options of the method out of range are refused") {
   CHECK_NOTHROW(options.validate());
 }
 
-}  // namespace mean_ratio_meshes_test
+}  // namespace trismooth::mean_ratio_meshes_test

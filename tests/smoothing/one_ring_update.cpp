@@ -11,9 +11,9 @@
 #include "support/naive_smoothing.h"
 #include "support/random_rings.h"
 
+namespace trismooth::one_ring_update_test {
+
 using random_rings::RingOf;
-using trismooth::move_to;
-using trismooth::Point2;
 
 TEMPLATE_TEST_CASE("the Laplacian position is the sum in ring order times 1/k, bit for bit", "", float, double) {
   test_meshes::Random random(1);
@@ -79,3 +79,5 @@ TEMPLATE_TEST_CASE("no method that looks at the vertex itself moves one that is 
     REQUIRE_FALSE(TestType::template update<double>({0, no_number}, ring).moved);
   }
 }
+
+}  // namespace trismooth::one_ring_update_test

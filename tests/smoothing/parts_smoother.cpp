@@ -13,11 +13,9 @@
 #include "support/parts_backend.h"
 #include "support/same_bits.h"
 
-namespace parts_smoother_test {
+namespace trismooth::parts_smoother_test {
 
 using parts_backend::PartsBackend;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
 
 struct Outcome {
   std::vector<double> xy;
@@ -65,4 +63,4 @@ TEST_CASE("a length to aim at that is no number is told by the vertex's number i
                     "MeanRatioOptions::target_lengths: that of vertex 77 is not a positive number");
 }
 
-}  // namespace parts_smoother_test
+}  // namespace trismooth::parts_smoother_test

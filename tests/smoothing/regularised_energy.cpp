@@ -9,10 +9,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::Point2;
-using trismooth::RegularisedEnergy;
-
-namespace {
+namespace trismooth::regularised_energy_test {
 
 /// e and t, as the energy has them.
 struct Coordinates {
@@ -78,8 +75,6 @@ Matrix differences(const RegularisedEnergy& energy, const Coordinates& at, doubl
   }
   return found;
 }
-
-}  // namespace
 
 TEST_CASE("without regularisation and sizes the energy is 2 / shape") {
   test_meshes::Random random(1);
@@ -184,3 +179,5 @@ TEST_CASE("a triangle that is turned by a right angle has the same derivatives, 
     REQUIRE(found.et[3] == expected.et[0]);
   }
 }
+
+}  // namespace trismooth::regularised_energy_test

@@ -7,10 +7,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::kernel_centre;
-using trismooth::Point2;
-
-namespace {
+namespace trismooth::ring_kernel_test {
 
 using Ring = std::vector<Point2<double>>;
 
@@ -34,8 +31,6 @@ Ring random_ring(test_meshes::Random& random) {
   }
   return ring;
 }
-
-}  // namespace
 
 TEST_CASE("a vertex in the centre of a ring's kernel has valid triangles alone, and there is a centre where any has") {
   test_meshes::Random random(1);
@@ -94,3 +89,5 @@ TEST_CASE("a ring that is turned by right angles has the same centre, turned, to
   }
   CHECK(with_kernel > 1000);
 }
+
+}  // namespace trismooth::ring_kernel_test

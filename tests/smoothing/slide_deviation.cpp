@@ -14,14 +14,9 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using test_meshes::Point;
-using trismooth::ChainCurve;
-using trismooth::for_deviations;
-using trismooth::SlideChains;
-using trismooth::SlideCurve;
-using trismooth::SlidePlace;
+namespace trismooth::slide_deviation_test {
 
-namespace deviation_test {
+using test_meshes::Point;
 
 SlideChains chain_through(const std::vector<Point>& knots, SlideCurve curve) {
   SlideChains chains;
@@ -78,10 +73,7 @@ double hausdorff(const std::vector<Point>& first, const std::vector<Point>& seco
   return std::max(farthest(a, b), farthest(b, a));
 }
 
-}  // namespace deviation_test
-
 TEST_CASE("the deviation of an edge is at least the Hausdorff distance to what it replaces, and not much more") {
-  using namespace deviation_test;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     test_meshes::Random random(seed);
     for (const SlideCurve kind : {SlideCurve::polyline, SlideCurve::spline}) {
@@ -114,7 +106,6 @@ TEST_CASE("the deviation of an edge is at least the Hausdorff distance to what i
 }
 
 TEST_CASE("knots have their places to the bit, and a spline is a straight line where its knots are on one") {
-  using namespace deviation_test;
   test_meshes::Random random(3);
   const SlideChains wavy = chain_through(wavy_line(random), SlideCurve::spline);
   const trismooth::SlideView wavy_view = wavy.view();
@@ -130,3 +121,5 @@ TEST_CASE("knots have their places to the bit, and a spline is a straight line w
     CHECK(line.position(line.at(arc, 0), 0).x == Approx(arc).margin(1e-12));
   }
 }
+
+}  // namespace trismooth::slide_deviation_test

@@ -18,13 +18,9 @@
 #include "support/sliding_meshes.h"
 #include "support/test_meshes.h"
 
-using namespace sliding_meshes;
-using trismooth::Constraints;
-using trismooth::Method;
-using trismooth::Slide;
-using trismooth::SlideCurve;
+namespace trismooth::sliding_test {
 
-namespace {
+using namespace sliding_meshes;
 
 constexpr std::int32_t side = 12;
 
@@ -54,8 +50,6 @@ double off_circle(const std::vector<Point>& circle, double radius) {
   }
   return most;
 }
-
-}  // namespace
 
 TEST_CASE("vertices of a square's sides slide, its corners stay, and the sides keep their coordinate to the bit") {
   for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
@@ -332,3 +326,5 @@ TEST_CASE("numbers of sliding that are none are refused by name") {
   constraints.slide.line_tags = odd;
   CHECK(complaint(constraints) == "Sliding::line_tags has 3 entries, expected 1 or none");
 }
+
+}  // namespace trismooth::sliding_test

@@ -13,13 +13,9 @@
 #include "catch.h"
 #include "support/sliding_meshes.h"
 
-using namespace sliding_meshes;
-using trismooth::Constraints;
-using trismooth::Method;
-using trismooth::Slide;
-using trismooth::Triangle;
+namespace trismooth::sliding_together_test {
 
-namespace {
+using namespace sliding_meshes;
 
 constexpr std::int32_t side = 12;
 
@@ -62,8 +58,6 @@ double distance_to(std::span<const Point> row, Point p) {
   }
   return nearest;
 }
-
-}  // namespace
 
 TEST_CASE("linked sides stay equal to the bit, and slide") {
   Mesh mesh = square_with_uneven_sides(6);
@@ -216,3 +210,5 @@ TEST_CASE("what lies in the same place as a vertex that something else holds sta
     }
   }
 }
+
+}  // namespace trismooth::sliding_together_test

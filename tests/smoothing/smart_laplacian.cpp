@@ -6,9 +6,9 @@
 #include "support/naive_smoothing.h"
 #include "support/random_rings.h"
 
+namespace trismooth::smart_laplacian_test {
+
 using random_rings::RingOf;
-using trismooth::Point2;
-using trismooth::SmartLaplacian;
 
 TEMPLATE_TEST_CASE("the quotients around a vertex are those of its triangles, evaluated from the vertex", "", float,
                    double) {
@@ -99,3 +99,5 @@ TEST_CASE("a quotient that is no number never passes for better") {
   CHECK_FALSE(is_better_than(-2.0, mean, ring));
   CHECK_FALSE(SmartLaplacian::update<double>({-0.4, -0.4}, ring).moved);
 }
+
+}  // namespace trismooth::smart_laplacian_test

@@ -22,22 +22,10 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::smooth_test {
+
 using test_meshes::Mesh;
 using test_meshes::Point;
-using trismooth::Constraints;
-using trismooth::Form;
-using trismooth::Method;
-using trismooth::plan;
-using trismooth::Precision;
-using trismooth::smooth;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingPlan;
-using trismooth::SmoothingResult;
-using trismooth::StopReason;
-using trismooth::Storage;
-using trismooth::xy_points;
-
-namespace {
 
 // A plan takes triangles that are there, and has one owner.
 template <class Triangles>
@@ -97,8 +85,6 @@ double worst_quotient(const Mesh& mesh) {
   }
   return worst;
 }
-
-}  // namespace
 
 TEST_CASE("a mesh scaled by a power of two smooths to the same bits, scaled") {
   for (const auto& [name, mesh] : test_meshes::zoo()) {
@@ -458,3 +444,5 @@ TEST_CASE("a plan that has been moved from says so, and can be made anew") {
   first.smooth(xy);
   CHECK(xy == smoothed(mesh));
 }
+
+}  // namespace trismooth::smooth_test

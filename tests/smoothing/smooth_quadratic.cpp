@@ -18,16 +18,10 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::smooth_quadratic_test {
+
 using test_meshes::Mesh;
 using test_meshes::Point;
-using trismooth::Constraints;
-using trismooth::Method;
-using trismooth::smooth_quadratic;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-using trismooth::xy_points;
-
-namespace smooth_quadratic_test {
 
 using Nodes = std::vector<std::int32_t>;
 using Edge = std::pair<std::int32_t, std::int32_t>;
@@ -327,4 +321,4 @@ TEST_CASE("an untangled mesh of six nodes has as few inverted triangles as it sa
   CHECK(inverted == 0);
 }
 
-}  // namespace smooth_quadratic_test
+}  // namespace trismooth::smooth_quadratic_test

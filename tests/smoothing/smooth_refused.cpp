@@ -15,16 +15,9 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-namespace smooth_refused_test {
+namespace trismooth::smooth_refused_test {
 
 using test_meshes::Mesh;
-using trismooth::Constraints;
-using trismooth::MeshError;
-using trismooth::plan;
-using trismooth::smooth;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingPlan;
-using trismooth::xy_points;
 
 /// A copy to change.
 std::vector<std::int32_t> index_list(const Mesh& mesh) {
@@ -128,4 +121,4 @@ TEST_CASE("arrays of more vertices or triangles than 32 bits number are refused 
   }
 }
 
-}  // namespace smooth_refused_test
+}  // namespace trismooth::smooth_refused_test

@@ -14,17 +14,10 @@
 #include "support/sanitized.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::sweep_driver_test {
+
 using test_meshes::Mesh;
 using test_meshes::Point;
-using trismooth::Evaluation;
-using trismooth::Form;
-using trismooth::Method;
-using trismooth::Point2;
-using trismooth::Precision;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-
-namespace {
 
 /// What the sweeps make of a mesh by the naive reference.
 struct Reference {
@@ -120,8 +113,6 @@ constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted
 constexpr Form forms[] = {Form::swap, Form::in_place};
 constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
 
-}  // namespace
-
 TEST_CASE("sweeps equal the naive reference bit for bit: coordinates, counts and stop reason") {
   for (const auto& [name, mesh] : test_meshes::zoo()) {
     for (const Method method : methods) {
@@ -210,3 +201,5 @@ TEST_CASE("skipping unchanged neighbourhoods saves evaluations") {
     CHECK(changed.vertex_updates < all.vertex_updates / 2);
   }
 }
+
+}  // namespace trismooth::sweep_driver_test

@@ -14,9 +14,7 @@
 
 #include "catch.h"
 
-using trismooth::PartLinks;
-using trismooth::PartSums;
-using trismooth::ThreadTeam;
+namespace trismooth::thread_team_test {
 
 TEST_CASE("every part gets what every other one sends it, round after round") {
   constexpr int parts = 5;
@@ -136,3 +134,5 @@ TEST_CASE("a team has a part at least") {
   CHECK_THROWS_AS(ThreadTeam(0), std::invalid_argument);
   CHECK(ThreadTeam(1).count() == 1);
 }
+
+}  // namespace trismooth::thread_team_test

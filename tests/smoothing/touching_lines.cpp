@@ -14,14 +14,9 @@
 #include "catch.h"
 #include "support/sliding_meshes.h"
 
-using namespace sliding_meshes;
-using trismooth::Constraints;
-using trismooth::Method;
-using trismooth::Slide;
-using trismooth::SlideCurve;
-using trismooth::Triangle;
+namespace trismooth::touching_lines_test {
 
-namespace {
+using namespace sliding_meshes;
 
 constexpr std::int32_t side = 12;
 
@@ -90,8 +85,6 @@ struct TwoRings {
     inner = add_ring(around * parts, along, 0.5, 1);
   }
 };
-
-}  // namespace
 
 TEST_CASE("sides that nearly coincide stay, as those that do, and are counted") {
   for (const double gap : {0.0, 1e-10, 1e-6}) {
@@ -274,3 +267,5 @@ TEST_CASE("lines touch whatever the order of vertices, and however long their ed
     CHECK(found.result.sliding->slid > 0);
   }
 }
+
+}  // namespace trismooth::touching_lines_test

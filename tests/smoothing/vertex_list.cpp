@@ -8,6 +8,8 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::vertex_list_test {
+
 TEST_CASE("lists hold the marked vertices of a block, each once and in order, and take their marks away") {
   test_meshes::Random random(5);
   for (int trial = 0; trial < 500; ++trial) {
@@ -66,3 +68,5 @@ TEST_CASE("runs of one ring size follow each other, and none could be longer") {
     REQUIRE(found == vertices);
   }
 }
+
+}  // namespace trismooth::vertex_list_test

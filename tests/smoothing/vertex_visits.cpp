@@ -20,12 +20,7 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
-using trismooth::InstructionSet;
-using trismooth::Point2;
-using trismooth::RingView;
-using trismooth::VertexMove;
-
-namespace {
+namespace trismooth::vertex_visits_test {
 
 /// Neighbours of a vertex at the origin or beside it: of one kind of difficulty.
 template <class T>
@@ -83,8 +78,6 @@ struct Stars {
   }
 };
 
-}  // namespace
-
 TEMPLATE_PRODUCT_TEST_CASE(
     "vertices that are visited side by side get the bits that each gets alone, by all instructions", "", std::tuple,
     ((trismooth::SmartLaplacian, float), (trismooth::SmartLaplacian, double), (trismooth::Laplacian, float),
@@ -126,3 +119,5 @@ TEMPLATE_PRODUCT_TEST_CASE(
     CHECK(stayed > 1000);
   }
 }
+
+}  // namespace trismooth::vertex_visits_test

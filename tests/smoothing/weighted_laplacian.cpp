@@ -11,10 +11,9 @@
 #include "support/naive_smoothing.h"
 #include "support/random_rings.h"
 
+namespace trismooth::weighted_laplacian_test {
+
 using random_rings::RingOf;
-using trismooth::length_weighted_position;
-using trismooth::Point2;
-using trismooth::WeightedLaplacian;
 
 TEMPLATE_TEST_CASE("a vertex moves to the mean weighted by edge length where that is better, bit for bit", "", float,
                    double) {
@@ -120,3 +119,5 @@ TEST_CASE("a random mesh gets better by weighted smoothing, and its worst elemen
     CHECK(after.min >= before.min);
   }
 }
+
+}  // namespace trismooth::weighted_laplacian_test
