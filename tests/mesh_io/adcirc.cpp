@@ -11,15 +11,7 @@
 #include "mesh_io/text_template.h"
 #include "support/text_format.h"
 
-using trismooth::FileFormat;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-using trismooth::what_is_lost;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::adcirc_test {
 
 const TextFormat adcirc(".14");
 
@@ -31,8 +23,6 @@ const std::string boundaries =
     "1\n2\n2 = Number of land boundaries\n4 = Total\n2 20 = Number of nodes for land boundary 1\n2\n3\n1 24\n3 4 2.5 1 "
     "1\n";
 const std::string bay = head + nodes + elements + boundaries;
-
-}  // namespace
 
 TEST_CASE("ADCIRC: the grid is read with depths, and boundaries as sets of points") {
   for (const char* const extension : {".14", ".grd", ".gr3", ".ll", ".GRD"}) {
@@ -311,3 +301,5 @@ TEST_CASE("ADCIRC: depths come from elevations with the other sign, and are 0 wh
   document.points[5] = document.points[2] = document.points[8] = 2.5;
   CHECK(what_is_lost(document, FileFormat::adcirc).front() == "ADCIRC holds x and y only: z, 2.5, is not written");
 }
+
+}  // namespace trismooth::adcirc_test

@@ -12,13 +12,9 @@
 #include "mesh_io/text_template.h"
 #include "support/scratch_folder.h"
 
-using byte_files::contains;
-using trismooth::find_array;
-using trismooth::freefem_codec;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
+namespace trismooth::freefem_test {
 
-namespace {
+using byte_files::contains;
 
 /// A square of two regions as savemesh() writes it.
 const std::string halves =
@@ -46,8 +42,6 @@ MeshDocument two_triangles(double z = 0) {
   document.cells.append(trismooth::cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
   return document;
 }
-
-}  // namespace
 
 TEST_CASE("FreeFem: vertices, triangles, edges and their labels are read") {
   const MeshDocument document = freefem_codec.read("mesh.msh", halves);
@@ -145,3 +139,5 @@ TEST_CASE("FreeFem: z is lost where it is one number, and refused where it is no
   document.points[2] = -2.5;
   CHECK_THROWS_AS(as_freefem(document), trismooth::WriteError);
 }
+
+}  // namespace trismooth::freefem_test

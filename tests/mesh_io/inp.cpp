@@ -13,19 +13,7 @@
 #include "support/scratch_folder.h"
 #include "support/text_format.h"
 
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-using trismooth::read_mesh;
-using trismooth::ReadError;
-using trismooth::ValueName;
-using trismooth::what_is_lost;
-using trismooth::write_mesh;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::inp_test {
 
 const TextFormat inp(".inp");
 
@@ -44,8 +32,6 @@ std::vector<std::int32_t> vertices(const MeshDocument& document, std::size_t cel
   const auto all = document.cells[cell];
   return {all.begin(), all.end()};
 }
-
-}  // namespace
 
 TEST_CASE("a deck's nodes, elements, sets and names are read in its order") {
   const MeshDocument document = inp.read(square);
@@ -408,3 +394,5 @@ TEST_CASE("input files are told from others by their first keyword") {
   CHECK_FALSE(is_inp("10 12 0 0 0\n"));
   CHECK_FALSE(is_inp(""));
 }
+
+}  // namespace trismooth::inp_test

@@ -12,18 +12,10 @@
 #include "mesh_io/text_template.h"
 #include "support/scratch_folder.h"
 
+namespace trismooth::medit_test {
+
 using byte_files::contains;
 using byte_files::values;
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::make_data_array;
-using trismooth::medit_codec;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
 
 /// Two triangles and a quadrilateral, with all that Medit says of them.
 constexpr std::string_view medit_plate =
@@ -58,8 +50,6 @@ MeshDocument two_triangles_and_a_line() {
   document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
   return document;
 }
-
-}  // namespace
 
 TEST_CASE("Medit: vertices, cells, references and sets are read") {
   const MeshDocument document = as_medit(medit_plate);
@@ -276,3 +266,5 @@ TEST_CASE("Medit: what is written from its own document as the other encoding is
   CHECK(values<std::int32_t>(find_array(again.point_arrays, "medit:ref")) ==
         values<std::int32_t>(find_array(document.point_arrays, "medit:ref")));
 }
+
+}  // namespace trismooth::medit_test

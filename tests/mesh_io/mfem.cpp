@@ -12,13 +12,9 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::FileFormat;
-using trismooth::MeshDocument;
-using trismooth::read_mesh;
+namespace trismooth::mfem_test {
 
-namespace {
-
-namespace type = trismooth::cell_type;
+namespace type = cell_type;
 
 const std::string disc =
     "MFEM mesh v1.3\n\ndimension\n2\n\nelements\n3\n7 2 0 1 2\n7 2 0 2 3\n9 3 1 4 5 2\n\n"
@@ -71,8 +67,6 @@ std::vector<std::int32_t> attributes_of(const MeshDocument& document) {
   const auto values = document.cell_arrays.at(0).as<std::int32_t>();
   return {values.begin(), values.end()};
 }
-
-}  // namespace
 
 TEST_CASE("an MFEM mesh is elements and then its boundary, with attributes and their names") {
   const ScratchFolder folder;
@@ -272,3 +266,5 @@ TEST_CASE("what is wrong in an MFEM mesh is named with its line") {
         std::string::npos);
   CHECK(refusal_of("MFEM mesh v1.0\n").find("expected the section 'vertices'") != std::string::npos);
 }
+
+}  // namespace trismooth::mfem_test

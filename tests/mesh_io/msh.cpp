@@ -18,11 +18,7 @@
 #include "support/readings.h"
 #include "support/text_format.h"
 
-using trismooth::DataArray;
-using trismooth::MeshDocument;
-using trismooth::msh_codec;
-
-namespace {
+namespace trismooth::msh_test {
 
 MeshDocument read_msh_text(const std::string& bytes) {
   return msh_codec.read("plate.msh", bytes);
@@ -72,8 +68,6 @@ std::string replaced_in(std::string text, const std::string& what, const std::st
 }
 
 using Numbers = std::vector<double>;
-
-}  // namespace
 
 TEST_CASE("every version of MSH, as text and binary, gives the same cells, groups and names") {
   for (const int version : {20, 21, 22, 40, 41}) {
@@ -423,3 +417,5 @@ TEST_CASE("an affine map is found on planes, not on curved surfaces nor on point
   CHECK_FALSE(MshAffineMap::find(Numbers{0, 0, 0, 1, 0, 0, 2, 0, 0}, Numbers{0, 0, 1, 0, 2, 0}, 2));
   CHECK(MshAffineMap::find(Numbers{0, 0, 0, 1, 0, 0, 2, 0, 0}, Numbers{0, 1, 2}, 1));
 }
+
+}  // namespace trismooth::msh_test

@@ -11,20 +11,7 @@
 #include "support/scratch_folder.h"
 #include "support/text_format.h"
 
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-using trismooth::NumberForm;
-using trismooth::read_mesh;
-using trismooth::ValueName;
-using trismooth::what_is_lost;
-using trismooth::write_mesh;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::nastran_test {
 
 const TextFormat bdf(".bdf");
 
@@ -72,8 +59,6 @@ std::string with_middle_at(const std::string& text, double x, double y) {
   CHECK(again.point_sets == document.point_sets);
   return written;
 }
-
-}  // namespace
 
 TEST_CASE("Nastran: small, large and free field state the same mesh, and mixed ones too") {
   const std::string large_triangles =
@@ -486,3 +471,5 @@ TEST_CASE("Nastran: files are known by their first words") {
     CHECK_FALSE(trismooth::nastran_codec.recognises(text));
   }
 }
+
+}  // namespace trismooth::nastran_test

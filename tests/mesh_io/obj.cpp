@@ -16,18 +16,7 @@
 #include "support/scratch_folder.h"
 #include "support/text_format.h"
 
-using trismooth::DataArray;
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::read_mesh;
-using trismooth::ReadError;
-using trismooth::write_mesh;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::obj_test {
 
 const TextFormat obj(".obj");
 
@@ -56,8 +45,6 @@ std::vector<std::int32_t> numbers_of(const MeshDocument& document, const std::st
   const auto values = array->as<std::int32_t>();
   return {values.begin(), values.end()};
 }
-
-}  // namespace
 
 TEST_CASE("OBJ: the mesh is the same however the file is laid out") {
   const std::string text =
@@ -289,3 +276,5 @@ TEST_CASE("OBJ: what OFF holds survives the way there and back") {
   write_mesh(folder / "mesh.obj", as_off);
   CHECK(bytes_of(folder / "mesh.obj") == faces);
 }
+
+}  // namespace trismooth::obj_test

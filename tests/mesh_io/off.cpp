@@ -16,16 +16,7 @@
 #include "mesh_io/text_template.h"
 #include "support/text_format.h"
 
-using trismooth::DataArray;
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::ReadError;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::off_test {
 
 const TextFormat off(".off");
 
@@ -41,8 +32,6 @@ void check_house(const MeshDocument& document) {
   CHECK(document.cells.connectivity == std::vector<std::int32_t>{0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 4, 3});
   CHECK(document.field_arrays.empty());
 }
-
-}  // namespace
 
 TEST_CASE("OFF: the mesh is the same however the file is laid out") {
   const std::string text = GENERATE_COPY(
@@ -378,3 +367,5 @@ TEST_CASE("OFF: a mesh from elsewhere is written with its exact coordinates and 
   plain.original = nullptr;
   CHECK(trismooth::what_is_lost(plain, FileFormat::off).empty());
 }
+
+}  // namespace trismooth::off_test

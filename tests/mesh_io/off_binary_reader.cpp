@@ -16,16 +16,9 @@
 #include "byte_files.h"
 #include "catch.h"
 
+namespace trismooth::off_binary_reader_test {
+
 using namespace byte_files;
-using trismooth::DataArray;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::off_codec;
-using trismooth::ScalarType;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
 
 using OpenMeshMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 using OpenMesh::IO::Options;
@@ -80,8 +73,6 @@ class Words {
   std::string bytes_;
   std::endian order_;
 };
-
-}  // namespace
 
 TEST_CASE("binary OFF: files of OpenMesh are read, written back byte by byte, and read by it when moved") {
   const OpenMeshMesh mesh = open_mesh_square();
@@ -164,3 +155,5 @@ TEST_CASE("binary OFF: what breaks the rules is refused with its byte") {
   CHECK(contains(refused("OFF BINARY"), "got the end of the file"));
   CHECK(contains(refused("4OFF BINARY\n"), "unsupported OFF variant"));
 }
+
+}  // namespace trismooth::off_binary_reader_test

@@ -8,12 +8,7 @@
 #include "catch.h"
 #include "support/says.h"
 
-using trismooth::FileFormat;
-using trismooth::ParallelFile;
-using trismooth::read_parallel_file;
-using trismooth::ReadError;
-
-namespace parallel_files {
+namespace trismooth::parallel_file_test {
 
 std::string summary(const std::string& pieces, const std::string& type = "PUnstructuredGrid") {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\">\n<" + type + " GhostLevel=\"1\">\n" + pieces + "</" +
@@ -33,12 +28,6 @@ std::string refusal(const std::string& bytes) {
     return error.what();
   }
 }
-
-}  // namespace parallel_files
-
-using parallel_files::read;
-using parallel_files::refusal;
-using parallel_files::summary;
 
 TEST_CASE("A parallel file names its pieces, and where they stand") {
   const std::string bytes =
@@ -82,3 +71,5 @@ TEST_CASE("Parallel files are known by their extension") {
   CHECK_FALSE(trismooth::names_parallel_file("b.vtu"));
   CHECK_FALSE(trismooth::names_parallel_file("pvtu"));
 }
+
+}  // namespace trismooth::parallel_file_test

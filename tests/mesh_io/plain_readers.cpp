@@ -10,12 +10,7 @@
 
 #include "catch.h"
 
-using trismooth::CellList;
-using trismooth::FileWorkers;
-using trismooth::MeshDocument;
-using trismooth::Workers;
-
-namespace {
+namespace trismooth::plain_readers_test {
 
 /// Of what files are made of, and of what is left to the careful way.
 struct Texts {
@@ -116,8 +111,6 @@ std::string facet(const std::string& corner) {
          "\n    endloop\n  endfacet\n";
 }
 
-}  // namespace
-
 TEST_CASE("OBJ with groups, references of every form and other statements is read in parts") {
   const std::string vertices = "v 0 0 0\nv 1 0 0 1\r\n  v 0 1 0 1 0.5 0\n";
   check_texts(
@@ -187,3 +180,5 @@ TEST_CASE("STL of one solid is read in parts") {
                 return trismooth::read_plain_text_facets(text, 0, workers).has_value();
               });
 }
+
+}  // namespace trismooth::plain_readers_test

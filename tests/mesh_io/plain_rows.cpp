@@ -8,13 +8,9 @@
 #include "catch.h"
 #include "support/dice.h"
 
-using test_support::Dice;
-using trismooth::FileWorkers;
-using trismooth::PlainNumbers;
-using trismooth::PlainRows;
-using trismooth::Workers;
+namespace trismooth::plain_rows_test {
 
-namespace {
+using test_support::Dice;
 
 /// What is read of rows of `columns` integers from `offset` on, and where that ends; nothing where it cannot be read.
 struct Rows {
@@ -47,8 +43,6 @@ Rows read_rows(const std::string& text, std::size_t offset, std::size_t rows, st
   result.offset = end->offset;
   return result;
 }
-
-}  // namespace
 
 TEST_CASE("rows of numbers are the same in parts of any size") {
   Dice dice;
@@ -169,3 +163,5 @@ TEST_CASE("numbers read as parse_number() and parse_integer_as() read them") {
   CHECK(PlainNumbers("1234567 89", 0).next(value));
   CHECK(value == 1234567);
 }
+
+}  // namespace trismooth::plain_rows_test

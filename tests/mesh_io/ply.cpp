@@ -13,16 +13,10 @@
 #include "catch.h"
 #include "ply_files.h"
 
-namespace ply_test {
+namespace trismooth::ply_test {
 
 using namespace byte_files;
 using namespace ply_files;
-using trismooth::DataArray;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::ply_codec;
-using trismooth::ScalarType;
-namespace cell_type = trismooth::cell_type;
 
 TEST_CASE("PLY: every flavour gives the same mesh") {
   const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
@@ -266,4 +260,4 @@ TEST_CASE("PLY: arrays cannot be added to the file that was read, nor points") {
   CHECK_THROWS_AS(document.original->write(file.path(), document, {}, {}), trismooth::WriteError);
 }
 
-}  // namespace ply_test
+}  // namespace trismooth::ply_test

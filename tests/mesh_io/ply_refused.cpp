@@ -14,12 +14,10 @@
 #include "catch.h"
 #include "ply_files.h"
 
-namespace ply_refused_test {
+namespace trismooth::ply_refused_test {
 
 using namespace byte_files;
 using namespace ply_files;
-using trismooth::MeshDocument;
-using trismooth::ply_codec;
 
 TEST_CASE("PLY: no truncation gives part of a mesh") {
   const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
@@ -199,4 +197,4 @@ TEST_CASE("PLY: rows without properties take no time, and bytes after the last r
   CHECK(written_back(document) == bytes);
 }
 
-}  // namespace ply_refused_test
+}  // namespace trismooth::ply_refused_test

@@ -15,14 +15,9 @@
 #include "byte_files.h"
 #include "catch.h"
 
-using namespace byte_files;
-using trismooth::DataArray;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::ScalarType;
-namespace cell_type = trismooth::cell_type;
+namespace trismooth::ply_writer_test {
 
-namespace {
+using namespace byte_files;
 
 template <class T>
 DataArray random_array(std::mt19937_64& random, const std::string& name, std::size_t components, std::size_t rows) {
@@ -78,8 +73,6 @@ void check_same_arrays(const std::vector<DataArray>& a, const std::vector<DataAr
     CHECK(std::ranges::equal(a[i].bytes, b[i].bytes));
   }
 }
-
-}  // namespace
 
 TEST_CASE("PLY: what is written from scratch is read back the same") {
   const auto type = GENERATE(ScalarType::float32, ScalarType::float64);
@@ -170,3 +163,5 @@ TEST_CASE("PLY: what cannot be kept is named, and all else is written") {
   CHECK(values<std::uint32_t>(find_array(back.cell_arrays, "id")) == std::vector<std::uint32_t>{4294967295U, 0});
   CHECK(find_array(back.cell_arrays, "hash") == nullptr);
 }
+
+}  // namespace trismooth::ply_writer_test

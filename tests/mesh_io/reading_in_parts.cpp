@@ -17,14 +17,12 @@
 #include "support/sanitized.h"
 #include "vtk_legacy_files.h"
 
+namespace trismooth::reading_in_parts_test {
+
 using accepted_files::AcceptedFile;
 using part_samples::Sample;
 using test_support::Dice;
 using test_support::reading_and_sites_of;
-using trismooth::FileWorkers;
-using trismooth::Workers;
-
-namespace {
 
 std::string with_line_ends(const std::string& text, const std::string& line_end) {
   std::string changed;
@@ -341,8 +339,6 @@ std::string with_another_number(std::string text, Dice& dice) {
   return text.replace(begin, end - begin, others[dice.below(others.size())]);
 }
 
-}  // namespace
-
 TEST_CASE("files give the same document in parts of any size, and the same errors when they are damaged") {
   Workers alone(1);
   Workers two(2);
@@ -379,3 +375,5 @@ TEST_CASE("files give the same document in parts of any size, and the same error
     }
   }
 }
+
+}  // namespace trismooth::reading_in_parts_test

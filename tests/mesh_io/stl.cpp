@@ -16,13 +16,9 @@
 #include "byte_files.h"
 #include "catch.h"
 
-using namespace byte_files;
-using trismooth::MeshDocument;
-using trismooth::ScalarType;
-using trismooth::stl_codec;
-namespace cell_type = trismooth::cell_type;
+namespace trismooth::stl_test {
 
-namespace {
+using namespace byte_files;
 
 /// Four triangles around `centre`: a file in which a user moves one vertex.
 std::string fan_text(const std::string& centre, const std::string& line_end = "\n") {
@@ -92,8 +88,6 @@ MeshDocument grid(int cells, unsigned seed) {
   }
   return document;
 }
-
-}  // namespace
 
 TEST_CASE("STL: corners at one place are one point, in text and in binary") {
   const std::string bytes = GENERATE(fan_text("0.5 0.25 0"), fan_text("0.5 0.25 0", "\r\n"), fan_binary(0.5F, 0.25F));
@@ -428,3 +422,5 @@ TEST_CASE("welding numbers points as an ordered map of coordinates does") {
   }
   CHECK(welder.size() == numbers.size());
 }
+
+}  // namespace trismooth::stl_test

@@ -14,15 +14,9 @@
 #include "support/says.h"
 #include "support/text_format.h"
 
-using trismooth::DataArray;
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::ValueName;
+namespace trismooth::su2_test {
 
-namespace type = trismooth::cell_type;
-
-namespace {
+namespace type = cell_type;
 
 const TextFormat su2(".su2");
 
@@ -52,8 +46,6 @@ void check_house(const MeshDocument& document) {
   CHECK(document.cell_arrays.size() == 1);
   CHECK(document.point_arrays.empty());
 }
-
-}  // namespace
 
 TEST_CASE("SU2: the mesh is the same however the file is laid out, and is written back as it was") {
   const std::size_t points = house.find("NPOIN");
@@ -224,3 +216,5 @@ TEST_CASE("SU2: a file shows what it is by its first keyword") {
     CHECK_FALSE(trismooth::recognises_su2(text));
   }
 }
+
+}  // namespace trismooth::su2_test

@@ -17,21 +17,9 @@
 #include "support/readings.h"
 #include "support/scratch_folder.h"
 
-using trismooth::DataArray;
-using trismooth::FileFormat;
-using trismooth::FileWorkers;
-using trismooth::find_array;
-using trismooth::MeshDocument;
-using trismooth::read_mesh;
-using trismooth::ReadError;
-using trismooth::what_is_lost;
-using trismooth::write_mesh;
-using trismooth::WriteError;
+namespace trismooth::triangle_test {
 
 namespace fs = std::filesystem;
-namespace cell_type = trismooth::cell_type;
-
-namespace {
 
 /// The files of one mesh.
 struct Pair {
@@ -74,8 +62,6 @@ std::vector<T> values_of_array(const std::vector<DataArray>& arrays, const std::
   const auto values = array->as<T>();
   return {values.begin(), values.end()};
 }
-
-}  // namespace
 
 TEST_CASE("Triangle: either file names the mesh, and both are written back as they were") {
   const ScratchFolder folder;
@@ -299,3 +285,5 @@ TEST_CASE("Triangle output: attributes and markers that another format kept are 
   CHECK(written.nodes == "5 2 1 1\n1 0 0 0.5 1\n2 2 0 1.5 1\n3 2 2 2.5 1\n4 0 2 3.5 1\n5 0.75 1.25 4.5 0\n");
   CHECK(written.elements == "4 3 1\n1 1 2 5 7\n2 2 3 5 7\n3 3 4 5 -2\n4 4 1 5 -2\n");
 }
+
+}  // namespace trismooth::triangle_test

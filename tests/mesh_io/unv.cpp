@@ -13,17 +13,7 @@
 #include "support/says.h"
 #include "support/text_format.h"
 
-using trismooth::FileFormat;
-using trismooth::find_array;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-using trismooth::ValueName;
-using trismooth::what_is_lost;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::unv_test {
 
 const TextFormat unv(".unv");
 
@@ -70,8 +60,6 @@ const std::string plate_groups =
 
 const std::string plate = plate_nodes + plate_elements + plate_groups;
 const std::vector<double> plate_points{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 0.75, 1.25, 0};
-
-}  // namespace
 
 TEST_CASE("UNV: nodes, elements of all families and groups are read, and written back byte for byte") {
   const MeshDocument document = unv.read(plate);
@@ -356,3 +344,5 @@ TEST_CASE("UNV: what is wrong is said with its line") {
     CHECK(said.substr(0, fault.message.size()) == fault.message);
   }
 }
+
+}  // namespace trismooth::unv_test

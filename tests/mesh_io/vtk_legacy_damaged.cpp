@@ -8,14 +8,14 @@
 #include "support/sanitized.h"
 #include "vtk_legacy_files.h"
 
+namespace vtk_legacy_damaged_test {
+
 using namespace legacy_test;
 using trismooth::FileWorkers;
 using trismooth::MeshDocument;
 using trismooth::read_mesh;
 using trismooth::read_vtk_legacy;
 using trismooth::ReadError;
-
-namespace {
 
 MeshDocument read_bytes(const std::string& bytes) {
   return read_mesh(TemporaryFile(bytes, ".vtk").path());
@@ -54,8 +54,6 @@ void read_hostile(const std::string& bytes) {
     return;
   }
 }
-
-}  // namespace
 
 TEST_CASE("legacy VTK: integers have the width that their type says") {
   const auto array_of = [](const std::string& type, const std::string& value) {
@@ -267,3 +265,5 @@ TEST_CASE("legacy VTK: a token changed anywhere never does more than cause an er
     }
   }
 }
+
+}  // namespace vtk_legacy_damaged_test

@@ -19,14 +19,14 @@
 #include "catch.h"
 #include "vtk_xml_samples.h"
 
+namespace vtk_xml_test {
+
 using trismooth::MeshDocument;
 using trismooth::ScalarType;
 using trismooth::VtkXmlEncoding;
 using trismooth::VtkXmlKind;
 using trismooth::VtkXmlMode;
 using namespace vtk_xml_samples;
-
-namespace {
 
 /// The first tag of the file and the formats and encodings in it: what a reader of the file would see of the encoding.
 std::string encoding_text(const std::string& bytes) {
@@ -64,8 +64,6 @@ std::string small_vtu(const std::string& more = "", const std::string& x = "0 1 
 )" + more +
          "</Piece></UnstructuredGrid></VTKFile>\n";
 }
-
-}  // namespace
 
 TEST_CASE("a VTU or VTP file written back unchanged holds the same in the same encoding") {
   const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
@@ -374,3 +372,5 @@ TEST_CASE("a file that cannot be written is a WriteError that names it") {
     CHECK_FALSE(std::filesystem::exists(output.path()));
   }
 }
+
+}  // namespace vtk_xml_test

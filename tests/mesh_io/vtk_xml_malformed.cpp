@@ -20,6 +20,8 @@
 #include "support/sanitized.h"
 #include "vtk_xml_samples.h"
 
+namespace vtk_xml_malformed_test {
+
 using trismooth::MeshDocument;
 using trismooth::ReadError;
 using trismooth::VtkXmlCompressor;
@@ -27,8 +29,6 @@ using trismooth::VtkXmlEncoding;
 using trismooth::VtkXmlKind;
 using trismooth::VtkXmlMode;
 using namespace vtk_xml_samples;
-
-namespace {
 
 /// Keeps the first thing that VTK would print.
 class KeepingWindow : public vtkOutputWindow {
@@ -130,8 +130,6 @@ std::string message_of(VtkXmlKind kind, const std::string& bytes) {
   }
   return "read without an error";
 }
-
-}  // namespace
 
 TEST_CASE("a file cut off anywhere is refused, or nothing that counts was cut off") {
   const Silence silence;
@@ -366,3 +364,5 @@ TEST_CASE("VTU and VTP are written in the same bytes by any number of threads") 
     CHECK(trismooth::read_mesh(by_three.path(), 3).points == document.points);
   }
 }
+
+}  // namespace vtk_xml_malformed_test
