@@ -16,9 +16,7 @@
 #include "support/fake_backend.h"
 #include "support/scratch_folder.h"
 
-using trismooth::CudaSupport;
-
-namespace {
+namespace trismooth::bench_command_test {
 
 /// What a command line did.
 struct Outcome {
@@ -70,8 +68,6 @@ nlohmann::json json_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return nlohmann::json::parse(file);
 }
-
-}  // namespace
 
 TEST_CASE("bench prints the tables and the claims, and writes the reports") {
   const ScratchFolder folder;
@@ -212,3 +208,5 @@ TEST_CASE("a lack of memory on the way ends in 3, with all that was measured pri
   CHECK(outcome.says("not enough memory"));
   CHECK(outcome.shows("optimised CPU"));
 }
+
+}  // namespace trismooth::bench_command_test

@@ -7,10 +7,7 @@
 #include "support/dice.h"
 #include "support/test_meshes.h"
 
-using trismooth::doubled_area;
-using trismooth::Point2;
-
-namespace accurate_area_test {
+namespace trismooth::accurate_area_test {
 
 __extension__ using Wide = __int128;
 
@@ -46,4 +43,4 @@ TEST_CASE("three points on a line have no area, wherever the line is") {
   CHECK(doubled_area({0, 0}, {0, 1}, {1, 0}) == -1);
 }
 
-}  // namespace accurate_area_test
+}  // namespace trismooth::accurate_area_test

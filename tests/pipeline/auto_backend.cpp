@@ -6,6 +6,8 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::auto_backend_test {
+
 TEST_CASE("the backend that chooses by itself smooths a small mesh on the CPU, in every build") {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(12, 12, 0.45, 3);
   trismooth::SmoothingOptions options;
@@ -21,3 +23,5 @@ TEST_CASE("the backend that chooses by itself smooths a small mesh on the CPU, i
   CHECK(result.backend_note.empty());
   CHECK(xy == expected);
 }
+
+}  // namespace trismooth::auto_backend_test

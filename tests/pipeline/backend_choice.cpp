@@ -10,13 +10,7 @@
 #include "support/fake_backend.h"
 #include "support/scratch_folder.h"
 
-using trismooth::BackendChoice;
-using trismooth::CudaOrCpu;
-using trismooth::CudaSupport;
-using trismooth::Execution;
-using trismooth::SmoothingOptions;
-
-namespace {
+namespace trismooth::backend_choice_test {
 
 const char* const no_device = "cudaErrorNoDevice (no CUDA-capable device is detected)";
 
@@ -51,8 +45,6 @@ SmoothingOptions unordered() {
   options.execution = Execution::single_block;
   return options;
 }
-
-}  // namespace
 
 TEST_CASE("where --devices asks for CUDA that is not there, it is what is to be left out") {
   const auto message = [](const CudaSupport& cuda, BackendChoice choice) {
@@ -125,3 +117,5 @@ TEST_CASE("a build without dynamic parallelism refuses cdp where CUDA was asked 
   options.execution = Execution::single_block;
   CHECK(choose(BackendChoice::cuda, cuda, automatic, options).backend == &backend);
 }
+
+}  // namespace trismooth::backend_choice_test

@@ -22,16 +22,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::CellCopy;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PlanarMesh;
-using trismooth::Triangle;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::cell_copies_test {
 
 using Numbers = std::vector<std::int32_t>;
 
@@ -110,8 +101,6 @@ struct Overlapping {
     return border;
   }
 };
-
-}  // namespace
 
 TEST_CASE("triangles that are listed again are counted and smoothed once, wherever and however often they are listed") {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(side, side, 0.3, 3);
@@ -328,3 +317,5 @@ TEST_CASE("corners that are joined may make triangles copies of each other") {
   CHECK(std::equal(once.points.begin(), once.points.end(), twice.points.begin()));
   CHECK(std::equal(once.points.begin(), once.points.end(), twice.points.begin() + std::ssize(once.points)));
 }
+
+}  // namespace trismooth::cell_copies_test

@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::coordinates_hash;
-using trismooth::hash_text;
+namespace trismooth::coordinates_hash_test {
 
 // The expected values come from an implementation of XXH64 written from its specification, in another language.
 
@@ -36,3 +35,5 @@ TEST_CASE("a hash is written with all its 16 digits") {
   CHECK(hash_text(0xABCDEFU) == "0000000000abcdef");
   CHECK(hash_text(~std::uint64_t{0}) == "ffffffffffffffff");
 }
+
+}  // namespace trismooth::coordinates_hash_test

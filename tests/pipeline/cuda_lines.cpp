@@ -4,14 +4,11 @@
 
 #include "catch.h"
 
-using trismooth::cuda_lines;
-using trismooth::cuda::DeviceSurvey;
+namespace trismooth::cuda_lines_test {
 
-namespace {
+using cuda::DeviceSurvey;
 
 constexpr std::size_t gibibyte = std::size_t{1} << 30U;
-
-}  // namespace
 
 TEST_CASE("each device is listed with what decides whether a mesh fits and a build runs") {
   DeviceSurvey survey;
@@ -32,3 +29,5 @@ TEST_CASE("where there is no device, the reason is given") {
         "CUDA:       runtime 13.1, no driver, without dynamic parallelism (no --execution cdp)\n"
         "no device:  cudaErrorInsufficientDriver (CUDA driver version is insufficient for CUDA runtime version)\n");
 }
+
+}  // namespace trismooth::cuda_lines_test

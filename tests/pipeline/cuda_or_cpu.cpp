@@ -18,14 +18,10 @@
 #include "support/fake_backend.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::cuda_or_cpu_test {
+
 using fakes::Failure;
 using fakes::FakeBackend;
-using trismooth::CudaOrCpu;
-using trismooth::CudaSupport;
-using trismooth::SmoothingOptions;
-using trismooth::SmoothingResult;
-
-namespace {
 
 constexpr std::int32_t grid_columns = 12;
 constexpr std::int64_t vertices = 144;
@@ -49,8 +45,6 @@ Smoothed smooth_with(const trismooth::Backend* backend, trismooth::Topology topo
   smoothed.result = trismooth::smooth(trismooth::xy_points(smoothed.xy), mesh.indices(), {}, options);
   return smoothed;
 }
-
-}  // namespace
 
 TEST_CASE("from as many free vertices on as it is told, auto takes CUDA") {
   const FakeBackend cuda;
@@ -149,8 +143,6 @@ TEST_CASE("auto has rings found by the device where the mesh is large enough and
   CHECK(by_host->rings.neighbours == cuda.find_rings(mesh.points, mesh.triangles, {}, options)->rings.neighbours);
 }
 
-namespace {
-
 constexpr const char* rings_note =
     "the CPU found the rings: CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test";
 
@@ -170,8 +162,6 @@ SmoothingResult smooth_halfedges(const CudaOrCpu& automatic, std::int32_t column
   options.backend = &automatic;
   return trismooth::smooth(mesh, options);
 }
-
-}  // namespace
 
 TEST_CASE("where the device fails to find the rings of a mesh, its smoothing says so, and no other mesh's") {
   const FakeBackend cuda(Failure::rings, 8 * 9);
@@ -235,3 +225,5 @@ TEST_CASE("starting the device is part of the first call's time alone") {
   CHECK(plan.smooth(xy).timings.prepare >= 2);
   CHECK(plan.smooth(xy).timings.prepare == 0);
 }
+
+}  // namespace trismooth::cuda_or_cpu_test

@@ -12,10 +12,7 @@
 
 #include "catch.h"
 
-using trismooth::delaunay;
-using trismooth::GridPoint;
-
-namespace {
+namespace trismooth::delaunay_test {
 
 __extension__ using Int128 = __int128;
 using Points = std::vector<GridPoint>;
@@ -162,8 +159,6 @@ Points points_on_circle(GridPoint centre) {
   }
   return points;
 }
-
-}  // namespace
 
 TEST_CASE("the in-circle test is exact to the last unit at the ends of the grid") {
   const GridPoint a{0, 0};
@@ -350,3 +345,5 @@ TEST_CASE("a point outside the grid is refused") {
   CHECK_THROWS_AS(delaunay(Points{{0, 0}, {1, 0}, {0, -1}}), std::invalid_argument);
   CHECK_THROWS_AS(delaunay(Points{{0, 0}, {largest + 1, 0}, {0, 1}}), std::invalid_argument);
 }
+
+}  // namespace trismooth::delaunay_test

@@ -9,11 +9,9 @@
 
 #include "catch.h"
 
-namespace distorted_meshes_test {
+namespace trismooth::distorted_meshes_test {
 
 using test_meshes::Mesh;
-using trismooth::Metric;
-using trismooth::QualityReport;
 
 QualityReport quality_of(const Mesh& mesh) {
   const std::vector<double> xy = mesh.xy();
@@ -63,4 +61,4 @@ TEST_CASE("jittered hexagonal points make about as many vertices as asked for, e
   CHECK(quality_of(distorted_meshes::hexagonal(100, 0, 1))[Metric::shape].mean > 0.97);
 }
 
-}  // namespace distorted_meshes_test
+}  // namespace trismooth::distorted_meshes_test

@@ -18,11 +18,9 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using fakes::Failure;
-using trismooth::CudaSupport;
-using trismooth::PipelineOptions;
+namespace trismooth::failure_test {
 
-namespace {
+using fakes::Failure;
 
 constexpr const char* old_output = "what was there before";
 
@@ -87,8 +85,6 @@ class Files {
 
 constexpr const char* of_device = "CUDA: cudaErrorMemoryAllocation (out of memory) from a test";
 
-}  // namespace
-
 TEST_CASE("each exception is one line and an exit code") {
   const auto check = [](const auto& exception, int code, const std::string& message) {
     std::ostringstream err;
@@ -151,3 +147,5 @@ TEST_CASE("a host without memory names the mesh and is answered with 3, whoever 
     CHECK(outcome.output == old_output);
   }
 }
+
+}  // namespace trismooth::failure_test

@@ -8,12 +8,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::choose_fields;
-using trismooth::FieldChoice;
-using trismooth::Fields;
-using trismooth::make_data_array;
-
-namespace field_choice_test {
+namespace trismooth::field_choice_test {
 
 trismooth::MeshDocument document() {
   trismooth::MeshDocument document;
@@ -71,4 +66,4 @@ TEST_CASE("a pattern that matches nothing is refused with the arrays there are")
         "--field-array names arrays to interpolate, but --fields keep keeps them all");
 }
 
-}  // namespace field_choice_test
+}  // namespace trismooth::field_choice_test

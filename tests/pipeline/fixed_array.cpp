@@ -10,12 +10,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::find_fixed_array;
-using trismooth::FixedArray;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-
-namespace {
+namespace trismooth::fixed_array_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -24,8 +19,6 @@ MeshDocument six_points() {
   document.points.assign(18, 0.0);
   return document;
 }
-
-}  // namespace
 
 TEST_CASE("a point array fixes the vertices where any of its components is not zero") {
   MeshDocument document = six_points();
@@ -63,3 +56,5 @@ TEST_CASE("a missing point array fixes nothing, unless it is named") {
   CHECK(message.find("'fixed'") != std::string::npos);
   CHECK(message.find("it has: depth") != std::string::npos);
 }
+
+}  // namespace trismooth::fixed_array_test

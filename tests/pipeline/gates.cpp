@@ -9,16 +9,7 @@
 
 #include "catch.h"
 
-using trismooth::check_gate;
-using trismooth::Comparison;
-using trismooth::gate_failure;
-using trismooth::gate_names;
-using trismooth::gate_value;
-using trismooth::Metric;
-using trismooth::parse_gate;
-using trismooth::QualityReport;
-
-namespace {
+namespace trismooth::gates_test {
 
 /// A report whose numbers are all different.
 QualityReport distinct_report() {
@@ -46,8 +37,6 @@ std::string message_of(const std::string& gate) {
   }
   return "";
 }
-
-}  // namespace
 
 TEST_CASE("a gate is a name, a comparison and a number, with or without blanks") {
   for (const char* text : {"min_shape>=0.3", "min_shape >= 0.3", "  min_shape\t>=0.3 "}) {
@@ -201,3 +190,5 @@ TEST_CASE("an infinite value is compared as such") {
   CHECK_FALSE(passes("max_aspect_ratio<=100", report));
   CHECK(passes("max_aspect_ratio>=100", report));
 }
+
+}  // namespace trismooth::gates_test

@@ -8,7 +8,7 @@
 #include "command_line_calls.h"
 #include "support/scratch_folder.h"
 
-namespace generate_command_test {
+namespace trismooth::generate_command_test {
 
 using namespace command_line_calls;
 
@@ -84,4 +84,4 @@ TEST_CASE("generate cannot write where there is no folder or no format") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace generate_command_test
+}  // namespace trismooth::generate_command_test

@@ -18,14 +18,9 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::HalfedgeStage;
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Triangle;
-using trismooth::cell_type::triangle;
+namespace trismooth::halfedge_stage_test {
 
-namespace halfedge_stage_test {
+using cell_type::triangle;
 
 /// The mesh, of the unit square, as a document; triangles on the left are in region 7, the others in region 3.
 MeshDocument document_of(const test_meshes::Mesh& mesh) {
@@ -113,10 +108,6 @@ PipelineOptions options_with(std::function<void(HalfedgeStage&)> stage) {
   options.halfedge_stage = std::move(stage);
   return options;
 }
-
-}  // namespace halfedge_stage_test
-
-using namespace halfedge_stage_test;
 
 TEST_CASE("a stage of the program's own has the points, triangles, cells and regions of the file as halfedges") {
   MeshDocument document = document_of(grid());
@@ -332,3 +323,5 @@ TEST_CASE("a stage of halfedges goes with no other topology") {
   options.smoothing.topology = GENERATE(trismooth::Topology::host, trismooth::Topology::device);
   CHECK_THROWS_WITH(trismooth::smooth_document(document, options), Catch::Contains("topology 'auto' or 'halfedge'"));
 }
+
+}  // namespace trismooth::halfedge_stage_test

@@ -7,12 +7,7 @@
 #include "catch.h"
 #include "support/says.h"
 
-using trismooth::held_html;
-using trismooth::held_text;
-using trismooth::InputSummary;
-using trismooth::RegionReason;
-
-namespace {
+namespace trismooth::held_text_test {
 
 InputSummary machine() {
   InputSummary input;
@@ -22,8 +17,6 @@ InputSummary machine() {
   input.held = {.boundary = 140, .interface = 672, .several = 8};
   return input;
 }
-
-}  // namespace
 
 TEST_CASE("one line says how many vertices are held, by reason and by array") {
   CHECK(held_text(machine()) == "804 of 3207: 140 boundary, 672 interface ('region'), 8 of them both");
@@ -89,3 +82,5 @@ TEST_CASE("a page says the same, with why each array counts, and shows names lit
   CHECK_FALSE(says(html, "<b>"));
   CHECK_FALSE(says(html, "no cell"));
 }
+
+}  // namespace trismooth::held_text_test

@@ -16,10 +16,10 @@
 #include "sample_run.h"
 #include "support/parsed_page.h"
 
+namespace trismooth::html_report_test {
+
 using pages::parse;
 using pages::Parsed;
-using trismooth::escape_html;
-using trismooth::html_report;
 
 TEST_CASE("text is escaped for content and for attributes") {
   CHECK(escape_html("a < b && \"c\" > 'd'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; &#39;d&#39;");
@@ -282,3 +282,5 @@ TEST_CASE("the convergence of any history can be drawn") {
     CHECK(svg.size() < 100000);
   }
 }
+
+}  // namespace trismooth::html_report_test

@@ -6,7 +6,7 @@
 #include "command_line_calls.h"
 #include "support/fake_backend.h"
 
-namespace info_command_test {
+namespace trismooth::info_command_test {
 
 using namespace command_line_calls;
 
@@ -30,4 +30,4 @@ TEST_CASE("info never fails on the CUDA that is or is not on this machine") {
   CHECK(outcome.shows("CUDA:"));
 }
 
-}  // namespace info_command_test
+}  // namespace trismooth::info_command_test

@@ -7,8 +7,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::InnerEdges;
-using trismooth::Triangle;
+namespace trismooth::inner_edges_test {
 
 using Numbers = std::vector<std::int32_t>;
 
@@ -56,3 +55,5 @@ TEST_CASE("few vertices between triangles have few edges between them") {
     CHECK(changed <= 3 * static_cast<double>(edges.vertices_between(numbers)) + 1e-9);
   }
 }
+
+}  // namespace trismooth::inner_edges_test

@@ -13,9 +13,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::OutputFile;
-
-namespace {
+namespace trismooth::interrupt_test {
 
 /// What became of a child process that ran `body`: its exit status, or minus the signal that ended it.
 int outcome_of(const std::function<void()>& body) {
@@ -36,8 +34,6 @@ int outcome_after(const std::function<void()>& body) {
     body();
   });
 }
-
-}  // namespace
 
 TEST_CASE("a signal removes unfinished files and ends the process with 130") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -91,3 +87,5 @@ TEST_CASE("a signal that was ignored stays ignored") {
     CHECK(outcome == 42);
   }
 }
+
+}  // namespace trismooth::interrupt_test

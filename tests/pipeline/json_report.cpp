@@ -12,10 +12,9 @@
 #include "catch.h"
 #include "sample_run.h"
 
-using trismooth::json_report;
-using Json = nlohmann::ordered_json;
+namespace trismooth::json_report_test {
 
-namespace {
+using Json = nlohmann::ordered_json;
 
 std::vector<std::string> keys_of(const Json& object) {
   std::vector<std::string> keys;
@@ -26,8 +25,6 @@ std::vector<std::string> keys_of(const Json& object) {
 }
 
 using Keys = std::vector<std::string>;
-
-}  // namespace
 
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
@@ -296,3 +293,5 @@ TEST_CASE("any file name makes valid JSON") {
     CHECK_NOTHROW(Json::parse(json_report(sample::options(), result)));
   }
 }
+
+}  // namespace trismooth::json_report_test

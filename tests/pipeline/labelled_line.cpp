@@ -5,8 +5,7 @@
 
 #include "catch.h"
 
-using trismooth::labelled_line;
-using trismooth::wrapped;
+namespace trismooth::labelled_line_test {
 
 TEST_CASE("a short line stays one, with its text in the thirteenth column") {
   CHECK(labelled_line("written:", "out.vtk") == "written:    out.vtk\n");
@@ -45,3 +44,5 @@ TEST_CASE("a word that is too long for a line has one of its own") {
 TEST_CASE("no value of a line can begin another line or steer the terminal") {
   CHECK(labelled_line("input:", "a\nwritten:    b\r\x1b[K") == "input:      a\\x0awritten:    b\\x0d\\x1b[K\n");
 }
+
+}  // namespace trismooth::labelled_line_test

@@ -7,11 +7,7 @@
 
 #include "catch.h"
 
-using trismooth::ArrayDescription;
-using trismooth::find_line_groups;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-namespace cell_type = trismooth::cell_type;
+namespace trismooth::line_groups_test {
 
 TEST_CASE("lines are counted by the names that the file has for their values") {
   MeshDocument document;
@@ -35,3 +31,5 @@ TEST_CASE("lines are counted by the names that the file has for their values") {
   CHECK(groups[2].name == "unused");
   CHECK(groups[2].vertices == 0);
 }
+
+}  // namespace trismooth::line_groups_test

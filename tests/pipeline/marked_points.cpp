@@ -10,12 +10,7 @@
 #include "catch.h"
 #include "support/says.h"
 
-using trismooth::find_held_sets;
-using trismooth::HeldSets;
-using trismooth::MeshDocument;
-using trismooth::Triangle;
-
-namespace {
+namespace trismooth::marked_points_test {
 
 using Numbers = std::vector<std::int32_t>;
 using Marker = std::function<std::int32_t(int x, int y)>;
@@ -81,8 +76,6 @@ struct Grid {
     return numbers;
   }
 };
-
-}  // namespace
 
 TEST_CASE("points inside that carry a marker other than what surrounds them are held and named, with the way out") {
   // An electrode, and a segment from side to side with the marker of the boundary, as Triangle writes them.
@@ -176,3 +169,5 @@ TEST_CASE("what line cells hold anyway is not counted as marked") {
   }
   CHECK(grid.numbers_held() == Numbers{grid.at(3, 2)});
 }
+
+}  // namespace trismooth::marked_points_test

@@ -22,12 +22,7 @@
 #include "support/naive_mean_ratio.h"
 #include "support/naive_smoothing.h"
 
-namespace mean_ratio_quality_test {
-
-using trismooth::Method;
-using trismooth::Point2;
-using trismooth::Precision;
-using trismooth::Triangle;
+namespace trismooth::mean_ratio_quality_test {
 
 struct Input {
   std::vector<Point2<double>> points;
@@ -183,4 +178,4 @@ TEST_CASE("no triangle's share of the error, area times squared edges, grows bey
   }
 }
 
-}  // namespace mean_ratio_quality_test
+}  // namespace trismooth::mean_ratio_quality_test

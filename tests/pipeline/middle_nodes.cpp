@@ -8,14 +8,7 @@
 
 #include "catch.h"
 
-using trismooth::MeshDocument;
-using trismooth::planar_mesh;
-using trismooth::PlanarMesh;
-using trismooth::settle_middles;
-using trismooth::Triangle;
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::middle_nodes_test {
 
 using Bytes = std::vector<std::uint8_t>;
 using Numbers = std::vector<std::int32_t>;
@@ -41,8 +34,6 @@ Settled settled(const MeshDocument& document, Bytes named = {}) {
   settle_middles(result.mesh, document.points, result.named);
   return result;
 }
-
-}  // namespace
 
 TEST_CASE("triangles of six nodes are the triangles of their corners, and their middles follow the sides") {
   const MeshDocument document = square();
@@ -122,3 +113,5 @@ TEST_CASE("a triangle of six nodes that repeats a corner is kept as another cell
   CHECK(result.mesh.quadratics.size() == 2);
   CHECK(result.mesh.in_other_cell == Bytes{1, 1, 0, 0, 1, 1, 1, 1, 1, 1});
 }
+
+}  // namespace trismooth::middle_nodes_test

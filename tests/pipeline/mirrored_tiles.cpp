@@ -10,14 +10,7 @@
 
 #include "catch.h"
 
-using trismooth::GeneratedBoundary;
-using trismooth::GridPoint;
-using trismooth::mirrored_tiles;
-using trismooth::RandomMesh;
-using trismooth::SquareTile;
-using trismooth::tile_side;
-
-namespace {
+namespace trismooth::mirrored_tiles_test {
 
 using Place = std::pair<double, double>;
 using TrianglePlaces = std::array<Place, 3>;
@@ -35,8 +28,6 @@ std::set<TrianglePlaces> places_of(const RandomMesh& mesh) {
   }
   return result;
 }
-
-}  // namespace
 
 TEST_CASE("four copies of a square cut in two make the square whose diagonals all meet the centre") {
   const SquareTile tile{{{0, 0}, {tile_side, 0}, {tile_side, tile_side}, {0, tile_side}}, 4, {{0, 1, 2}, {0, 2, 3}}};
@@ -90,3 +81,5 @@ TEST_CASE("a random tile fills its square, with the points on its sides first") 
   }
   CHECK(area == 2 * std::int64_t{tile_side} * tile_side);
 }
+
+}  // namespace trismooth::mirrored_tiles_test

@@ -13,18 +13,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::DataArray;
-using trismooth::Fields;
-using trismooth::InterpolatedField;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::read_mesh;
-using trismooth::run_pipeline;
-using trismooth::write_mesh;
-
-namespace moving_fields_test {
+namespace trismooth::moving_fields_test {
 
 double plane(double x, double y) {
   return 3 * x - 7 * y + 2;
@@ -214,4 +203,4 @@ TEST_CASE("annotations are the same with fields that move") {
   }
 }
 
-}  // namespace moving_fields_test
+}  // namespace trismooth::moving_fields_test

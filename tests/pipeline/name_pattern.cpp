@@ -4,10 +4,7 @@
 
 #include "catch.h"
 
-using trismooth::is_wild;
-using trismooth::matches_pattern;
-
-namespace name_pattern_test {
+namespace trismooth::name_pattern_test {
 
 TEST_CASE("a pattern without wildcards is the name itself") {
   CHECK(matches_pattern("depth", "depth"));
@@ -56,4 +53,4 @@ TEST_CASE("many stars take no time") {
   CHECK_FALSE(matches_pattern(pattern + "b", std::string(5000, 'a')));
 }
 
-}  // namespace name_pattern_test
+}  // namespace trismooth::name_pattern_test

@@ -12,15 +12,7 @@
 
 #include "catch.h"
 
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::NamedSides;
-using trismooth::planar_mesh;
-using trismooth::PlanarMesh;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
+namespace trismooth::named_sides_test {
 
 using Numbers = std::vector<std::int32_t>;
 
@@ -43,8 +35,6 @@ NamedSides sides_of(const MeshDocument& document) {
   const PlanarMesh mesh = planar_mesh(document, "mesh.vtu");
   return find_named_sides(document, mesh);
 }
-
-}  // namespace
 
 TEST_CASE("the bits of a cell are the sides 01, 12 and 02 of its triangle, each named once") {
   MeshDocument document = fan();
@@ -103,3 +93,5 @@ TEST_CASE("where vertices slide named boundaries are lines, told apart from each
   CHECK(lines.tags[2] != lines.tags[0]);
   CHECK(lines.in_other_cell == std::vector<std::uint8_t>(7, 0));
 }
+
+}  // namespace trismooth::named_sides_test

@@ -16,15 +16,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::join_near_corners;
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Point2;
-using trismooth::smooth_document;
-using trismooth::Triangle;
-
-namespace near_corners_test {
+namespace trismooth::near_corners_test {
 
 /// A grid of n x n squares, each of two triangles with three vertices of their own, off their places by `off` at most.
 struct ApartTriangles {
@@ -215,4 +207,4 @@ TEST_CASE("a mesh whose triangles share no side is told why no vertex is free") 
   CHECK(says(notes_of(far), "no two of the 2 triangles share a side, so all vertices are on boundaries\n"));
 }
 
-}  // namespace near_corners_test
+}  // namespace trismooth::near_corners_test

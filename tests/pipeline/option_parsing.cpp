@@ -7,7 +7,7 @@
 
 #include "catch.h"
 
-using trismooth::parse_count;
+namespace trismooth::option_parsing_test {
 
 TEST_CASE("a count has K and M for thousands and millions") {
   CHECK(parse_count("4", 4, 1'000'000'000) == 4);
@@ -39,3 +39,5 @@ TEST_CASE("a choice that is nearly one of the valid ones is answered with that o
   CHECK_THROWS_WITH(trismooth::parse_choice<Method>("x"),
                     "unknown method 'x'; valid are " + trismooth::valid_texts<Method>());
 }
+
+}  // namespace trismooth::option_parsing_test

@@ -9,12 +9,7 @@
 
 #include "catch.h"
 
-using trismooth::could_write;
-using trismooth::flush_results;
-using trismooth::print_results;
-using trismooth::WriteError;
-
-namespace {
+namespace trismooth::output_attempts_test {
 
 /// Takes nothing, for want of space.
 class FullDisk : public std::streambuf {
@@ -24,8 +19,6 @@ class FullDisk : public std::streambuf {
   }
   int sync() override { return -1; }
 };
-
-}  // namespace
 
 TEST_CASE("what cannot be written is told by its name, and nothing is thrown") {
   std::ostringstream err;
@@ -60,3 +53,5 @@ TEST_CASE("results that cannot be flushed are told without the reason of somethi
   std::ostringstream fine;
   CHECK_NOTHROW(flush_results(fine));
 }
+
+}  // namespace trismooth::output_attempts_test

@@ -23,10 +23,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-
-namespace {
+namespace trismooth::pipeline_test {
 
 /// A mesh in a file, and a place for the output, for as long as the test lasts.
 class Files {
@@ -75,8 +72,6 @@ test_meshes::Mesh irregular_mesh() {
   mesh.triangles.push_back({0, next + 2, next + 1});
   return mesh;
 }
-
-}  // namespace
 
 TEST_CASE("whoever finds the topology, file and report are the same") {
   using trismooth::Topology;
@@ -408,3 +403,5 @@ TEST_CASE("a mesh in pieces is for the program over MPI ranks alone") {
   options.output = "out.pvtu";
   CHECK(refusal(options).find("out.pvtu: is the name of a mesh in pieces") == 0);
 }
+
+}  // namespace trismooth::pipeline_test

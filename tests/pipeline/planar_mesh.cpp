@@ -12,16 +12,9 @@
 #include "mesh_io/byte_files.h"
 #include "support/scratch_folder.h"
 
+namespace trismooth::planar_mesh_test {
+
 using byte_files::contains;
-using trismooth::MeshDocument;
-using trismooth::planar_mesh;
-using trismooth::PlanarMesh;
-using trismooth::ReadError;
-using trismooth::Triangle;
-
-namespace cell_type = trismooth::cell_type;
-
-namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Numbers = std::vector<std::int32_t>;
@@ -57,8 +50,6 @@ std::vector<Triangle> listed(const PlanarMesh& mesh) {
 std::string failure_of(const MeshDocument& document) {
   return message_of<ReadError>([&] { planar_mesh(document, "mesh.vtu"); });
 }
-
-}  // namespace
 
 TEST_CASE("triangles keep their order, their vertices' order and know their cell") {
   const MeshDocument document = two_squares();
@@ -172,3 +163,5 @@ TEST_CASE("documents of more points or cells than 32 bits number are refused by 
   CHECK(message_of<ReadError>([&] { trismooth::check_document_size(1, std::size_t{1} << 33U, "large.vtu"); }) ==
         "large.vtu: holds more than 2147483647 cells");
 }
+
+}  // namespace trismooth::planar_mesh_test

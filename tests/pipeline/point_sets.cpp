@@ -11,13 +11,7 @@
 #include "support/says.h"
 #include "support/scratch_folder.h"
 
-using trismooth::find_held_sets;
-using trismooth::HeldSets;
-using trismooth::MeshDocument;
-using trismooth::NamedSet;
-using trismooth::Triangle;
-
-namespace {
+namespace trismooth::point_sets_test {
 
 using Numbers = std::vector<std::int32_t>;
 using Bytes = std::vector<std::uint8_t>;
@@ -47,8 +41,6 @@ Numbers all_of(std::int32_t count) {
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }
-
-}  // namespace
 
 TEST_CASE("sets of points hold their vertices; one of a whole part holds nothing and is named") {
   const auto triangles = grid_triangles(4);
@@ -201,3 +193,5 @@ TEST_CASE("a label holds points, points of lines and of triangles; a set of that
     CHECK_THROWS_AS(held(name), std::invalid_argument);
   }
 }
+
+}  // namespace trismooth::point_sets_test

@@ -8,16 +8,11 @@
 
 #include "catch.h"
 
-using trismooth::printable_lines;
-using trismooth::PrintableStream;
-
-namespace {
+namespace trismooth::printable_stream_test {
 
 const std::string mixed = "a\x1b[2J\n\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80\xe2\x80\xae\xff\xe2\x82 \xc2\x9b\t\xf0\x9f";
 
 class FullDevice : public std::streambuf {};
-
-}  // namespace
 
 TEST_CASE("text comes out printable, wherever the writes cut it") {
   for (std::size_t first = 0; first <= mixed.size(); ++first) {
@@ -62,3 +57,5 @@ TEST_CASE("a stream that takes nothing is a failure of the one before it") {
   none.flush();
   CHECK_FALSE(none.good());
 }
+
+}  // namespace trismooth::printable_stream_test

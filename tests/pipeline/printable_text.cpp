@@ -4,8 +4,7 @@
 
 #include "catch.h"
 
-using trismooth::printable;
-using trismooth::printable_lines;
+namespace trismooth::printable_text_test {
 
 TEST_CASE("ordinary text of any script stays as it is") {
   for (const std::string text :
@@ -55,3 +54,5 @@ TEST_CASE("line feeds stay where there are several lines, and escaping twice is 
   CHECK(printable(printable(all)) == printable(all));
   CHECK(printable_lines(printable_lines(all)) == printable_lines(all));
 }
+
+}  // namespace trismooth::printable_text_test

@@ -6,11 +6,9 @@
 
 #include "catch.h"
 
-using trismooth::ProgressBar;
-using trismooth::Stage;
-using namespace std::chrono_literals;
+namespace trismooth::progress_bar_test {
 
-namespace {
+using namespace std::chrono_literals;
 
 /// A bar on a string, with a clock that the test moves.
 struct Scene {
@@ -27,8 +25,6 @@ struct Scene {
 };
 
 const std::string erased = "\r\x1b[K";
-
-}  // namespace
 
 TEST_CASE("a stage is drawn in place as soon as it starts") {
   Scene scene;
@@ -102,3 +98,5 @@ TEST_CASE("no line is longer than a narrow terminal") {
   scene.bar.sweep_done({1000000, 300000000, 300000000, 0.1});
   CHECK(scene.drawn().size() < 80 + erased.size());
 }
+
+}  // namespace trismooth::progress_bar_test

@@ -15,15 +15,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
-using trismooth::Fields;
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Projection;
-using trismooth::read_mesh;
-using trismooth::run_pipeline;
-
-namespace projection_test {
+namespace trismooth::projection_test {
 
 struct Run {
   ScratchFolder folder;
@@ -133,4 +125,4 @@ TEST_CASE("a mesh that is no function of x and y is warned of") {
   }));
 }
 
-}  // namespace projection_test
+}  // namespace trismooth::projection_test

@@ -16,14 +16,7 @@
 
 #include "catch.h"
 
-using trismooth::GeneratedBoundary;
-using trismooth::GridPoint;
-using trismooth::Point2;
-using trismooth::random_delaunay_mesh;
-using trismooth::RandomMesh;
-using trismooth::RandomMeshOptions;
-
-namespace {
+namespace trismooth::random_mesh_test {
 
 double doubled_area(const RandomMesh& mesh, const std::array<std::int32_t, 3>& t) {
   return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
@@ -72,8 +65,6 @@ std::vector<std::pair<std::int32_t, std::int32_t>> boundary_edges(const RandomMe
   }
   return boundary;
 }
-
-}  // namespace
 
 TEST_CASE("a random mesh has the vertices that were asked for, inside the unit square, and conforms") {
   const std::int64_t vertices = GENERATE(4, 5, 10, 1000, 20000);
@@ -278,3 +269,5 @@ TEST_CASE("numbers of vertices that no mesh can have are refused") {
   CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, {.largest_tile = 255}), std::invalid_argument);
   CHECK_THROWS_AS(random_delaunay_mesh(1000, 1, {.largest_tile = std::int64_t{1} << 27}), std::invalid_argument);
 }
+
+}  // namespace trismooth::random_mesh_test

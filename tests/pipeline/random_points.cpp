@@ -9,10 +9,7 @@
 
 #include "catch.h"
 
-using trismooth::GridPoint;
-using trismooth::random_below;
-using trismooth::random_permutation;
-using trismooth::random_points;
+namespace trismooth::random_points_test {
 
 TEST_CASE("a bounded random number meets every value about equally often") {
   std::mt19937_64 generator(1);
@@ -74,3 +71,5 @@ TEST_CASE("random points fill the square evenly") {
     CHECK(count == Approx(1000).margin(200));
   }
 }
+
+}  // namespace trismooth::random_points_test

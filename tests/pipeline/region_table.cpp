@@ -7,11 +7,7 @@
 #include "catch.h"
 #include "support/says.h"
 
-using trismooth::PipelineResult;
-using trismooth::region_table;
-using trismooth::region_table_html;
-
-namespace {
+namespace trismooth::region_table_test {
 
 /// Regions "r0", "r1", ...: the smallest shape is the smaller the larger the number.
 PipelineResult regions(int count, bool smoothed) {
@@ -26,8 +22,6 @@ PipelineResult regions(int count, bool smoothed) {
   }
   return result;
 }
-
-}  // namespace
 
 TEST_CASE("each region has a line, named by its value in the file") {
   for (const bool smoothed : {false, true}) {
@@ -74,3 +68,5 @@ TEST_CASE("a page has every region, its name shown literally") {
   CHECK_FALSE(says(html, "<i>"));
   CHECK(says(html, ">r39<"));
 }
+
+}  // namespace trismooth::region_table_test

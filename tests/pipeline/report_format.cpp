@@ -11,11 +11,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::ReportFormat;
-using trismooth::write_report_text;
-using trismooth::writer_for;
-
-namespace {
+namespace trismooth::report_format_test {
 
 using Writer = int (*)();
 
@@ -25,8 +21,6 @@ constexpr std::array<ReportFormat<Writer>, 3> formats{
 int chosen(const char* path) {
   return writer_for<Writer>(path, formats)();
 }
-
-}  // namespace
 
 TEST_CASE("the extension chooses the format, in any case") {
   CHECK(chosen("a.json") == 1);
@@ -51,3 +45,5 @@ TEST_CASE("a report that cannot be written leaves what was there") {
   CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "two");
   CHECK_THROWS_AS(write_report_text(folder.path() / "none" / "report.json", "x"), trismooth::WriteError);
 }
+
+}  // namespace trismooth::report_format_test

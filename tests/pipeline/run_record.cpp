@@ -7,7 +7,7 @@
 
 #include "catch.h"
 
-namespace {
+namespace trismooth::run_record_test {
 
 /// The zone of this process for as long as it lives.
 class Zone {
@@ -36,8 +36,6 @@ class Zone {
   std::string old_;
 };
 
-}  // namespace
-
 TEST_CASE("a date is that of the zone, and says which") {
   const auto date = [](const char* zone, std::int64_t seconds) {
     const Zone used(zone);
@@ -50,3 +48,5 @@ TEST_CASE("a date is that of the zone, and says which") {
   CHECK(date("NST3:30", noon) == "2026-11-21T08:30:00-03:30");
   CHECK(date("LINT-14", noon) == "2026-11-22T02:00:00+14:00");
 }
+
+}  // namespace trismooth::run_record_test

@@ -14,13 +14,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::find_size_array;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::PlanarMesh;
-using trismooth::SizeArray;
-
-namespace size_array_test {
+namespace trismooth::size_array_test {
 
 /// Two triangles of five points, one of which is in none, and a line between them.
 struct Sample {
@@ -137,4 +131,4 @@ TEST_CASE("an array of sizes is not taken for regions, unless it is named for th
   CHECK(trismooth::find_regions(sample.document, sample.mesh, named, "block").count() == 2);
 }
 
-}  // namespace size_array_test
+}  // namespace trismooth::size_array_test

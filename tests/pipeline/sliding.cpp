@@ -15,12 +15,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Slide;
-
-namespace sliding_test {
+namespace trismooth::sliding_test {
 
 constexpr int side = 8;
 
@@ -89,10 +84,7 @@ Smoothed smoothed(const ScratchFolder& folder, const PipelineOptions& wanted) {
   return found;
 }
 
-}  // namespace sliding_test
-
 TEST_CASE("lines of a file are slid on, its groups end them, points stay, and periodic nodes go together") {
-  using namespace sliding_test;
   const ScratchFolder folder;
   PipelineOptions options;
   options.slide.along = Slide::straight;
@@ -143,7 +135,6 @@ TEST_CASE("the report says how many slid, how far lines are off, and what became
 }
 
 TEST_CASE("annotations show those that slid as not held") {
-  using namespace sliding_test;
   const ScratchFolder folder;
   PipelineOptions options;
   options.slide.along = Slide::straight;
@@ -163,7 +154,6 @@ TEST_CASE("annotations show those that slid as not held") {
 }
 
 TEST_CASE("nodes of points of Gmsh's geometry stay on a side that slides") {
-  using namespace sliding_test;
   // Two rows of nodes, uneven on both sides; node 4 is on a point of the geometry, the others on its surface.
   const ScratchFolder folder;
   std::ofstream(folder / "strip.msh") << R"($MeshFormat
@@ -225,7 +215,6 @@ $EndElements
 }
 
 TEST_CASE("without --slide lines of a file hold their vertices") {
-  using namespace sliding_test;
   const ScratchFolder folder;
   const Smoothed found = smoothed(folder, {});
   CHECK_FALSE(found.result.smoothing->sliding);
@@ -237,7 +226,6 @@ TEST_CASE("without --slide lines of a file hold their vertices") {
 }
 
 TEST_CASE("the same mesh slides to the same bits, whoever builds the program") {
-  using namespace sliding_test;
   const ScratchFolder folder;
   PipelineOptions options;
   options.slide.along = Slide::straight;
@@ -254,7 +242,6 @@ TEST_CASE("the same mesh slides to the same bits, whoever builds the program") {
 }
 
 TEST_CASE("parts that touch without sharing vertices stay together, and a note says so") {
-  using namespace sliding_test;
   // Two squares side by side, one of them with twice as many vertices on the common side as the other.
   MeshDocument document;
   const auto add_square = [&](double left, int rows) {
@@ -298,10 +285,11 @@ TEST_CASE("parts that touch without sharing vertices stay together, and a note s
 }
 
 TEST_CASE("sliding on a map of the sphere is wrong usage") {
-  using namespace sliding_test;
   const ScratchFolder folder;
   PipelineOptions options;
   options.slide.along = Slide::straight;
   options.geographic = true;
   CHECK_THROWS_AS(smoothed(folder, options), std::invalid_argument);
 }
+
+}  // namespace trismooth::sliding_test

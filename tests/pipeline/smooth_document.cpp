@@ -11,11 +11,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::MeshDocument;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-
-namespace {
+namespace trismooth::smooth_document_test {
 
 /// A mesh of regions in a file.
 std::filesystem::path example_file() {
@@ -28,8 +24,6 @@ PipelineOptions options_for(const std::filesystem::path& input) {
   options.smoothing.method = trismooth::Method::mean_ratio;
   return options;
 }
-
-}  // namespace
 
 TEST_CASE("a mesh that was read is smoothed and written as a run from file to file does it") {
   const std::filesystem::path input = example_file();
@@ -103,3 +97,5 @@ TEST_CASE("vertices named by number are held beside those of the file") {
   CHECK(std::ranges::all_of(options.fixed_vertices, [&](std::int32_t v) { return stays(held, v); }));
   CHECK(held.points != before);
 }
+
+}  // namespace trismooth::smooth_document_test

@@ -21,17 +21,10 @@
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
+namespace trismooth::stored_result_test {
+
 using test_meshes::Mesh;
 using test_meshes::Point;
-using trismooth::make_data_array;
-using trismooth::MeshDocument;
-using trismooth::Method;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Triangle;
-namespace cell_type = trismooth::cell_type;
-
-namespace {
 
 MeshDocument linear(const Mesh& mesh) {
   MeshDocument document;
@@ -146,8 +139,6 @@ PipelineOptions with(Method method, bool guard = true) {
   options.smoothing.max_sweeps = 40;
   return options;
 }
-
-}  // namespace
 
 TEST_CASE("corners of straight quadratic triangles are smoothed to the bits of the linear mesh") {
   for (const Method method : {Method::smart, Method::mean_ratio}) {
@@ -328,3 +319,5 @@ TEST_CASE("turned components are as they were read or as they were turned, also 
     CHECK(run.result.smoothing->untangling->inverted_after <= run.result.smoothing->untangling->inverted_before);
   }
 }
+
+}  // namespace trismooth::stored_result_test

@@ -5,6 +5,8 @@
 
 #include "catch.h"
 
+namespace trismooth::terminal_test {
+
 TEST_CASE("what is no terminal has the width of printed lines") {
   const int descriptor = ::open("/dev/null", O_WRONLY);
   REQUIRE(descriptor >= 0);
@@ -12,3 +14,5 @@ TEST_CASE("what is no terminal has the width of printed lines") {
   ::close(descriptor);
   CHECK(trismooth::terminal_columns(-1) == 80);
 }
+
+}  // namespace trismooth::terminal_test

@@ -9,14 +9,11 @@
 
 #include "catch.h"
 
-using trismooth::TerminalLine;
+namespace trismooth::terminal_line_test {
+
 using namespace std::chrono_literals;
 
-namespace {
-
 const std::string erase_line = "\r\x1b[K";
-
-}  // namespace
 
 TEST_CASE("a line is drawn over the last one, with the seconds since the beginning") {
   std::ostringstream terminal;
@@ -115,3 +112,5 @@ TEST_CASE("the clock of a line runs by itself while other threads draw") {
   CHECK(text.find(erase_line + "working on, 0.") != std::string::npos);
   CHECK(text.ends_with(" s" + erase_line));
 }
+
+}  // namespace trismooth::terminal_line_test

@@ -10,12 +10,7 @@
 #include "sample_run.h"
 #include "support/says.h"
 
-using trismooth::duration_text;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::TextDetail;
-
-namespace {
+namespace trismooth::text_report_test {
 
 std::string text_report(const PipelineOptions& options, const PipelineResult& result) {
   return trismooth::text_report(options, result, TextDetail::summary);
@@ -24,8 +19,6 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
 std::string full_report(const PipelineOptions& options, const PipelineResult& result) {
   return trismooth::text_report(options, result, TextDetail::all);
 }
-
-}  // namespace
 
 TEST_CASE("the result of a smoothing says what was read, done and written") {
   const std::string text = text_report(sample::options(), sample::result());
@@ -223,3 +216,5 @@ TEST_CASE("a time has the digits that matter") {
   CHECK(duration_text(999.7) == "1.0 s");
   CHECK(duration_text(61234) == "61.2 s");
 }
+
+}  // namespace trismooth::text_report_test

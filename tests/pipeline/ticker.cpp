@@ -8,18 +8,15 @@
 
 #include "catch.h"
 
-using trismooth::Ticker;
-using namespace std::chrono_literals;
+namespace trismooth::ticker_test {
 
-namespace {
+using namespace std::chrono_literals;
 
 void wait_for(const std::atomic<int>& calls, int least) {
   while (calls < least) {
     std::this_thread::sleep_for(1ms);
   }
 }
-
-}  // namespace
 
 TEST_CASE("a ticker calls until it is gone, and not after that") {
   std::atomic<int> calls{0};
@@ -67,3 +64,5 @@ TEST_CASE("signals are left to the threads that work") {
   pthread_sigmask(SIG_BLOCK, nullptr, &mine);
   CHECK(sigismember(&mine, SIGINT) == 0);
 }
+
+}  // namespace trismooth::ticker_test

@@ -13,15 +13,9 @@
 #include "mesh_io/byte_files.h"
 #include "support/scratch_folder.h"
 
-namespace triangle_cells_test {
+namespace trismooth::triangle_cells_test {
 
 using byte_files::contains;
-using trismooth::MeshDocument;
-using trismooth::planar_mesh;
-using trismooth::PlanarMesh;
-using trismooth::Triangle;
-
-namespace cell_type = trismooth::cell_type;
 
 struct Cell {
   std::uint8_t type;
@@ -107,4 +101,4 @@ TEST_CASE("quadrilaterals that repeat a corner are the triangles that they look 
   CHECK(contains(notes, "3 quadrilaterals repeat a corner"));
 }
 
-}  // namespace triangle_cells_test
+}  // namespace trismooth::triangle_cells_test

@@ -9,13 +9,7 @@
 #include "catch.h"
 #include "support/test_meshes.h"
 
-using trismooth::make_data_array;
-using trismooth::number_pairs;
-using trismooth::number_values;
-using trismooth::value_text;
-using trismooth::ValueNumbers;
-
-namespace {
+namespace trismooth::value_numbers_test {
 
 using Numbers = std::vector<std::int32_t>;
 
@@ -24,8 +18,6 @@ Numbers all_rows(std::size_t count) {
   std::iota(rows.begin(), rows.end(), 0);
   return rows;
 }
-
-}  // namespace
 
 TEST_CASE("values are numbered in ascending order, each with its first item, at the rows that are asked for") {
   const auto array = make_data_array("a", 1, std::vector<std::int16_t>{5, -2, 5, 9, -2, 7});
@@ -100,3 +92,5 @@ TEST_CASE("copies of an item with other values make a value of the set of them, 
   CHECK(joined.of_item == Numbers{0, 2, 0, 2, 1});
   CHECK(joined.example == Numbers{0, 4, 1});
 }
+
+}  // namespace trismooth::value_numbers_test

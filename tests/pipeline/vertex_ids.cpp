@@ -8,10 +8,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 
-using trismooth::read_vertex_ids;
-using trismooth::ReadError;
-
-namespace {
+namespace trismooth::vertex_ids_test {
 
 using Ids = std::vector<std::int32_t>;
 
@@ -26,8 +23,6 @@ std::string failure_of(const std::string& text, std::int64_t vertex_count = 10) 
   const std::size_t name = message.find("fixed.txt");
   return name == std::string::npos ? message : message.substr(name);
 }
-
-}  // namespace
 
 TEST_CASE("vertex numbers stand between any white space and comments, in any order and as often as they like") {
   CHECK(read("3 1\t4\r\n1\n\n  5\r9") == Ids{3, 1, 4, 1, 5, 9});
@@ -64,3 +59,5 @@ TEST_CASE("a file of vertex numbers that is not there is named") {
   const auto path = folder / "none.txt";
   CHECK(message_of<ReadError>([&] { read_vertex_ids(path, 1); }).find(path.string() + ": ") == 0);
 }
+
+}  // namespace trismooth::vertex_ids_test

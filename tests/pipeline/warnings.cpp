@@ -15,14 +15,7 @@
 #include "support/says.h"
 #include "support/scratch_folder.h"
 
-using trismooth::Method;
-using trismooth::PipelineOptions;
-using trismooth::PipelineResult;
-using trismooth::Slide;
-using trismooth::SlideCurve;
-using trismooth::warning_of_options_without_effect;
-
-namespace warnings_test {
+namespace trismooth::warnings_test {
 
 TEST_CASE("options that the method or the way of sliding takes no notice of are named") {
   PipelineOptions options;
@@ -141,4 +134,4 @@ TEST_CASE("sizes are compared where corners slide, too") {
   CHECK(compared(Slide::straight) == 10);
 }
 
-}  // namespace warnings_test
+}  // namespace trismooth::warnings_test
