@@ -170,16 +170,16 @@ MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<c
 }
 
 std::vector<std::string> notes_of_marked_points(const std::string& array, const MarkedPoints& points,
-                                                const MarkerWords& words) {
+                                                const std::string& ids) {
   std::vector<std::string> notes;
   if (const auto count = std::ssize(points.vertices); count > 0) {
     const std::string them = count == 1 ? "it" : "them";
     notes.push_back(counted(count, "vertex", "vertices") + " inside, which '" + array +
-                    "' marks otherwise than what surrounds " + them + ": held fixed; " + words.free + " frees " + them);
+                    "' marks otherwise than what surrounds " + them + ": held fixed; --fixed-set none frees " + them);
   }
   if (points.others > 0) {
     notes.push_back(counted(points.others, "vertex inside has", "vertices inside have") + " values of '" + array +
-                    "' that are no marks, being too many or of whole areas: held by nothing; " + words.hold +
+                    "' that are no marks, being too many or of whole areas: held by nothing; " + ids +
                     " holds vertices");
   }
   return notes;

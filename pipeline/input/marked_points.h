@@ -43,14 +43,9 @@ struct MarkedPoints {
 MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
                                 std::int32_t zero, std::span<const std::int32_t> regions_inside);
 
-/// How the user has it otherwise: what the notes name as the way out.
-struct MarkerWords {
-  std::string free;  ///< that no markers hold vertices: "--fixed-set none"
-  std::string hold;  ///< what holds others: "a file of --fixed-ids"
-};
-
-/// What the user should know of what the array marks, one sentence each.
+/// What the user should know of what the array marks, one sentence each. `ids`: what holds other vertices, "a file of
+/// --fixed-ids".
 std::vector<std::string> notes_of_marked_points(const std::string& array, const MarkedPoints& points,
-                                                const MarkerWords& words);
+                                                const std::string& ids);
 
 }  // namespace trismooth

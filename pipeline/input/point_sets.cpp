@@ -1,3 +1,5 @@
+#include "trismooth/pipeline/input/point_sets.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -8,7 +10,6 @@
 #include "trismooth/base/plain_name.h"
 #include "trismooth/base/shell_words.h"
 #include "trismooth/pipeline/input/marked_points.h"
-#include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/set_labels.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
@@ -201,8 +202,7 @@ class SetFinder {
       std::iota(rows.begin(), rows.end(), 0);
       const ValueNumbers markers = number_values(*array, rows);
       MarkedPoints marked = find_marked_points(triangles, markers.of_item, number_of_zero(*array, markers), inside);
-      std::ranges::move(notes_of_marked_points(array->name, marked, {"--fixed-set none", ids}),
-                        std::back_inserter(marker_notes_));
+      std::ranges::move(notes_of_marked_points(array->name, marked, ids), std::back_inserter(marker_notes_));
       members_.push_back(std::move(marked.vertices));
       names_.push_back(array->name);
     }

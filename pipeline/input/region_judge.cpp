@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
+#include "trismooth/base/plain_name.h"
 #include "trismooth/base/shell_words.h"
+#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
 
 namespace trismooth {
@@ -35,10 +41,15 @@ std::string in_hundred(double fraction) {
   return std::to_string(std::llround(100 * fraction)) + " %";
 }
 
+/// How the user says that the array gives regions: the notes name it as the way out.
+std::string option_for(const std::string& array) {
+  return "--region-array " + shell_word(array);
+}
+
+/// Of one array that has different values.
 class Judge {
  public:
-  Judge(const TriangleValues& values, std::vector<std::string>& notes, const RegionWords& words)
-      : values_(values), notes_(notes), words_(words) {}
+  Judge(const TriangleValues& values, std::vector<std::string>& notes) : values_(values), notes_(notes) {}
 
   std::optional<RegionReason> known() {
     const std::optional<double> edges = edges_above(most_edges_of_known_names, values_);
@@ -48,7 +59,7 @@ class Judge {
     notes_.push_back("the cell array '" + values_.name + "' changes across " + in_hundred(*edges) +
                      " of the edges between triangles: it is not taken for regions, what is between its values may "
                      "move; " +
-                     words_.takes(values_.name) + " holds it");
+                     option_for(values_.name) + " holds it");
     return std::nullopt;
   }
 
@@ -66,8 +77,8 @@ class Judge {
       leave_out("its values are many for so few triangles");
     } else {
       notes_.push_back(array_with_count() + " looks like regions: the " + std::to_string(values_.vertices_between()) +
-                       " vertices between them are held. If that is right, " + words_.takes(name) +
-                       " says so; if not, " + words_.none + " frees them");
+                       " vertices between them are held. If that is right, " + option_for(name) +
+                       " says so; if not, --region-array none frees them");
       return RegionReason::looks_like_regions;
     }
     return std::nullopt;
@@ -80,22 +91,15 @@ class Judge {
 
   void leave_out(const std::string& why) {
     notes_.push_back(array_with_count() + " is not taken for regions, " + why +
-                     ": what is between its values may move; " + words_.takes(values_.name) + " holds it");
+                     ": what is between its values may move; " + option_for(values_.name) + " holds it");
   }
 
   const TriangleValues& values_;
   std::vector<std::string>& notes_;
-  const RegionWords& words_;
 };
 
-}  // namespace
-
-RegionWords program_words() {
-  return {[](const std::string& array) { return "--region-array " + shell_word(array); }, "--region-array none"};
-}
-
-std::optional<RegionReason> judge_regions(const TriangleValues& values, std::vector<std::string>& notes,
-                                          const RegionWords& words) {
+/// Why the array counts as one that gives regions; nothing where it does not.
+std::optional<RegionReason> judge(const TriangleValues& values, std::vector<std::string>& notes) {
   if (is_side_name(values.name)) {
     return std::nullopt;
   }
@@ -110,12 +114,105 @@ std::optional<RegionReason> judge_regions(const TriangleValues& values, std::vec
   if (!values.differ()) {
     return std::nullopt;
   }
-  Judge judge(values, notes, words);
+  Judge judge(values, notes);
   return known ? judge.known() : judge.unknown();
 }
 
+/// Whether the array has a region's name and the same value everywhere: for where no other counts.
 bool is_constant_region(const TriangleValues& values) {
   return is_region_name(values.name) && values.components == 1 && values.count() == 1;
+}
+
+/// The places of all arrays of that name, or else of names that differ from it in case, blanks and the like.
+std::vector<std::size_t> places_of(const std::string& name, std::span<const TriangleValues> arrays,
+                                   const ArrayOwner& owner) {
+  std::vector<std::size_t> places;
+  const auto find = [&](const auto& same) {
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+      if (same(arrays[i].name)) {
+        places.push_back(i);
+      }
+    }
+  };
+  find([&](const std::string& other) { return other == name; });
+  if (places.empty()) {
+    find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
+  }
+  if (places.empty()) {
+    std::string known;
+    for (const TriangleValues& array : arrays) {
+      known.append(known.empty() ? "" : ", ").append(array.name);
+    }
+    throw std::invalid_argument(std::string(owner.has) + " no cell array '" + name + "' to take regions from; " +
+                                std::string(owner.it_has) + ": " + (known.empty() ? "none" : known));
+  }
+  return places;
+}
+
+std::vector<std::size_t> places_of_all(std::span<const std::string> names, std::span<const TriangleValues> arrays,
+                                       const ArrayOwner& owner) {
+  std::vector<std::size_t> all;
+  for (const std::string& name : names) {
+    for (const std::size_t place : places_of(name, arrays, owner)) {
+      if (arrays[place].components != 1) {
+        throw std::invalid_argument("the cell array '" + arrays[place].name + "' has " +
+                                    std::to_string(arrays[place].components) + " components; regions need one");
+      }
+      if (std::ranges::find(all, place) == all.end()) {
+        all.push_back(place);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+void choose_regions(std::span<const TriangleValues> arrays, std::span<const std::string> names, std::string_view sizes,
+                    const std::function<void(std::size_t, RegionReason)>& obey, std::vector<std::string>& notes,
+                    const ArrayOwner& owner) {
+  if (std::ranges::find(names, no_region_arrays) != names.end()) {
+    if (names.size() > 1) {
+      throw std::invalid_argument("--region-array none switches regions off; it cannot be given with other arrays");
+    }
+    return;
+  }
+  if (!names.empty()) {
+    for (const std::size_t place : places_of_all(names, arrays, owner)) {
+      obey(place, RegionReason::named);
+    }
+    return;
+  }
+  bool obeys_any = false;
+  std::optional<std::size_t> constant;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const TriangleValues& array = arrays[i];
+    if (is_annotation(array.name) || (!sizes.empty() && array.name == sizes)) {
+      continue;
+    }
+    if (const auto reason = judge(array, notes)) {
+      obey(i, *reason);
+      obeys_any = true;
+    } else if (!constant && is_constant_region(array)) {
+      constant = i;
+    }
+  }
+  if (!obeys_any && constant) {
+    obey(*constant, RegionReason::known_name);
+  }
+}
+
+std::vector<std::string> tell_apart(std::vector<RegionName> names) {
+  std::unordered_map<std::string, int> uses;
+  for (const RegionName& name : names) {
+    ++uses[name.plain];
+  }
+  std::vector<std::string> told;
+  told.reserve(names.size());
+  for (RegionName& name : names) {
+    told.push_back(uses[name.plain] > 1 ? std::move(name.with_value) : std::move(name.plain));
+  }
+  return told;
 }
 
 }  // namespace trismooth

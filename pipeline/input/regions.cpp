@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <stdexcept>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "trismooth/base/counted.h"
-#include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/mesh_io/document/array_names.h"
-#include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/inner_edges.h"
-#include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
@@ -57,12 +49,6 @@ std::vector<Candidate> candidates_of(const MeshDocument& document) {
   return candidates;
 }
 
-std::string names_of(const std::vector<Candidate>& candidates) {
-  std::vector<DataArray> arrays;
-  std::ranges::transform(candidates, std::back_inserter(arrays), &Candidate::array);
-  return array_names(arrays);
-}
-
 class RegionFinder {
  public:
   RegionFinder(const MeshDocument& document, const TriangleCells& mesh)
@@ -80,53 +66,36 @@ class RegionFinder {
     }
   }
 
-  Regions by_names(std::span<const std::string> names) {
-    for (const std::string& name : names) {
-      for (const Candidate* const candidate : named(name)) {
-        if (candidate->array.components != 1) {
-          throw std::invalid_argument(fmt::format("the cell array '{}' has {} components; regions need one",
-                                                  candidate->array.name, candidate->array.components));
-        }
-        if (std::ranges::find(obeyed_, candidate) == obeyed_.end()) {
-          obey(*candidate, numbers_at_triangles(candidate->array), RegionReason::named);
-        }
-      }
-    }
-    return take();
-  }
-
-  Regions by_document(std::string_view sizes) {
-    for (const Candidate& candidate : candidates_) {
-      if (!is_annotation(candidate.array.name) && (sizes.empty() || candidate.array.name != sizes)) {
-        judge(candidate);
-      }
-    }
-    if (regions_.arrays.empty() && constant_ != nullptr) {
-      obey(*constant_, numbers_at_triangles(constant_->array), RegionReason::known_name);
-    }
+  Regions find(std::span<const std::string> names, std::string_view sizes, const ArrayOwner& owner) {
+    std::vector<TriangleValues> arrays;
+    std::ranges::transform(candidates_, std::back_inserter(arrays),
+                           [this](const Candidate& candidate) { return values_of(candidate); });
+    choose_regions(
+        arrays, names, sizes, [&](std::size_t place, RegionReason reason) { obey(candidates_[place], reason); },
+        regions_.notes, owner);
     return take();
   }
 
  private:
-  /// All arrays of that name, or else of names that differ from it in case, blanks and the like.
-  std::vector<const Candidate*> named(const std::string& name) const {
-    std::vector<const Candidate*> found;
-    const auto find = [&](const auto& same) {
-      for (const Candidate& candidate : candidates_) {
-        if (same(candidate.array.name)) {
-          found.push_back(&candidate);
-        }
-      }
-    };
-    find([&](const std::string& other) { return other == name; });
-    if (found.empty()) {
-      find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
+  TriangleValues values_of(const Candidate& candidate) {
+    return {candidate.array.name,
+            candidate.array.components,
+            std::ssize(mesh_.triangles),
+            [this, &candidate] { return numbers_of(candidate).count() > 1; },
+            [this, &candidate] { return std::int64_t{numbers_of(candidate).count()}; },
+            [this, &candidate] { return has_whole_numbers(candidate.array, numbers_of(candidate)); },
+            [this, &candidate] { return edges_.vertices_between(numbers_of(candidate).of_item); },
+            [this, &candidate] { return edges_.fraction_between(numbers_of(candidate).of_item); }};
+  }
+
+  /// Those of one array at a time are kept.
+  const ValueNumbers& numbers_of(const Candidate& candidate) {
+    if (numbered_ != &candidate) {
+      last_numbers_ = {};
+      last_numbers_ = numbers_at_triangles(candidate.array);
+      numbered_ = &candidate;
     }
-    if (found.empty()) {
-      throw std::invalid_argument("the file has no cell array '" + name +
-                                  "' to take regions from; it has: " + names_of(candidates_));
-    }
-    return found;
+    return last_numbers_;
   }
 
   /// A triangle that is listed with several values has the set of them, which is a value of its own: where groups
@@ -141,29 +110,18 @@ class RegionFinder {
                                 : are_whole(array, rows_, number_values(array, rows_));
   }
 
-  void judge(const Candidate& candidate) {
-    ValueNumbers numbers = candidate.array.components == 1 ? numbers_at_triangles(candidate.array) : ValueNumbers{};
-    const TriangleValues values{candidate.array.name,
-                                candidate.array.components,
-                                std::ssize(mesh_.triangles),
-                                [&] { return numbers.count() > 1; },
-                                [&] { return std::int64_t{numbers.count()}; },
-                                [&] { return has_whole_numbers(candidate.array, numbers); },
-                                [&] { return edges_.vertices_between(numbers.of_item); },
-                                [&] { return edges_.fraction_between(numbers.of_item); }};
-    if (const auto reason = judge_regions(values, regions_.notes)) {
-      obey(candidate, std::move(numbers), *reason);
-    } else if (constant_ == nullptr && is_constant_region(values)) {
-      constant_ = &candidate;
-    }
-  }
-
-  void obey(const Candidate& candidate, ValueNumbers numbers, RegionReason reason) {
+  void obey(const Candidate& candidate, RegionReason reason) {
+    const ValueNumbers& numbers = numbers_of(candidate);
     regions_.arrays.push_back(
         {candidate.array.name, reason, numbers.count(), edges_.vertices_between(numbers.of_item)});
     mark_several(candidate.array);
     obeyed_.push_back(&candidate);
-    numbers_ = obeyed_.size() == 1 ? std::move(numbers) : number_pairs(numbers_, numbers);
+    if (obeyed_.size() == 1) {
+      numbers_ = std::move(last_numbers_);
+      numbered_ = nullptr;
+    } else {
+      numbers_ = number_pairs(numbers_, numbers);
+    }
   }
 
   void mark_several(const DataArray& array) {
@@ -179,20 +137,16 @@ class RegionFinder {
   Regions take() {
     if (const auto several = std::ranges::count(has_several_, 1); several > 0) {
       regions_.notes.push_back(
-          fmt::format("{} listed in several regions: what these share is a region of its own, whose border "
-                      "is held; --region-array none switches regions off",
-                      counted(several, "triangle is", "triangles are")));
+          counted(several, "triangle is", "triangles are") +
+          " listed in several regions: what these share is a region of its own, whose border is held; --region-array "
+          "none switches regions off");
     }
-    std::unordered_map<std::string, int> uses;
+    std::vector<RegionName> names;
+    names.reserve(numbers_.example.size());
     for (const std::int32_t triangle : numbers_.example) {
-      regions_.names.push_back(name_of_region(triangle, false));
-      ++uses[regions_.names.back()];
+      names.push_back({name_of_region(triangle, false), name_of_region(triangle, true)});
     }
-    for (std::size_t r = 0; r < regions_.names.size(); ++r) {
-      if (uses[regions_.names[r]] > 1) {
-        regions_.names[r] = name_of_region(numbers_.example[r], true);
-      }
-    }
+    regions_.names = tell_apart(std::move(names));
     regions_.of_triangle = std::move(numbers_.of_item);
     return std::move(regions_);
   }
@@ -225,8 +179,9 @@ class RegionFinder {
   InnerEdges edges_;
   Regions regions_;
   std::vector<const Candidate*> obeyed_;
-  ValueNumbers numbers_;  ///< the triangles by the values of all obeyed arrays
-  const Candidate* constant_ = nullptr;
+  ValueNumbers numbers_;                 ///< the triangles by the values of all obeyed arrays
+  ValueNumbers last_numbers_;            ///< by those of the array that was asked for last
+  const Candidate* numbered_ = nullptr;  ///< that one
 
   // Of a mesh with triangles that are listed again; else empty.
   std::vector<std::int32_t> rows_;            ///< the cells of the triangles, then those of their copies
@@ -238,15 +193,8 @@ class RegionFinder {
 }  // namespace
 
 Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names,
-                     std::string_view sizes) {
-  if (std::ranges::find(names, no_region_arrays) != names.end()) {
-    if (names.size() > 1) {
-      throw std::invalid_argument("--region-array none switches regions off; it cannot be given with other arrays");
-    }
-    return {};
-  }
-  RegionFinder finder(document, mesh);
-  return names.empty() ? finder.by_document(sizes) : finder.by_names(names);
+                     std::string_view sizes, const ArrayOwner& owner) {
+  return RegionFinder(document, mesh).find(names, sizes, owner);
 }
 
 }  // namespace trismooth

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/pipeline/input/triangle_cells.h"
 #include "trismooth/pipeline/region_array.h"
 
@@ -24,11 +25,9 @@ struct Regions {
   std::int32_t count() const { return static_cast<std::int32_t>(names.size()); }
 };
 
-/// In place of names of arrays: no array gives regions.
-inline constexpr std::string_view no_region_arrays = "none";
-
 /// The regions by the cell arrays `names`, or, where that is empty, by those that the document has, but for `sizes`,
-/// which the user wants for another purpose. `names` may be no_region_arrays alone.
+/// which the user wants for another purpose. `names` may be no_region_arrays alone. Error messages say of `owner` that
+/// the arrays are its own.
 ///
 /// Of the document's arrays every one of one component and two values or more counts that
 /// - has a name under which programs write regions (region_names.h) and changes across at most half of the inner edges,
@@ -40,6 +39,6 @@ inline constexpr std::string_view no_region_arrays = "none";
 /// Throws std::invalid_argument where `names` names no cell array of the document, or one of several components; the
 /// message lists those there are. Complexity: linear, and n log n where values change from triangle to triangle.
 Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names = {},
-                     std::string_view sizes = {});
+                     std::string_view sizes = {}, const ArrayOwner& owner = {});
 
 }  // namespace trismooth

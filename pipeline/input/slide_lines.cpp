@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "trismooth/base/counted.h"
 #include "trismooth/mesh_io/document/lagrange_cells.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
@@ -60,7 +61,10 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
         found.in_other_cell[static_cast<std::size_t>(v)] = 1;
       }
     }
-    found.cells = std::ssize(line_cells);
+    if (!line_cells.empty()) {
+      found.notes.push_back(counted(line_cells.size(), "of these cells is a line", "of these cells are lines") +
+                            ": their vertices slide where nothing else holds them");
+    }
     ValueNumbers tags;
     tags.of_item.assign(line_cells.size(), 0);
     for (const DataArray& array : document.cell_arrays) {
@@ -77,6 +81,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
       for (std::size_t j = 0; j + 1 < vertices.size(); ++j) {
         found.lines.insert(found.lines.end(), {vertices[j], vertices[j + 1]});
         found.tags.push_back(tags.of_item[i]);
+        found.of_cell.push_back(line_cells[i]);
       }
     }
   }
@@ -85,6 +90,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
   found.lines.insert(found.lines.end(), sides.lines.begin(), sides.lines.end());
   for (const std::int32_t tag : sides.tags) {
     found.tags.push_back(line_tags + tag);
+    found.of_cell.push_back(-1);
   }
   for (const auto& [first, second] : document.periodic_pairs) {
     found.links.insert(found.links.end(), {first, second});

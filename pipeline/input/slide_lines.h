@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
@@ -12,10 +13,11 @@ namespace trismooth {
 
 /// What a document says of the lines that vertices may slide on, for trismooth::Sliding.
 struct SlideLines {
-  std::int64_t cells = 0;                   ///< line cells
   std::vector<std::int32_t> lines;          ///< two points for each edge of its line cells, and for its named sides
   std::vector<std::int32_t> tags;           ///< one number a line: lines that the file's groups tell apart differ
+  std::vector<std::int32_t> of_cell;        ///< the document's cell that each line is of; -1: a named side
   std::vector<std::int32_t> links;          ///< pairs of points that are periodic
+  std::vector<std::string> notes;           ///< what the user should know, one sentence each
   std::vector<std::uint8_t> in_other_cell;  ///< one flag a point: of a cell that is neither triangle nor straight line
 };
 

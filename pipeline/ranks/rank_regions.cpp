@@ -4,8 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <exception>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -15,13 +16,9 @@
 #include <mpi.h>
 
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/input/region_judge.h"
-#include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
-#include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/triangle_links.h"
 
 namespace trismooth {
@@ -240,12 +237,6 @@ class RankValues {
   std::optional<std::int64_t> between_;
 };
 
-/// What a region is called; with the value where others are called the same.
-struct RegionName {
-  std::string plain;
-  std::string with_value;
-};
-
 class RankRegionFinder {
  public:
   RankRegionFinder(const PieceFiles& files, const RankTopology& topology)
@@ -257,81 +248,44 @@ class RankRegionFinder {
     }
   }
 
-  RankRegions by_names(std::span<const std::string> names) {
-    std::vector<const PieceArray*> chosen;
-    for (const std::string& name : names) {
-      for (const PieceArray* const array : named(name)) {
-        if (array->components != 1) {
-          throw mpi::KnownToAll{std::make_exception_ptr(std::invalid_argument(
-              fmt::format("the cell array '{}' has {} components; regions need one", array->name, array->components)))};
-        }
-        if (std::ranges::find(chosen, array) == chosen.end()) {
-          chosen.push_back(array);
-          obey(*array, RankValues(files_, *array, topology_, links_), RegionReason::named);
-        }
-      }
-    }
-    return take();
-  }
-
-  RankRegions by_files() {
-    const PieceArray* constant = nullptr;
-    for (const PieceArray* const array : candidates_) {
-      if (!is_annotation(array->name)) {
-        judge(*array, constant);
-      }
-    }
-    if (regions_.arrays.empty() && constant != nullptr) {
-      obey(*constant, RankValues(files_, *constant, topology_, links_), RegionReason::known_name);
+  /// (What is thrown for the names is thrown on all ranks.)
+  RankRegions find(std::span<const std::string> names) {
+    std::vector<TriangleValues> arrays;
+    std::ranges::transform(candidates_, std::back_inserter(arrays),
+                           [this](const PieceArray* array) { return asked_of(*array); });
+    try {
+      choose_regions(arrays, names, {},
+                     [this](std::size_t place, RegionReason reason) { obey(*candidates_[place], reason); },
+                     regions_.notes, {"the pieces have", "they have"});
+    } catch (const std::invalid_argument&) {
+      throw mpi::KnownToAll{std::current_exception()};
     }
     return take();
   }
 
  private:
-  std::vector<const PieceArray*> named(const std::string& name) const {
-    std::vector<const PieceArray*> found;
-    const auto find = [&](const auto& same) {
-      std::ranges::copy_if(candidates_, std::back_inserter(found),
-                           [&](const PieceArray* array) { return same(array->name); });
-    };
-    find([&](const std::string& other) { return other == name; });
-    if (found.empty()) {
-      find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
-    }
-    if (found.empty()) {
-      std::string all;
-      for (const PieceArray* const array : candidates_) {
-        all.append(all.empty() ? "" : ", ").append(array->name);
-      }
-      throw mpi::KnownToAll{std::make_exception_ptr(
-          std::invalid_argument("the pieces have no cell array '" + name +
-                                "' to take regions from; they have: " + (all.empty() ? "none" : all)))};
-    }
-    return found;
+  TriangleValues asked_of(const PieceArray& array) {
+    return {array.name,
+            array.components,
+            topology_.triangle_count(),
+            [this, &array] { return values_of(array).differ(); },
+            [this, &array] { return values_of(array).count(); },
+            [this, &array] { return values_of(array).are_whole(); },
+            [this, &array] { return values_of(array).vertices_between(); },
+            [this, &array] { return values_of(array).fraction_between(); }};
   }
 
-  void judge(const PieceArray& array, const PieceArray*& constant) {
-    if (array.components != 1) {
-      judge_regions({array.name, array.components, topology_.triangle_count(), {}, {}, {}, {}, {}}, regions_.notes);
-      return;
+  /// Those of one array at a time are kept.
+  RankValues& values_of(const PieceArray& array) {
+    if (of_last_ != &array) {
+      last_.emplace(files_, array, topology_, links_);
+      of_last_ = &array;
     }
-    RankValues values(files_, array, topology_, links_);
-    const TriangleValues asked{array.name,
-                               array.components,
-                               topology_.triangle_count(),
-                               [&] { return values.differ(); },
-                               [&] { return values.count(); },
-                               [&] { return values.are_whole(); },
-                               [&] { return values.vertices_between(); },
-                               [&] { return values.fraction_between(); }};
-    if (const auto reason = judge_regions(asked, regions_.notes)) {
-      obey(array, std::move(values), *reason);
-    } else if (constant == nullptr && is_constant_region(asked)) {
-      constant = &array;
-    }
+    return *last_;
   }
 
-  void obey(const PieceArray& array, RankValues values, RegionReason reason) {
+  void obey(const PieceArray& array, RegionReason reason) {
+    RankValues& values = values_of(array);
     regions_.arrays.push_back(
         {array.name, reason, static_cast<std::int32_t>(values.count()), values.vertices_between()});
     const bool is_first = names_.empty();
@@ -378,13 +332,7 @@ class RankRegionFinder {
   }
 
   RankRegions take() {
-    std::map<std::string, int> uses;
-    for (const RegionName& name : names_) {
-      ++uses[name.plain];
-    }
-    for (RegionName& name : names_) {
-      regions_.names.push_back(uses[name.plain] > 1 ? std::move(name.with_value) : name.plain);
-    }
+    regions_.names = tell_apart(std::move(names_));
     if (!regions_.arrays.empty()) {
       regions_.of_overlap = links_.of_overlap<std::int32_t>(of_mesh_);
     }
@@ -433,6 +381,8 @@ class RankRegionFinder {
   const mpi::Communicator& ranks_;
   TriangleLinks links_;
   std::vector<const PieceArray*> candidates_;
+  std::optional<RankValues> last_;       ///< the values of the array that was asked for last
+  const PieceArray* of_last_ = nullptr;  ///< that one
   RankRegions regions_;
   std::vector<std::int32_t> of_mesh_;  ///< the region of each triangle of the RankMesh
   std::vector<RegionName> names_;
@@ -442,15 +392,7 @@ class RankRegionFinder {
 
 RankRegions find_rank_regions(const PieceFiles& files, const RankTopology& topology,
                               std::span<const std::string> names) {
-  if (std::ranges::find(names, no_region_arrays) != names.end()) {
-    if (names.size() > 1) {
-      throw mpi::KnownToAll{std::make_exception_ptr(
-          std::invalid_argument("--region-array none switches regions off; it cannot be given with other arrays"))};
-    }
-    return {};
-  }
-  RankRegionFinder finder(files, topology);
-  return names.empty() ? finder.by_files() : finder.by_names(names);
+  return RankRegionFinder(files, topology).find(names);
 }
 
 }  // namespace trismooth

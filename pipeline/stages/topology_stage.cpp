@@ -338,10 +338,7 @@ void connect_mesh(RunState& run) {
   }
   settle_sliding(run);
   const SlideLines lines = slide_lines_of(run);
-  if (lines.cells > 0) {
-    run.note(counted(lines.cells, "of these cells is a line", "of these cells are lines") +
-             ": their vertices slide where nothing else holds them");
-  }
+  std::ranges::copy(lines.notes, std::back_inserter(result.notes));
   run.found = rings_of(run,
                        {.fixed = fixed,
                         .fixed_ids = ids,

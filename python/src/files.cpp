@@ -1,19 +1,16 @@
 #include "trismooth/python/files.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -30,6 +27,7 @@
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
+#include "trismooth/python/new_array.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/text.h"
@@ -42,23 +40,12 @@ namespace trismooth::python {
 
 namespace {
 
-/// A NumPy array that owns `values`.
-template <class T, std::size_t dimensions>
-nb::object owning_array(std::vector<T> values, const std::array<std::size_t, dimensions>& shape) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  T* const first = kept->data();
-  const nb::capsule owner(kept.release(), [](void* memory) noexcept {
-    const std::unique_ptr<std::vector<T>> gone(static_cast<std::vector<T>*>(memory));
-  });
-  return nb::cast(nb::ndarray<nb::numpy, T>(first, dimensions, shape.data(), owner));
-}
-
 nb::object array_of(const DataArray& array) {
   return visit_scalar_type(array.type, [&]<class T>(T) {
     const std::span<const T> numbers = array.as<T>();
     std::vector<T> copy(numbers.begin(), numbers.end());
-    return array.components == 1 ? owning_array<T, 1>(std::move(copy), {array.rows()})
-                                 : owning_array<T, 2>(std::move(copy), {array.rows(), array.components});
+    return array.components == 1 ? new_array<T, 1>(std::move(copy), {array.rows()})
+                                 : new_array<T, 2>(std::move(copy), {array.rows(), array.components});
   });
 }
 
@@ -68,14 +55,6 @@ nb::dict arrays_of(const std::vector<DataArray>& arrays) {
     by_name[text_of_file(array.name)] = array_of(array);
   }
   return by_name;
-}
-
-nb::list texts(const std::vector<std::string>& lines) {
-  nb::list list;
-  for (const std::string& line : lines) {
-    list.append(text_of_file(line));
-  }
-  return list;
 }
 
 std::vector<std::string> names_of(nb::handle value, const char* name) {
@@ -172,7 +151,7 @@ class FileMesh {
 
   nb::object points() {
     return with_document([](MeshDocument& document) {
-      return owning_array<double, 2>(document.points, {document.point_count(), 3});
+      return new_array<double, 2>(document.points, {document.point_count(), 3});
     });
   }
 
@@ -209,13 +188,13 @@ class FileMesh {
         }
       }
       const std::size_t count = numbers.size() / nodes;
-      return owning_array<std::int32_t, 2>(std::move(numbers), {count, nodes});
+      return new_array<std::int32_t, 2>(std::move(numbers), {count, nodes});
     });
   }
 
   nb::object cell_types() {
     return with_document([](MeshDocument& document) {
-      return owning_array<std::uint8_t, 1>(document.cells.types, {document.cells.types.size()});
+      return new_array<std::uint8_t, 1>(document.cells.types, {document.cells.types.size()});
     });
   }
 

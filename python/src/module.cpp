@@ -5,7 +5,7 @@
 #include "trismooth/python/device.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/files.h"
-#include "trismooth/python/regions.h"
+#include "trismooth/python/flat_mesh.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/smoothing.h"
 #include "trismooth/version.h"
@@ -20,7 +20,7 @@ NB_MODULE(_core, module) {
   bind_results(module);
   bind_smoothing(module);
   bind_quality_of_arrays(module);
-  bind_regions(module);
+  bind_flat_mesh(module);
   bind_device(module);
   bind_files(module);
   module.def("cuda_text", &cuda_text);

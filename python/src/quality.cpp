@@ -19,6 +19,7 @@
 #include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
+#include "trismooth/python/new_array.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/smoothing.h"
@@ -78,11 +79,10 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
 /// The triangles with the corners of one before them, as an array of shape (K, 2): the number of each and that of the
 /// first one. None where a triangle is not valid, which is found and told later.
 nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_count) {
-  using Pairs = nb::ndarray<nb::numpy, std::int32_t, nb::shape<-1, 2>>;
   static_assert(sizeof(RepeatedTriangle) == 2 * sizeof(std::int32_t));
   const HostArray numbers(triangles_object, "triangles");
   const TriangleArray triangles(numbers);
-  auto found = std::make_unique<std::vector<RepeatedTriangle>>();
+  std::vector<RepeatedTriangle> found;
   {
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
@@ -96,16 +96,12 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
       const auto count = static_cast<std::int32_t>(vertex_count);
       if (std::ranges::none_of(kept, [&](const Triangle& triangle) { return is_faulty(count, triangle); })) {
         Workers workers(1);
-        *found = find_repeated_triangles(kept, workers);
+        found = find_repeated_triangles(kept, workers);
       }
     });
   }
-  const std::size_t count = found->size();
-  void* const first = found->data();
-  const nb::capsule owner(found.release(), [](void* memory) noexcept {
-    const std::unique_ptr<std::vector<RepeatedTriangle>> gone(static_cast<std::vector<RepeatedTriangle>*>(memory));
-  });
-  return nb::cast(Pairs(first, {count, 2}, owner));
+  const std::size_t count = found.size();
+  return new_array<std::int32_t, 2>(std::move(found), {count, std::size_t{2}});
 }
 
 /// The report with other numbers of triangles: numbers[t] in place of t.
@@ -128,12 +124,7 @@ nb::list metrics() {
 
 /// vertex_flags() as an array of bool.
 nb::object vertex_mask(nb::handle array, const std::string& argument, std::size_t vertex_count) {
-  auto flags = std::make_unique<std::vector<std::uint8_t>>(vertex_flags(array, argument, vertex_count));
-  void* const first = flags->data();
-  const nb::capsule owner(flags.release(), [](void* memory) noexcept {
-    const std::unique_ptr<std::vector<std::uint8_t>> gone(static_cast<std::vector<std::uint8_t>*>(memory));
-  });
-  return nb::cast(nb::ndarray<nb::numpy, bool, nb::ndim<1>>(first, {vertex_count}, owner));
+  return new_array<bool, 1>(vertex_flags(array, argument, vertex_count), {vertex_count});
 }
 
 }  // namespace

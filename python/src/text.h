@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 
@@ -12,7 +13,16 @@ inline nanobind::str text_of_file(const std::string& text) {
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
 }
 
-/// The way back. Raises where the object is no str.
+/// A list of such texts.
+inline nanobind::list texts(const std::vector<std::string>& lines) {
+  nanobind::list list;
+  for (const std::string& line : lines) {
+    list.append(text_of_file(line));
+  }
+  return list;
+}
+
+/// The bytes of a text, as text_of_file() had them. Raises where the object is no str.
 inline std::string bytes_of_text(nanobind::handle text) {
   const nanobind::object bytes = nanobind::steal(PyUnicode_AsEncodedString(text.ptr(), "utf-8", "surrogateescape"));
   if (!bytes.is_valid()) {

@@ -119,12 +119,37 @@ def test_fixed() -> None:
     )
     expected = ~G.is_boundary
     expected[lone] = False
-    assert np.array_equal(moved(mesh, smooth(mesh).mesh), expected)
     assert np.array_equal(moved(mesh, smooth(mesh, fixed=False).mesh), ~G.is_boundary)
     assert np.array_equal(moved(mesh, smooth(mesh, fixed=[lone]).mesh), expected)
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed="fixed").mesh), expected)
     expected[G.vertex(3, 3)] = False
+    with pytest.warns(trismooth.MeshWarning, match=r"hold their vertices: 'set' \(2 vertices\); fixed=False frees"):
+        assert np.array_equal(moved(mesh, smooth(mesh).mesh), expected)
     assert np.array_equal(moved(mesh, smooth(mesh, fixed="set").mesh), expected)
     assert np.array_equal(moved(mesh, smooth(mesh, fixed=["set", "fixed"]).mesh), expected)
+
+
+def test_point_sets_that_are_of_an_area_hold_nothing() -> None:
+    mesh = mesh_of([("triangle", G.triangles)], point_sets={"part": np.flatnonzero(G.column < 4)})
+    with pytest.warns(trismooth.MeshWarning, match="cover an area hold nothing: 'part'; fixed='part' holds the vertices"):
+        assert np.array_equal(moved(mesh, smooth(mesh).mesh), ~G.is_boundary)
+    assert np.array_equal(moved(mesh, smooth(mesh, fixed="part").mesh), ~G.is_boundary & (G.column >= 4))
+
+
+def test_labels_of_points_are_held_by_their_name() -> None:
+    mesh = mesh_of([("triangle", G.triangles)], cell_data={"medit:ref": [G.regions]})
+    result = smooth(mesh, fixed="medit:ref=2", regions=False)
+    assert np.array_equal(moved(mesh, result.mesh), ~G.is_boundary & (G.column < 5))
+    with pytest.raises(ValueError, match="^fixed: no point or cell .* has 'medit:ref=9'"):
+        smooth(mesh, fixed="medit:ref=9")
+
+
+def test_triangles_that_repeat_a_vertex_hold_theirs_as_in_a_file() -> None:
+    flat = [[G.vertex(2, 2), G.vertex(2, 3), G.vertex(2, 2)]]
+    mesh = mesh_of([("triangle", np.concatenate([G.triangles, flat]))])
+    with pytest.warns(trismooth.MeshWarning, match="1 triangle repeating a vertex .the first is cell 200.: kept"):
+        has_moved = moved(mesh, smooth(mesh).mesh)
+    assert np.array_equal(np.flatnonzero(~has_moved & ~G.is_boundary), flat[0][:2])
 
 
 def test_cells_that_are_not_triangles() -> None:
@@ -289,17 +314,18 @@ def test_file_of_gmsh(tmp_path: Path) -> None:
 
 def test_faults_name_the_argument() -> None:
     mesh = mesh_of(
-        [("triangle", G.triangles)], cell_data={"flux": [np.zeros((200, 2))]}, cell_sets={"bad": [np.array([200])]}
+        [("triangle", G.triangles)], cell_data={"flux": [np.zeros((200, 2))]}, cell_sets={"left": [LEFT]}
     )
-    with pytest.raises(ValueError, match="^regions: the mesh has no cell data or cell set 'u'; it has: 'flux', 'bad'"):
+    text = "^regions: the mesh has no cell array 'u' to take regions from; it has: flux; its cell sets: left"
+    with pytest.raises(ValueError, match=text):
         smooth(mesh, regions="u")
     with pytest.raises(ValueError, match="^regions: the cell array 'flux' has"):
         smooth(mesh, regions="flux")
     with pytest.raises(ValueError, match="^points: the cell set 'bad' has numbers beyond the 200 cells of block 0"):
-        smooth(mesh)
+        smooth(mesh_of([("triangle", G.triangles)], cell_sets={"bad": [np.array([200])]}))
     with pytest.raises(ValueError, match="^regions: the labels have shape"):
         smooth(mesh, regions=np.zeros(7))
-    with pytest.raises(ValueError, match="^fixed: the mesh has no point data or point set 'u'; it has: none"):
+    with pytest.raises(ValueError, match="^fixed: the mesh has no point array or point set 'u' to hold; it has: none"):
         smooth(mesh, fixed="u", regions=False)
     with pytest.raises(ValueError, match="^points: it has no triangles"):
         smooth(mesh_of([("quad", [[0, 1, 12, 11]])]))

@@ -351,13 +351,13 @@ def test_other_types_are_refused(make: Any) -> None:
 def test_faults_name_the_argument() -> None:
     mesh = poly_data()
     mesh.cell_data["flux"] = np.zeros((mesh.n_cells, 2))
-    with pytest.raises(ValueError, match="^regions: the mesh has no cell array 'u'; it has: 'flux'"):
+    with pytest.raises(ValueError, match="^regions: the mesh has no cell array 'u' to take regions from; it has: flux"):
         smooth(mesh, regions="u")
     with pytest.raises(ValueError, match="^regions: the cell array 'flux' has"):
         smooth(mesh, regions="flux")
     with pytest.raises(ValueError, match=r"^regions: the labels have shape \(3,\); expected 200"):
         smooth(mesh, regions=[1, 2, 3])
-    with pytest.raises(ValueError, match="^fixed: the mesh has no point array 'u'; it has: 'T'"):
+    with pytest.raises(ValueError, match="^fixed: the mesh has no point array or point set 'u' to hold; it has: T"):
         smooth(mesh, fixed="u")
     with pytest.raises(ValueError, match="^fixed: "):
         smooth(mesh, fixed=[mesh.n_points])

@@ -11,7 +11,6 @@ import pytest
 
 from trismooth import adapters
 from trismooth.adapters import flat
-from trismooth._core import is_region_name
 
 PACKAGES = {"pyvista", "vtk", "vtkmodules", "meshio", "gmsh", "skfem", "dolfinx", "firedrake", "matplotlib"}
 
@@ -69,20 +68,6 @@ def test_protocol(adapter: str) -> None:
     assert module.SUPPORTS_COPY is (adapter not in ("fenicsx", "firedrake"))
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["region", "MatID", "mat_id", "Cell Tags", "gmsh:physical", "gmsh:geometrical", "medit:ref", "SubdomainID",
-     "ElementBlockIds", "vtkCompositeIndex", "FamilyIdCell", "f", "material", "object_id", "avsucd:material"],
-)  # fmt: skip
-def test_names_of_regions(name: str) -> None:
-    assert is_region_name(name)
-
-
-@pytest.mark.parametrize("name", ["", "pressure", "id", "cell_id", "partition", "temperature", "u", "Normals", "group"])
-def test_names_of_other_arrays(name: str) -> None:
-    assert not is_region_name(name)
-
-
 def test_labels_are_combined() -> None:
     random = np.random.default_rng(1)
     first, second = random.integers(-3, 3, 200), random.choice(["steel", "air", "Kupfer"], 200)
@@ -113,13 +98,13 @@ def test_vertex_masks() -> None:
 @pytest.mark.parametrize(
     ("value", "error", "text"),
     [
-        ([True, False], ValueError, "has shape"),
-        ([4], ValueError, "from 4 to 4"),
-        ([-1], ValueError, "from -1"),
+        ([True, False], ValueError, r"shape \(2,\); expected \(4,\)"),
+        ([4], ValueError, "vertex 4 is not one"),
+        ([-1], ValueError, "vertex -1"),
         ([0.5], TypeError, "float64"),
         ([[0, 1]], ValueError, "dimension"),
-        ([0, 1, 1, 0], TypeError, "make it bool"),
-        (True, ValueError, "has shape"),
+        ([0, 1, 1, 0], TypeError, "flagged .bool. or numbered"),
+        (True, ValueError, "one dimension"),
     ],
 )
 def test_faults_of_vertex_masks(value: object, error: type[Exception], text: str) -> None:

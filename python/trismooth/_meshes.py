@@ -49,7 +49,7 @@ def smooth_mesh(
         _arrays.wants_quality(quality, True),
         progress,
         options,
-        flat.notes,
+        [*flat.notes, *(flat.line_notes if given.lines is None else [])],
     )
     if inplace:
         result.input_points = None

@@ -67,6 +67,18 @@ def in_python(sentence: str) -> str:
     return _OPTION.sub(_argument, sentence)
 
 
+# Arguments of a Mesh of a file, and what a mesh of another package has in their place.
+_OF_MESH = {"regions='none'": "regions=False", "fixed_sets='none'": "fixed=False", "fixed_sets=": "fixed="}
+
+
+def of_mesh(sentence: str) -> str:
+    """A sentence of the program, with arguments of smooth() for meshes of other packages."""
+    said = in_python(sentence)
+    for of_file, argument in _OF_MESH.items():
+        said = said.replace(of_file, argument)
+    return said
+
+
 def _argument(found: re.Match[str]) -> str:
     parts = found.groupdict()
     if parts["array"]:

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._constraints import slides
 from ._notes import warn_of
-from .adapters.flat import quads_note, triangle_width, triangles_of_quads, vertices_of
+from .adapters.flat import Cells, FlatMesh, flat_mesh
 
 if TYPE_CHECKING:
     from . import Result
 
 __all__ = ["smooth"]
 
-# Numbers of Gmsh for types of elements, of quadrangles with how many nodes they have. Gmsh lists nodes as VTK does.
-_LINE = 1
-_TRIANGLE = 2
-_QUADRATIC_TRIANGLE = 9
-_QUADS = {3: 4, 16: 8}
+_LINE = 1  # Gmsh's number for the type of elements
+#: VTK's for the same types, by Gmsh's: lines, triangles and quadrangles. Gmsh lists nodes as VTK does.
+_VTK_TYPES = {_LINE: 3, 2: 5, 9: 22, 3: 9, 16: 23}
+_OTHER_OF_SURFACES = 36
 
 # How far nodes may be from a plane z = const, as a part of the mesh's size: the tolerance of the command-line program.
 _FLATNESS = 1e-6
@@ -74,26 +73,27 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     nodes = _nodes_of_model(gmsh)
     surfaces = _entities(gmsh, nodes, 2)
     curves = _entities(gmsh, nodes, 1) if slides(slide) else []
-    elements = _elements_of(gmsh, nodes, surfaces, curves)
-    held = _held_nodes(nodes, surfaces, curves, elements.lines, fixed)
-    _check_plane(nodes, elements.triangles)
+    mesh = _mesh_of(gmsh, nodes, surfaces, curves)
+    held = _held_nodes(nodes, surfaces, curves, mesh, fixed)
+    _check_plane(nodes, mesh.triangles)
     model = gmsh.model.getCurrent()
-    warn_of(elements.notes)
+    notes = [*mesh.notes, *mesh.line_notes]
+    warn_of(notes)
     result = trismooth.smooth(
         np.ascontiguousarray(nodes.points[:, :2]),
-        elements.triangles,
-        regions=elements.regions,
+        mesh.triangles,
+        regions=mesh.regions,
         fixed=held,
-        other_cells=elements.other_nodes,
+        other_cells=mesh.other_cells,
         slide=slide,
-        lines=elements.lines,
-        line_tags=elements.line_tags,
+        lines=mesh.lines,
+        line_tags=mesh.line_tags,
         links=np.concatenate([curve.periodic_nodes for curve in curves]) if curves else None,
         **options,
     )
     current = gmsh.model.getCurrent()  # the caller's progress may have changed it
     gmsh.model.setCurrent(model)
-    result.notes = [*elements.notes, *result.notes]
+    result.notes = [*notes, *result.notes]
     _move_nodes(gmsh, nodes, [*surfaces, *curves], np.asarray(result.points))
     gmsh.model.setCurrent(current)
     return result
@@ -127,19 +127,6 @@ class _Entity:
     periodic_nodes: np.ndarray
 
 
-@dataclass
-class _Elements:
-    """The triangles of a model, the surface of each, the lines for nodes to slide on, the curve of each, a mask of the
-    nodes of all other elements, and what the user should know of them."""
-
-    triangles: np.ndarray
-    regions: np.ndarray
-    lines: np.ndarray
-    line_tags: np.ndarray
-    other_nodes: Optional[np.ndarray]
-    notes: list[str]
-
-
 def _nodes_of_model(gmsh: Any) -> _Nodes:
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     return _Nodes(tags, coordinates.reshape(-1, 3), np.argsort(tags, kind="stable"))
@@ -156,72 +143,47 @@ def _entities(gmsh: Any, nodes: _Nodes, dimension: int) -> list[_Entity]:
     return entities
 
 
-def _elements_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity]) -> _Elements:
-    """Return the elements. Lines are other elements where there are no curves."""
-    triangles: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
-    regions: dict[int, list[np.ndarray]] = {_TRIANGLE: [], _QUADRATIC_TRIANGLE: []}
-    of_quads = {_TRIANGLE: 0, _QUADRATIC_TRIANGLE: 0}
-    others = []
-    for surface in surfaces:
-        for kind, _, tags in zip(*gmsh.model.mesh.getElements(2, surface.tag)):
-            numbers = nodes.numbers(tags)
-            like = kind
-            if kind in triangles:
-                found = numbers.reshape(-1, 3 if kind == _TRIANGLE else 6)
-            elif kind in _QUADS:
-                quads = numbers.reshape(-1, _QUADS[kind])
-                which, found = triangles_of_quads(quads)
-                others.append(np.delete(quads, which, axis=0))
-                like = _TRIANGLE if _QUADS[kind] == 4 else _QUADRATIC_TRIANGLE
-                of_quads[like] += len(found)
-            else:
-                others.append(numbers)
-                continue
-            triangles[like].append(found)
-            regions[like].append(np.full(len(found), surface.tag, dtype=np.int64))
-    linear, quadratic = (sum(map(len, triangles[kind])) for kind in (_TRIANGLE, _QUADRATIC_TRIANGLE))
-    if linear + quadratic == 0:
+def _mesh_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity]) -> FlatMesh:
+    """Return the elements of surfaces as a mesh whose regions are the surfaces, with the line elements of the curves,
+    and the nodes of all other elements among those of other cells."""
+    types, sizes, numbers, entities = ([np.empty(0, dtype=np.int64)] for _ in range(4))
+    is_other = np.zeros(len(nodes.tags), dtype=bool)
+    for dimension in range(4):
+        for _, entity in gmsh.model.getEntities(dimension):
+            for kind, tags, of_nodes in zip(*gmsh.model.mesh.getElements(dimension, entity)):
+                found = nodes.numbers(of_nodes)
+                # Elements of curves and points have only nodes that are held anyway, but for meshes of unusual origin.
+                if dimension != 2 and not (dimension == 1 and curves and kind == _LINE):
+                    is_other[found] = True
+                    continue
+                types.append(np.full(len(tags), _VTK_TYPES.get(kind, _OTHER_OF_SURFACES)))
+                sizes.append(np.full(len(tags), len(found) // len(tags)))
+                numbers.append(found)
+                entities.append(np.full(len(tags), entity))
+    cells = Cells(*map(np.concatenate, (types, sizes, numbers)))
+    if (cells.types == _VTK_TYPES[_LINE]).all():
         raise ValueError("the model has no triangles of order 1 or 2: call gmsh.model.mesh.generate(2) first")
-    chosen, left = (_TRIANGLE, _QUADRATIC_TRIANGLE)
-    if triangle_width(linear, quadratic) == 6:
-        chosen, left = left, chosen
-    others += triangles[left]
-    # Elements of curves and points have only nodes that are held anyway, but for meshes of unusual origin.
-    for dimension in (0, 1, 3):
-        for kind, _, tags in zip(*gmsh.model.mesh.getElements(dimension)):
-            if not curves or kind != _LINE:
-                others.append(nodes.numbers(tags))
-    return _Elements(
-        np.concatenate(triangles[chosen]),
-        np.concatenate(regions[chosen]),
-        *_lines_of(gmsh, nodes, curves),
-        vertices_of(others, len(nodes.tags)),
-        quads_note(of_quads[chosen]),
+    entity_of = np.concatenate(entities)
+    lines = np.flatnonzero(cells.types == _VTK_TYPES[_LINE])
+    of_curves = {str(curve.tag): lines[entity_of[lines] == curve.tag] for curve in curves}
+    mesh = flat_mesh(
+        nodes.points, cells, cell_sets=of_curves, regions=entity_of, fixed=False, lines=bool(curves)
     )
-
-
-def _lines_of(gmsh: Any, nodes: _Nodes, curves: list[_Entity]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the line elements of the curves, and the curve of each."""
-    lines = [np.empty((0, 2), dtype=np.int64)]
-    line_tags = [np.empty(0, dtype=np.int64)]
-    for curve in curves:
-        for kind, _, tags in zip(*gmsh.model.mesh.getElements(1, curve.tag)):
-            if kind == _LINE:
-                lines.append(nodes.numbers(tags).reshape(-1, 2))
-                line_tags.append(np.full(len(lines[-1]), curve.tag))
-    return np.concatenate(lines), np.concatenate(line_tags)
+    mesh.other_cells = is_other if mesh.other_cells is None else mesh.other_cells | is_other
+    return mesh
 
 
 def _held_nodes(
-    nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity], lines: np.ndarray, fixed: Any
+    nodes: _Nodes, surfaces: list[_Entity], curves: list[_Entity], mesh: FlatMesh, fixed: Any
 ) -> np.ndarray:
     """Return the mask of the nodes that are inside of no surface and on no line inside of a curve, are linked as
     periodic on surfaces, or are fixed by the user."""
     held = np.ones(len(nodes.tags), dtype=bool)
     for surface in surfaces:
         held[surface.nodes] = False
-    for curve in curves:
-        held[np.intersect1d(curve.nodes, lines)] = False
+    if mesh.lines is not None:
+        for curve in curves:
+            held[np.intersect1d(curve.nodes, mesh.lines)] = False
     for surface in surfaces:
         held[surface.periodic_nodes] = True
     if fixed is not None:

@@ -291,7 +291,8 @@ TEST_CASE("sides that a copy alone names are named, and copies are no cells of o
   CHECK(mesh.copies.size() == 1);
   CHECK(mesh.in_other_cell == std::vector<std::uint8_t>{1, 0, 1, 1, 1});
   const trismooth::SlideLines lines = find_slide_lines(document, mesh, {});
-  CHECK(lines.cells == 1);
+  CHECK(lines.notes ==
+        std::vector<std::string>{"1 of these cells is a line: their vertices slide where nothing else holds them"});
   CHECK(lines.lines == Numbers{0, 3, 2, 4});
   CHECK(lines.in_other_cell == std::vector<std::uint8_t>(5, 0));
 }

@@ -181,6 +181,9 @@ TEST_CASE("ids, ranks, partitions and results are no known names of regions") {
                                  "data",
                                  "scalars",
                                  "cell_scalars",
+                                 "group",
+                                 "u",
+                                 "Normals",
                                  "temperature"}) {
     CAPTURE(name);
     CHECK_FALSE(trismooth::is_region_name(name));

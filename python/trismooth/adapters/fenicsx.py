@@ -36,17 +36,12 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     _check(mesh)
     dofmap = _dofmap(mesh)
     count = len(mesh.geometry.x)
-    cells = np.arange(len(dofmap))
     labels = _labels_of_tags(regions, len(dofmap)) if hasattr(regions, "indices") else regions
     return FlatMesh(
         mesh.geometry.x,
         dofmap if dofmap.shape[1] == 3 else np.ascontiguousarray(dofmap[:, _VTK_ORDER]),
         regions=choose_regions(
-            labels,
-            default=list,
-            named=nothing_named("regions", "a dolfinx mesh"),
-            cell_of_triangle=cells,
-            cell_count=len(cells),
+            labels, len(dofmap), default=lambda: None, named=nothing_named("regions", "a dolfinx mesh")
         ),
         fixed=choose_fixed(fixed, count, default=lambda: None, named=nothing_named("fixed", "a dolfinx mesh")),
     )

@@ -36,16 +36,11 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     # Coordinates are complex where Firedrake is built so; their imaginary parts are 0.
     points = float_points(np.real(mesh.coordinates.dat.data_ro))
     nodes = _nodes(mesh)
-    cells = np.arange(len(nodes))
     return FlatMesh(
         points,
         nodes if nodes.shape[1] == 3 else np.ascontiguousarray(nodes[:, _VTK_ORDER]),
         regions=choose_regions(
-            regions,
-            default=list,
-            named=nothing_named("regions", "a Firedrake mesh"),
-            cell_of_triangle=cells,
-            cell_count=len(cells),
+            regions, len(nodes), default=lambda: None, named=nothing_named("regions", "a Firedrake mesh")
         ),
         fixed=choose_fixed(
             fixed, len(points), default=lambda: None, named=nothing_named("fixed", "a Firedrake mesh")

@@ -7,31 +7,18 @@ from typing import Any, Optional
 
 import numpy as np
 
-from .flat import (
-    FlatMesh,
-    any_mask,
-    choose_fixed,
-    choose_regions,
-    combine_labels,
-    float_points,
-    labels_of_sets,
-    marked_points,
-    marked_sides,
-    no_such_name,
-    one_value_each,
-    point_array_mask,
-    quads_note,
-    region_arrays,
-    side_names,
-    tags_of_lines,
-    triangle_width,
-    triangles_of_quads,
-    vertex_mask,
-    vertices_of,
-    with_sides,
-)
+from .flat import Cells, FlatMesh, flat_mesh, float_points
 
 SUPPORTS_COPY = True
+
+#: VTK's numbers for types of cells.
+_VTK_TYPES = {
+    "vertex": 1, "line": 3, "triangle": 5, "polygon": 7, "quad": 9, "line3": 21, "triangle6": 22, "quad8": 23,
+    "quad9": 28, "triangle7": 34, "VTK_LAGRANGE_CURVE": 68, "VTK_LAGRANGE_TRIANGLE": 69,
+    "VTK_LAGRANGE_QUADRILATERAL": 70,
+}  # fmt: skip
+#: Points, a cubic line, a quadratic polygon, a convex set of points.
+_LIKE_THOSE_OF_DIMENSION = (2, 35, 36, 41)
 
 # meshio keeps the curves around each entity here, as if their numbers were those of cells.
 _NOT_CELL_SETS = frozenset({"gmsh:bounding_entities"})
@@ -51,15 +38,29 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         as the program judges it, and all cell sets. A name or names: of cell data or cell sets. An array: a label for
         each triangle, or for each cell of all blocks in their order.
     fixed : None, False, str, list of str or array_like
-        None: the point data ``fixed``, if there are such, and vertices inside that point data of markers mark
-        (``medit:ref``, ...), as the program judges it; with ``lines`` points of Gmsh's geometry as well. A name or
-        names: of point data, where vertices are held whose value is not zero, or of point sets. An array: a mask, or
-        vertex numbers.
+        None: the point data ``fixed``, if there are such, point sets that are of no area, vertices inside that point
+        data of markers mark (``medit:ref``, ...), and those that a file of Gmsh has on points and curves, all as the
+        program judges it. A name or names: of point data, where vertices are held whose value is not zero, or of point
+        sets. An array: a mask, or vertex numbers.
     lines : bool
         Whether blocks ``line`` are lines for vertices to slide on. They differ where cell data that give regions or
         cell sets do. Vertices that a file of Gmsh calls periodic are linked.
     """
-    return _Flattener(mesh).flatten(regions, fixed, lines)
+    pairs = _pairs_of(mesh)
+    flat = flat_mesh(
+        float_points(mesh.points),
+        _cells_of(mesh),
+        cell_data=((name, _values(mesh, name)) for name in mesh.cell_data),
+        point_data=mesh.point_data.items(),
+        cell_sets=_sets_of(mesh),
+        point_sets=((name, np.asarray(points)) for name, points in mesh.point_sets.items()),
+        implied_sets=_implied_sets(mesh, pairs),
+        regions=regions,
+        fixed=fixed,
+        lines=lines,
+    )
+    flat.links = pairs if lines else None
+    return flat
 
 
 def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) -> Any:
@@ -72,172 +73,85 @@ def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) ->
     return target
 
 
-class _Flattener:
-    """The triangles of a mesh and what the mesh says of them."""
-
-    def __init__(self, mesh: Any) -> None:
-        self._mesh = mesh
-        self._found = [_triangles_of(block) for block in mesh.cells]
-        counts = {nodes: sum(len(t) for _, t in self._found if t.shape[1] == nodes) for nodes in (3, 6)}
-        width = triangle_width(counts[3], counts[6])
-        self._is_chosen = [len(t) > 0 and t.shape[1] == width for _, t in self._found]
-        self._first_cell = np.cumsum([0] + [len(block.data) for block in mesh.cells])
-
-    def flatten(self, regions: Any, fixed: Any, lines: bool) -> FlatMesh:
-        mesh = self._mesh
-        count = len(mesh.points)
-        of_lines = [b for b, block in enumerate(mesh.cells) if lines and block.type == "line"]
-        others = (self._without_triangles(b) for b in range(len(mesh.cells)) if b not in of_lines)
-        of_others = [nodes for cells in others for nodes in _nodes_of(cells)]
-        blocks = self._blocks()
-        triangles = np.concatenate([self._found[b][1] for b in blocks])
-        sides, side_tags = marked_sides([self._values(name, blocks) for name in side_names(mesh.cell_data)], triangles)
-        all_lines, line_tags = None, None
-        if lines:
-            all_lines, line_tags = with_sides(
-                np.concatenate([np.empty((0, 2), dtype=np.int64), *(mesh.cells[b].data for b in of_lines)]),
-                self._line_tags(of_lines, regions) if of_lines else None,
-                sides,
-                side_tags,
-            )
-        notes = quads_note(sum(self._cell_count([b]) for b in blocks if mesh.cells[b].data.shape[1] in (4, 8)))
-        flat = FlatMesh(
-            float_points(mesh.points),
-            triangles,
-            regions=choose_regions(
-                regions,
-                default=lambda: self._default_regions(triangles, notes),
-                named=self._named_regions,
-                cell_of_triangle=np.concatenate([self._first_cell[b] + self._found[b][0] for b in blocks]),
-                cell_count=int(self._first_cell[-1]),
-            ),
-            other_cells=vertices_of(of_others if lines else [*of_others, sides], count),
-            lines=all_lines,
-            line_tags=line_tags,
-            links=self._links() if lines else None,
-            notes=notes,
-        )
-        on_lines = vertices_of([*of_others, sides if all_lines is None else all_lines], count)
-        flat.fixed = choose_fixed(
-            fixed, count, default=lambda: self._default_fixed(flat, on_lines, lines), named=self._named_fixed
-        )
-        return flat
-
-    def _line_tags(self, blocks: list[int], regions: Any) -> Optional[np.ndarray]:
-        """A number for each line: they differ where cell data that give regions or cell sets do."""
-        of_data = tags_of_lines(self._mesh.cell_data, regions, lambda name: self._values(name, blocks))
-        count = self._cell_count(blocks)
-        of_sets = labels_of_sets((self._members(name, blocks) for name in self._set_names()), count)
-        return combine_labels([of_sets] if of_data is None else [of_data, of_sets])
-
-    def _links(self) -> Optional[np.ndarray]:
-        """Pairs of vertices that a file of Gmsh calls periodic."""
-        entities = getattr(self._mesh, "gmsh_periodic", None) or []
-        pairs = [np.asarray(entity[3], dtype=np.int64).reshape(-1, 2) for entity in entities]
-        return np.concatenate(pairs) if pairs else None
-
-    def _blocks(self) -> list[int]:
-        """Numbers of the blocks with the triangles that are smoothed."""
-        return [b for b, chosen in enumerate(self._is_chosen) if chosen]
-
-    def _cell_count(self, blocks: list[int]) -> int:
-        return sum(len(self._rows(b)) for b in blocks)
-
-    def _rows(self, b: int) -> np.ndarray:
-        """Numbers of the cells of a block: of those that are triangles, where they are smoothed."""
-        return self._found[b][0] if self._is_chosen[b] else np.arange(len(self._mesh.cells[b].data))
-
-    def _without_triangles(self, b: int) -> Any:
-        """The cells of a block that are not smoothed."""
-        cells = self._mesh.cells[b].data
-        return np.delete(cells, self._found[b][0], axis=0) if self._is_chosen[b] else cells
-
-    def _values(self, name: str, blocks: list[int]) -> np.ndarray:
-        """Values of cell data at the cells of the blocks."""
-        data = self._mesh.cell_data[name]
-        of_blocks = (np.asarray(data[b])[self._rows(b)] for b in blocks)
-        return np.concatenate([values.reshape(-1) if values.shape[1:] == (1,) else values for values in of_blocks])
-
-    def _members(self, name: str, blocks: list[int]) -> np.ndarray:
-        """Numbers of the cells in a cell set, counted over the blocks."""
-        first, members = 0, [np.empty(0, dtype=np.int64)]
-        for b in blocks:
-            of_block = self._mesh.cell_sets[name][b]
-            count = len(self._mesh.cells[b].data)
-            if of_block is not None:
-                numbers = np.asarray(of_block, dtype=np.int64).reshape(-1)
-                if numbers.size > 0 and (numbers.min() < 0 or numbers.max() >= count):
-                    raise ValueError(f"points: the cell set '{name}' has numbers beyond the {count} cells of block {b}")
-                rows = self._rows(b)
-                members.append(first + np.flatnonzero(np.isin(rows, numbers)))
-            first += self._cell_count([b])
-        return np.concatenate(members)
-
-    def _set_names(self) -> list[str]:
-        return [name for name in self._mesh.cell_sets if name not in _NOT_CELL_SETS]
-
-    def _default_regions(self, triangles: np.ndarray, notes: list[str]) -> list[np.ndarray]:
-        blocks = self._blocks()
-        arrays = region_arrays(
-            self._mesh.cell_data, lambda name: self._values(name, blocks), triangles, len(self._mesh.points), notes
-        )
-        sets = self._set_names()
-        if sets:
-            arrays.append(labels_of_sets((self._members(name, blocks) for name in sets), self._cell_count(blocks)))
-        return arrays
-
-    def _named_regions(self, name: str) -> np.ndarray:
-        blocks = self._blocks()
-        if name in self._mesh.cell_data:
-            return one_value_each(self._values(name, blocks), name)
-        if name in self._set_names():
-            return labels_of_sets([self._members(name, blocks)], self._cell_count(blocks))
-        raise no_such_name("regions", name, "cell data or cell set", [*self._mesh.cell_data, *self._set_names()])
-
-    def _default_fixed(self, flat: FlatMesh, on_lines: Optional[np.ndarray], lines: bool) -> Optional[np.ndarray]:
-        data = self._mesh.point_data
-        return any_mask(
-            [
-                self._named_fixed("fixed") if "fixed" in data else None,
-                self._on_points_of_geometry() if lines else None,
-                marked_points(data, lambda name: np.asarray(data[name]), flat, on_lines),
-            ]
-        )
-
-    def _on_points_of_geometry(self) -> Optional[np.ndarray]:
-        """Nodes that a file of Gmsh says are points of its geometry. It says nothing if none is of a surface."""
-        entities = self._mesh.point_data.get("gmsh:dim_tags")
-        if entities is None or not (np.asarray(entities)[:, 0] > 1).any():
-            return None
-        is_point: np.ndarray = np.asarray(entities)[:, 0] == 0
-        return is_point
-
-    def _named_fixed(self, name: str) -> np.ndarray:
-        mesh = self._mesh
-        if name in mesh.point_data:
-            return point_array_mask(mesh.point_data[name])
-        if name in mesh.point_sets:
-            return vertex_mask(mesh.point_sets[name], len(mesh.points), f"fixed: point set '{name}'")
-        raise no_such_name("fixed", name, "point data or point set", [*mesh.point_data, *mesh.point_sets])
+def _cells_of(mesh: Any) -> Cells:
+    blocks = [_nodes_of_block(block) for block in mesh.cells]
+    types = [np.full(len(sizes), _vtk_type(block)) for block, (sizes, _) in zip(mesh.cells, blocks)]
+    return Cells(_joined(types), *(_joined(list(parts)) for parts in (zip(*blocks) if blocks else ((), ()))))
 
 
-def _triangles_of(block: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Which cells of a block are triangles, and their nodes."""
+def _joined(parts: list[np.ndarray]) -> np.ndarray:
+    return np.concatenate([np.empty(0, dtype=np.int64), *parts])
+
+
+def _nodes_of_block(block: Any) -> tuple[np.ndarray, np.ndarray]:
+    """The numbers of nodes of the cells of a block, and all these nodes."""
     cells = block.data
-    is_polygon = block.type.startswith("polygon")
-    width = cells.shape[1] if isinstance(cells, np.ndarray) and cells.dtype != object and cells.ndim == 2 else 0
-    if (block.type, width) in (("triangle", 3), ("triangle6", 6)) or (is_polygon and width == 3):
-        return np.arange(len(cells)), cells
-    if (block.type, width) in (("quad", 4), ("quad8", 8)) or (is_polygon and width == 4):
-        return triangles_of_quads(cells)
-    return np.empty(0, dtype=np.int64), np.empty((0, 3), dtype=np.int64)
+    if isinstance(cells, np.ndarray) and cells.dtype != object and cells.ndim == 2:
+        return np.full(len(cells), cells.shape[1]), cells.reshape(-1)
+    nodes = [_joined(list(_nodes_of(cell))) for cell in cells]
+    return np.array([len(of_cell) for of_cell in nodes], dtype=np.int64), _joined(nodes)
 
 
-
-def _nodes_of(cells: Any) -> Iterator[np.ndarray]:
-    """Nodes of cells. Those of polyhedra are lists of faces of any number of nodes."""
-    if isinstance(cells, (list, tuple)) or cells.dtype == object:
-        for cell in cells:
-            yield from _nodes_of(cell)
+def _nodes_of(cell: Any) -> Iterator[np.ndarray]:
+    """Nodes of a cell. Those of polyhedra are lists of faces of any number of nodes."""
+    if isinstance(cell, (list, tuple)) or getattr(cell, "dtype", None) == object:
+        for part in cell:
+            yield from _nodes_of(part)
     else:
-        yield np.asarray(cells)
+        yield np.ravel(cell)
+
+
+def _vtk_type(block: Any) -> int:
+    """VTK's number for the type of a block's cells; where all that matters is their dimension, of one like them."""
+    name = block.type
+    if name in _VTK_TYPES:
+        return _VTK_TYPES[name]
+    if name.startswith("triangle"):
+        return _VTK_TYPES["VTK_LAGRANGE_TRIANGLE"]
+    return _VTK_TYPES["polygon"] if name.startswith("polygon") else _LIKE_THOSE_OF_DIMENSION[getattr(block, "dim", 3)]
+
+
+def _values(mesh: Any, name: str) -> np.ndarray:
+    """Values of cell data at all cells. Blocks of other cells may have data of another width, which count nothing."""
+    of_blocks = [np.asarray(data) for data in mesh.cell_data[name]]
+    of_blocks = [values.reshape(-1) if values.shape[1:] == (1,) else values for values in of_blocks]
+    widths = [values.shape[1:] for values, block in zip(of_blocks, mesh.cells) if getattr(block, "dim", 2) == 2]
+    width = widths[0] if widths else ()
+    return np.concatenate(
+        [v if v.shape[1:] == width else np.zeros((len(v), *width), dtype=v.dtype) for v in of_blocks]
+    )
+
+
+def _sets_of(mesh: Any) -> dict[str, np.ndarray]:
+    """Numbers of the cells in each cell set, counted over the blocks."""
+    first = np.cumsum([0, *(len(block.data) for block in mesh.cells)])
+    sets = {}
+    for name, of_blocks in mesh.cell_sets.items():
+        if name in _NOT_CELL_SETS:
+            continue
+        members = []
+        for b, of_block in enumerate(of_blocks):
+            numbers = np.asarray([] if of_block is None else of_block, dtype=np.int64).reshape(-1)
+            count = len(mesh.cells[b].data)
+            if numbers.size > 0 and (numbers.min() < 0 or numbers.max() >= count):
+                raise ValueError(f"points: the cell set '{name}' has numbers beyond the {count} cells of block {b}")
+            members.append(first[b] + numbers)
+        sets[name] = _joined(members)
+    return sets
+
+
+def _pairs_of(mesh: Any) -> Optional[np.ndarray]:
+    """Pairs of vertices that a file of Gmsh calls periodic."""
+    entities = getattr(mesh, "gmsh_periodic", None) or []
+    pairs = [np.asarray(entity[3], dtype=np.int64).reshape(-1, 2) for entity in entities]
+    return np.concatenate(pairs) if pairs else None
+
+
+def _implied_sets(mesh: Any, pairs: Optional[np.ndarray]) -> Iterator[tuple[str, np.ndarray]]:
+    """What a file of Gmsh tells of nodes, as the program's reader has it. It says nothing if none is of a surface."""
+    entities = np.asarray(mesh.point_data.get("gmsh:dim_tags", np.empty((0, 2))))
+    if (entities[:, 0] > 1).any():
+        yield "gmsh:points", np.flatnonzero(entities[:, 0] == 0)
+        yield "gmsh:curves", np.flatnonzero(entities[:, 0] == 1)
+    if pairs is not None:
+        yield "gmsh:periodic", np.unique(pairs)

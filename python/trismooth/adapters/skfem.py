@@ -34,8 +34,8 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     subdomains: Mapping[str, np.ndarray] = mesh.subdomains or {}
     boundaries: Mapping[str, np.ndarray] = mesh.boundaries or {}
 
-    def default_regions() -> list[np.ndarray]:
-        return [labels_of_sets(map(np.asarray, subdomains.values()), mesh.nelements)] if subdomains else []
+    def default_regions() -> Optional[np.ndarray]:
+        return labels_of_sets(map(np.asarray, subdomains.values()), mesh.nelements) if subdomains else None
 
     def named_regions(name: str) -> np.ndarray:
         if name not in subdomains:
@@ -62,13 +62,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     return FlatMesh(
         points,
         np.ascontiguousarray(_triangles(mesh)),
-        regions=choose_regions(
-            regions,
-            default=default_regions,
-            named=named_regions,
-            cell_of_triangle=np.arange(mesh.nelements),
-            cell_count=mesh.nelements,
-        ),
+        regions=choose_regions(regions, mesh.nelements, default=default_regions, named=named_regions),
         fixed=mask,
         lines=mesh.facets[:, facets].T,
         line_tags=labels_of_sets(named, mesh.nfacets)[facets],
