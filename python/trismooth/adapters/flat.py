@@ -125,15 +125,23 @@ def flat_mesh(
     if regions is not None and regions is not False and names is None:
         flat.regions = choose_labels(regions, of_triangle, len(cells.types))
     else:
-        flat.regions = combine_labels([found["regions"], None if of_sets is None else of_sets[of_triangle]])
+        flat.regions = _labels_with_sets(found["regions"], of_sets, of_triangle)
     if fixed is not None and fixed is not False and names_of_fixed is None:
         flat.fixed = vertex_mask(fixed, len(points))
     else:
         flat.fixed = found["fixed"]
     if lines:
-        of_lines = labels_of_sets(cell_sets.values(), len(cells.types))[found["cell_of_line"]] if cell_sets else None
-        flat.lines, flat.line_tags = found["lines"], combine_labels([found["line_tags"], of_lines])
+        of_all_sets = labels_of_sets(cell_sets.values(), len(cells.types)) if cell_sets else None
+        flat.lines = found["lines"]
+        flat.line_tags = _labels_with_sets(found["line_tags"], of_all_sets, found["cell_of_line"])
     return flat
+
+
+def _labels_with_sets(
+    labels: Optional[np.ndarray], of_sets: Optional[np.ndarray], cell_of: np.ndarray
+) -> Optional[np.ndarray]:
+    """Labels that differ wherever these or those of the cells by their sets do."""
+    return labels if of_sets is None else combine_labels([labels, of_sets[cell_of]])
 
 
 def _judged(arrays: Arrays) -> Iterable[tuple[str, Any]]:
