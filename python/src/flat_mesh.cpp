@@ -241,11 +241,10 @@ class Holds {
     const HeldSets sets = held_sets({});
     unite(flags, sets.flags);
     std::string names;
-    for (std::size_t s = 0; s < sets.sets.size(); ++s) {
+    for (const FilePointSet& set : sets.sets) {
       // (Of what arrays of markers mark the notes tell.)
-      if (sets.sets[s].holds && !is_array(sets.sets[s].name)) {
-        names += (names.empty() ? "'" : ", '") + sets.sets[s].name + "' (" +
-                 counted(sets.sets[s].vertices, "vertex", "vertices") + ")";
+      if (set.holds && !is_array(set.name)) {
+        names += (names.empty() ? "'" : ", '") + set.name + "' (" + counted(set.vertices, "vertex", "vertices") + ")";
       }
     }
     if (!names.empty()) {
