@@ -48,39 +48,32 @@ std::future<void> start_backend(const PipelineOptions& options) {
 /// One run over one file: the stages in their order, each with its time.
 class Run {
  public:
-  explicit Run(const PipelineOptions& options) : options_(options), state_(options) {}
-
-  PipelineResult run() {
-    const Stopwatch watch;
-    PipelineTimings& timings = state_.result.timings_ms;
+  explicit Run(const PipelineOptions& options) : options_(options), state_(options) {
     options_.smoothing.validate();
     options_.slide.validate();
+  }
+
+  PipelineResult run() {
     require_known_formats(options_);
     starting_ = start_backend(options_);
-    timed(Stage::read, timings.read, read_input);
+    timed(Stage::read, state_.result.timings_ms.read, read_input);
     check_and_smooth();
-    write(watch);
+    write();
     return std::move(state_.result);
   }
 
   /// The stages behind reading.
   PipelineResult run_from(MeshDocument document) {
-    const Stopwatch watch;
-    options_.smoothing.validate();
-    options_.slide.validate();
     state_.document = std::move(document);
     take_input(state_);
     check_and_smooth();
-    write(watch);
+    write();
     return std::move(state_.result);
   }
 
   /// The stages between reading and writing, on `document`, which is as it was where they fail. `annotations`, where it
   /// is not null, gets those that the options want.
   PipelineResult run_on(MeshDocument& document, AddedArrays* annotations = nullptr) {
-    const Stopwatch watch;
-    options_.smoothing.validate();
-    options_.slide.validate();
     const std::vector<double> points = document.points;
     const std::vector<DataArray> point_arrays = document.point_arrays;
     state_.document = std::move(document);
@@ -94,7 +87,7 @@ class Run {
       } else if (const auto dropped = annotations_in(state_.document); drops && !dropped.empty()) {
         state_.note(note_of_dropped_annotations(dropped));
       }
-      complete(watch);
+      complete();
       if (options_.beside.prepare) {
         options_.beside.prepare(state_.result);
       }
@@ -117,13 +110,13 @@ class Run {
  private:
   /// The mesh and what belongs to it: first complete under other names, then put in place, the mesh last. Completes the
   /// result.
-  void write(const Stopwatch& watch) {
+  void write() {
     std::optional<WrittenAside> mesh;
     if (const auto& path = options_.written()) {
       timed(Stage::write, state_.result.timings_ms.write,
             [&](RunState& run) { mesh.emplace(write_output(run, *path, !options_.output || options_.annotate)); });
     }
-    complete(watch);
+    complete();
     if (!mesh) {
       return;
     }
@@ -149,8 +142,8 @@ class Run {
     }
   }
 
-  void complete(const Stopwatch& watch) {
-    state_.result.timings_ms.total = watch.milliseconds();
+  void complete() {
+    state_.result.timings_ms.total = watch_.milliseconds();
     state_.result.peak_memory_bytes = peak_memory_bytes();
   }
 
@@ -168,6 +161,7 @@ class Run {
     milliseconds += watch.milliseconds();
   }
 
+  const Stopwatch watch_;
   const PipelineOptions& options_;
   std::future<void> starting_;  ///< the backend
   RunState state_;

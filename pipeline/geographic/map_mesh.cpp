@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/geographic/longitudes.h"
 
@@ -69,23 +68,12 @@ double west_of(const DegreeRange& range) {
 
 /// Takes the triangles out of those that are smoothed.
 void set_apart(PlanarMesh& mesh, std::span<const std::int32_t> cut) {
-  std::vector<Triangle> triangles;
-  BulkVector<std::int32_t> cells;
-  auto next = cut.begin();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (next != cut.end() && *next == static_cast<std::int32_t>(t)) {
-      ++next;
-      for (const std::int32_t v : mesh.triangles[t]) {
-        mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
-      }
-      continue;
+  for (const std::int32_t t : cut) {
+    for (const std::int32_t v : mesh.triangles[static_cast<std::size_t>(t)]) {
+      mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
     }
-    triangles.push_back(mesh.triangles[t]);
-    cells.push_back(mesh.cells[t]);
   }
-  mesh.triangles_of_cells = std::move(triangles);
-  mesh.triangles = mesh.triangles_of_cells;
-  mesh.cells = std::move(cells);
+  leave_out(mesh, cut);
   mesh.other_cells += std::ssize(cut);
   mesh.notes.push_back(
       fmt::format("the mesh goes round the globe: {} triangle{} across its seam {} kept as {}, {} vertices held fixed",

@@ -47,15 +47,16 @@ void hold_as_other_cell(TriangleCells& mesh, std::int32_t triangle) {
   ++mesh.other_cells;
 }
 
-/// Makes the mesh one of the other triangles. Returns their numbers there.
-std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const RepeatedTriangle> repeated) {
+}  // namespace
+
+std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const std::int32_t> left_out) {
   std::vector<Triangle> triangles;
   BulkVector<std::int32_t> cells;
   std::vector<QuadraticTriangle> quadratics;
   std::vector<std::int32_t> numbers(mesh.triangles.size(), -1);
-  auto next = repeated.begin();
+  auto next = left_out.begin();
   for (std::size_t t = 0; t < numbers.size(); ++t) {
-    if (next != repeated.end() && next->triangle == static_cast<std::int32_t>(t)) {
+    if (next != left_out.end() && *next == static_cast<std::int32_t>(t)) {
       ++next;
       continue;
     }
@@ -75,8 +76,6 @@ std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const Repeate
   return numbers;
 }
 
-}  // namespace
-
 std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell) {
   const auto first = std::ranges::lower_bound(copies, cell, {}, &CellCopy::cell);
   return {first, std::ranges::upper_bound(first, copies.end(), cell, {}, &CellCopy::cell)};
@@ -88,7 +87,9 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
     return;
   }
   std::int64_t others = 0;
+  std::vector<std::int32_t> left_out;
   for (const auto& [triangle, first] : repeated) {
+    left_out.push_back(triangle);
     if (has_other_middles(middles_of(mesh, triangle), middles_of(mesh, first))) {
       hold_as_other_cell(mesh, triangle);
       ++others;
@@ -107,7 +108,7 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
                          (others == 1 ? "has" : "have") +
                          " other middles of sides: kept as they are, their vertices held fixed");
   }
-  const std::vector<std::int32_t> numbers = leave_out(mesh, repeated);
+  const std::vector<std::int32_t> numbers = leave_out(mesh, left_out);
   for (CellCopy& copy : mesh.copies) {
     copy.triangle = numbers[static_cast<std::size_t>(copy.triangle)];
   }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace trismooth {
 
@@ -18,6 +19,10 @@ struct CellCopy {
 
 /// The copies that are of this cell. `copies` ascend by their cells. Complexity: log n.
 std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell);
+
+/// Makes the mesh one of the triangles that are not `left_out` (ascending). Returns the numbers that its triangles have
+/// then, -1 for those left out. Complexity: linear.
+std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const std::int32_t> left_out);
 
 /// Takes triangles that have the corners of one before them, in whatever order, out of those of the mesh, which has
 /// each once then: they are its `copies`. Programs list triangles again for every group that has them. One of six nodes

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <unordered_map>
 #include <utility>
+
+#include "trismooth/mesh_io/document/point_labels.h"
 
 namespace trismooth {
 
@@ -15,13 +16,6 @@ constexpr int line_dimension = 1;
 
 bool is_integer(ScalarType type) {
   return type != ScalarType::float32 && type != ScalarType::float64;
-}
-
-std::int64_t whole_number(const DataArray& array, std::size_t row) {
-  return visit_scalar_type(array.type, [&](auto zero) {
-    std::memcpy(&zero, array.bytes.data() + row * sizeof(zero), sizeof(zero));
-    return static_cast<std::int64_t>(zero);
-  });
 }
 
 }  // namespace
@@ -47,7 +41,7 @@ std::vector<FileLineGroup> find_line_groups(const MeshDocument& document) {
       if (cell_type::dimension(cells.types[c]) != line_dimension) {
         continue;
       }
-      if (const auto found = group_of.find(whole_number(array, c)); found != group_of.end()) {
+      if (const auto found = group_of.find(point_label(array, c)); found != group_of.end()) {
         for (const std::int32_t v : cells[c]) {
           uses.emplace_back(found->second, v);
         }

@@ -14,8 +14,8 @@
 #include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/geographic/geographic_map.h"
-#include "trismooth/pipeline/input/middle_nodes.h"
 #include "trismooth/pipeline/input/triangle_cells.h"
+#include "trismooth/smoothing/middle_nodes.h"
 
 namespace trismooth {
 
@@ -76,6 +76,11 @@ PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& pat
 /// others now.
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
                   const std::filesystem::path& path, Workers& workers);
+
+/// Tells which middles of the mesh's quadratic triangles follow their sides (mesh.middles), and at which fraction of
+/// them they lie (`points`: x, y, z of every vertex of the document, as the file has them), and holds where it cannot
+/// be, in `named` (a byte a vertex, or empty) and mesh.in_other_cell: see middle_nodes.h of smoothing.
+void settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named);
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
 /// number that is not below `vertex_count`.

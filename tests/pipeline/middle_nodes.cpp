@@ -1,5 +1,3 @@
-#include "trismooth/pipeline/input/middle_nodes.h"
-
 #include <cstdint>
 #include <utility>
 #include <vector>
