@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <string>
 
 #include "trismooth/base/digits.h"
 #include "trismooth/base/errors.h"

@@ -1,6 +1,5 @@
 #include "trismooth/base/point_view.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,5 @@
 #include "trismooth/quality/orientation.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "trismooth/base/workers.h"

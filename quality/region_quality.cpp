@@ -53,11 +53,8 @@ std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<co
   // The triangles by region, in their order within each.
   std::vector<std::int32_t> members(region_of.size());
   const std::vector<std::int64_t> offsets = counting_sort(
-      std::ssize(region_of), region_count, [&](std::int64_t t) { return region_of[static_cast<std::size_t>(t)]; },
-      [&](std::int64_t t, std::int64_t place) {
-        members[static_cast<std::size_t>(place)] = static_cast<std::int32_t>(t);
-      },
-      workers);
+      std::ssize(region_of), region_count, [&](std::int64_t t) { return region_of[t]; },
+      [&](std::int64_t t, std::int64_t place) { members[place] = static_cast<std::int32_t>(t); }, workers);
 
   std::vector<Chunk> chunks;
   for (std::size_t r = 0; r + 1 < offsets.size(); ++r) {

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/exact_arithmetic.h"
-#include "trismooth/base/rounding.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/pipeline/fields/missing_values.h"
 

@@ -1,7 +1,6 @@
 #include "trismooth/pipeline/geographic/longitudes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "trismooth/base/digits.h"
 #include "trismooth/base/plain_name.h"

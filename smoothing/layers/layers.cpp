@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 
 #include "trismooth/base/blocks.h"
@@ -24,7 +23,7 @@ std::vector<ListedFlat> list_flat(const TriangleView& view, Workers& workers) {
   const Blocks blocks(std::ssize(view.triangles), triangle_grain, workers);
   std::vector<std::vector<ListedFlat>> found(static_cast<std::size_t>(blocks.count()));
   blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::vector<ListedFlat>& own = found[static_cast<std::size_t>(block)];
+    std::vector<ListedFlat>& own = found[block];
     for_corners(view, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
                 [&own](std::size_t first, std::span<const CornerPoints> corners) {
                   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -111,7 +110,7 @@ class Stretches {
   bool counts(const Stretch& stretch) const { return stretch.triangles >= least_; }
   /// Whether the stretch of the triangle goes all around a corner of it.
   bool goes_around(std::size_t triangle, int corner) const {
-    return excess_[static_cast<std::size_t>(triangles_[triangle][static_cast<std::size_t>(corner)])] == 0;
+    return excess_[static_cast<std::size_t>(triangles_[triangle][corner])] == 0;
   }
 
  private:
@@ -119,7 +118,7 @@ class Stretches {
     std::vector<std::int32_t> corner(static_cast<std::size_t>(vertex_count), -1);
     for (std::size_t t = triangles_.size(); t-- > 0;) {
       for (int i = 2; i >= 0; --i) {
-        corner[static_cast<std::size_t>(triangles_[t][i])] = static_cast<std::int32_t>(3 * t) + i;
+        corner[triangles_[t][i]] = static_cast<std::int32_t>(3 * t) + i;
       }
     }
     std::vector<std::int32_t> twins(3 * triangles_.size());
@@ -148,12 +147,12 @@ class Stretches {
     std::vector<std::int32_t> some(static_cast<std::size_t>(vertex_count), -1);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       for (const std::int32_t v : triangles_[t]) {
-        ++excess_[static_cast<std::size_t>(v)];
-        some[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(roots_[t]);
+        ++excess_[v];
+        some[v] = static_cast<std::int32_t>(roots_[t]);
       }
     }
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const auto is_in_fan = [this](std::int32_t v) { return excess_[static_cast<std::size_t>(v)] > 6; };
+      const auto is_in_fan = [this](std::int32_t v) { return excess_[v] > 6; };
       stretches_[roots_[t]].in_fans += std::ranges::any_of(triangles_[t], is_in_fan) ? 1 : 0;
     }
     for (const std::int32_t h : sides_) {
@@ -163,7 +162,7 @@ class Stretches {
     }
     for (std::size_t v = 0; v < excess_.size(); ++v) {
       if (some[v] >= 0 && excess_[v] == 0) {
-        ++stretches_[static_cast<std::size_t>(some[v])].inside;
+        ++stretches_[some[v]].inside;
       }
     }
   }
@@ -196,9 +195,9 @@ LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::sp
         std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
       };
       for (std::int64_t i = begin; i < end; ++i) {
-        const ListedFlat& flat = left[static_cast<std::size_t>(i)];
-        for (const std::int32_t v : triangles[static_cast<std::size_t>(flat.triangle)]) {
-          FlatAround& here = around[static_cast<std::size_t>(v)];
+        const ListedFlat& flat = left[i];
+        for (const std::int32_t v : triangles[flat.triangle]) {
+          FlatAround& here = around[v];
           add(here.count, 1);
           add(here.sum.xx, flat.tensor.xx);
           add(here.sum.xy, flat.tensor.xy);
@@ -209,24 +208,21 @@ LayerCandidates::LayerCandidates(std::span<const Point2<double>> points, std::sp
       complete(around);
     }
     std::erase_if(left, [&](const ListedFlat& flat) {
-      return !std::ranges::all_of(triangles[static_cast<std::size_t>(flat.triangle)], [&](std::int32_t v) {
-        return stay_in_choice(around[static_cast<std::size_t>(v)], static_cast<int>(choice));
-      });
+      return !std::ranges::all_of(triangles[flat.triangle],
+                                  [&](std::int32_t v) { return stay_in_choice(around[v], static_cast<int>(choice)); });
     });
     left_[choice] = std::move(left);
   }
 }
 
 std::vector<FlatTriangle> LayerCandidates::after(int choices, Workers& workers) const {
-  const std::vector<ListedFlat>& left = left_[static_cast<std::size_t>(choices)];
+  const std::vector<ListedFlat>& left = left_[choices];
   std::vector<FlatTriangle> candidates(left.size());
   workers.for_blocks(std::ssize(left), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const Triangle corners = canonical_corners(view_, static_cast<std::size_t>(left[i].triangle));
       const auto [a, b, c] = corners;
-      candidates[i] =
-          described_flat(corners, view_.points[static_cast<std::size_t>(a)], view_.points[static_cast<std::size_t>(b)],
-                         view_.points[static_cast<std::size_t>(c)]);
+      candidates[i] = described_flat(corners, view_.points[a], view_.points[b], view_.points[c]);
     }
   });
   return candidates;
@@ -253,7 +249,7 @@ LayerSearch search_layers(std::span<const FlatTriangle> candidates, std::int32_t
     } else if (stretch.is_wide() || stretch.is_band()) {
       for (int i = 0; i < 3; ++i) {
         if (!stretch.is_wide() || stretches.goes_around(t, i)) {
-          found.left.push_back(corners[static_cast<std::size_t>(i)]);
+          found.left.push_back(corners[i]);
         }
       }
       left_quotient = std::min(left_quotient, stretch.smallest_quotient);
@@ -306,13 +302,12 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   LayerSearch found = search_layers([&](int choices) { return candidates.after(choices, workers); },
                                     static_cast<std::int32_t>(points.size()), layers, workers);
   for (const std::int32_t v : found.kept) {
-    std::uint8_t& reasons = fixed[static_cast<std::size_t>(v)];
+    std::uint8_t& reasons = fixed[v];
     if (count_in_layer(reasons, slides, found.result)) {
       reasons |= hold::named;
     }
   }
-  found.result.left =
-      std::ranges::count_if(found.left, [fixed](std::int32_t v) { return fixed[static_cast<std::size_t>(v)] == 0; });
+  found.result.left = std::ranges::count_if(found.left, [fixed](std::int32_t v) { return fixed[v] == 0; });
   return found.result;
 }
 

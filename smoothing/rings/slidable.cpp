@@ -49,7 +49,7 @@ class NearMesh {
       Triangle corners{};
       for (std::size_t i = 0; i < 3; ++i) {
         corners[i] = places_.of(triangle.corners[i]);
-        reasons_[static_cast<std::size_t>(corners[i])] = triangle.reasons[i];
+        reasons_[corners[i]] = triangle.reasons[i];
       }
       triangles_.push_back(corners);
     }
@@ -60,11 +60,11 @@ class NearMesh {
   const Triangle& corners(std::size_t t) const { return triangles_[t]; }
   std::int32_t region(std::size_t t) const { return near_[t].region; }
   std::int32_t number(std::size_t t) const { return near_[t].number; }
-  bool is_free(std::int32_t v) const { return reasons_[static_cast<std::size_t>(v)] == 0; }
-  bool is_candidate(std::int32_t v) const { return is_held_by_lines(reasons_[static_cast<std::size_t>(v)]); }
+  bool is_free(std::int32_t v) const { return reasons_[v] == 0; }
+  bool is_candidate(std::int32_t v) const { return is_held_by_lines(reasons_[v]); }
   /// The number here of a vertex of the mesh; NumberPlaces::none where it is at none of these triangles.
   std::int32_t vertex(std::int32_t number_in_mesh) const { return places_.of(number_in_mesh); }
-  std::int32_t number_in_mesh(std::int32_t v) const { return places_.sorted()[static_cast<std::size_t>(v)]; }
+  std::int32_t number_in_mesh(std::int32_t v) const { return places_.sorted()[v]; }
 
  private:
   static std::vector<std::int32_t> vertices_of(std::span<const NearTriangle> near,
@@ -102,14 +102,14 @@ class ChainSearch {
     const NumberLists edges_at(0, mesh_.vertex_count(), ends);
     for (std::int32_t v = 0; v < mesh_.vertex_count(); ++v) {
       const std::span<const std::int32_t> here = edges_at[v];
-      if (here.size() != 2 || !mesh_.is_candidate(v) || blocked_[static_cast<std::size_t>(v)] != 0) {
+      if (here.size() != 2 || !mesh_.is_candidate(v) || blocked_[v] != 0) {
         continue;
       }
-      const ChainEdge& first = edges_[static_cast<std::size_t>(here[0])];
-      const ChainEdge& second = edges_[static_cast<std::size_t>(here[1])];
+      const ChainEdge& first = edges_[here[0]];
+      const ChainEdge& second = edges_[here[1]];
       if (first.kind == second.kind) {
         const auto [low, high] = std::minmax({first.other(v), second.other(v)});
-        found[static_cast<std::size_t>(v)] = {low, high};
+        found[v] = {low, high};
       }
     }
     return found;
@@ -143,7 +143,7 @@ class ChainSearch {
 
   void block(std::int32_t v) {
     if (v != NumberPlaces::none) {
-      blocked_[static_cast<std::size_t>(v)] = 1;
+      blocked_[v] = 1;
     }
   }
   void block(const Line& line) {
@@ -209,7 +209,7 @@ std::vector<std::uint8_t> Slidable::truly_fixed(std::span<const std::uint8_t> fi
   std::vector<std::uint8_t> others(fixed.begin(), fixed.end());
   for (std::int32_t v = 0; v < vertex_count(); ++v) {
     if (may_slide(v)) {
-      others[static_cast<std::size_t>(vertices[static_cast<std::size_t>(v)])] = 0;
+      others[static_cast<std::size_t>(vertices[v])] = 0;
     }
   }
   return others;
@@ -218,7 +218,7 @@ std::vector<std::uint8_t> Slidable::truly_fixed(std::span<const std::uint8_t> fi
 std::vector<std::uint8_t> Slidable::flags_of_triangles(std::span<const std::uint8_t> flags) const {
   std::vector<std::uint8_t> found;
   for (const std::int32_t t : triangle_numbers) {
-    found.push_back(flags[static_cast<std::size_t>(t)]);
+    found.push_back(flags[t]);
   }
   return found;
 }
@@ -228,11 +228,11 @@ Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std:
   if (constraints.slide.along == Slide::off) {
     return {};
   }
-  const auto reasons = [&](std::int32_t v) { return fixed[static_cast<std::size_t>(v)]; };
+  const auto reasons = [&](std::int32_t v) { return fixed[v]; };
   const BulkVector<std::int32_t> numbers = numbers_of(
       std::ssize(triangles),
       [&](std::int64_t t) {
-        const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
+        const auto& [a, b, c] = triangles[t];
         return is_held_by_lines(reasons(a)) || is_held_by_lines(reasons(b)) || is_held_by_lines(reasons(c));
       },
       workers);
@@ -277,7 +277,7 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
   slidable.coincident = slide.coincident;
   const NearMesh mesh(near.triangles, near.others);
   const std::vector<std::array<std::int32_t, 2>> neighbours = ChainSearch(mesh, slide).neighbours();
-  const auto slides = [&](std::int32_t v) { return neighbours[static_cast<std::size_t>(v)][0] != Slidable::none; };
+  const auto slides = [&](std::int32_t v) { return neighbours[v][0] != Slidable::none; };
   // The triangles around those that slide, and their vertices.
   std::vector<std::uint8_t> is_involved(neighbours.size(), 0);
   for (std::size_t t = 0; t < mesh.size(); ++t) {
@@ -285,7 +285,7 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
       slidable.triangle_numbers.push_back(mesh.number(t));
       slidable.triangles.push_back(mesh.corners(t));
       for (const std::int32_t v : mesh.corners(t)) {
-        is_involved[static_cast<std::size_t>(v)] = 1;
+        is_involved[v] = 1;
       }
     }
   }
@@ -294,18 +294,18 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
   }
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_free(v)) {
-      is_involved[static_cast<std::size_t>(v)] = 1;
+      is_involved[v] = 1;
     }
   }
   std::vector<std::int32_t> places(neighbours.size(), Slidable::none);
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
-    if (is_involved[static_cast<std::size_t>(v)] != 0) {
-      places[static_cast<std::size_t>(v)] = slidable.vertex_count();
+    if (is_involved[v] != 0) {
+      places[v] = slidable.vertex_count();
       slidable.vertices.push_back(mesh.number_in_mesh(v));
       slidable.is_free.push_back(mesh.is_free(v) ? 1 : 0);
     }
   }
-  const auto place_of = [&](std::int32_t v) { return v < 0 ? Slidable::none : places[static_cast<std::size_t>(v)]; };
+  const auto place_of = [&](std::int32_t v) { return v < 0 ? Slidable::none : places[v]; };
   for (std::size_t v = 0; v < neighbours.size(); ++v) {
     if (is_involved[v] != 0) {
       slidable.neighbours.push_back({place_of(neighbours[v][0]), place_of(neighbours[v][1])});

@@ -15,9 +15,8 @@ std::vector<std::uint8_t> without_free_neighbour(std::span<const Triangle> trian
                                                  std::span<const std::uint8_t> is_free) {
   std::vector<std::uint8_t> found(is_free.size(), 1);
   for (const auto& [a, b, c] : triangles) {
-    if ((is_free[static_cast<std::size_t>(a)] | is_free[static_cast<std::size_t>(b)] |
-         is_free[static_cast<std::size_t>(c)]) != 0) {
-      found[static_cast<std::size_t>(a)] = found[static_cast<std::size_t>(b)] = found[static_cast<std::size_t>(c)] = 0;
+    if ((is_free[a] | is_free[b] | is_free[c]) != 0) {
+      found[a] = found[b] = found[c] = 0;
     }
   }
   return found;
@@ -28,7 +27,7 @@ std::vector<std::uint8_t> without_free_neighbour(std::span<const Triangle> trian
 SlidableFans::SlidableFans(std::span<const Triangle> triangles, std::span<const std::uint8_t> may_slide,
                            std::span<const std::uint8_t> is_free, std::span<const std::int32_t> numbers)
     : begins_(may_slide.size() + 1, 0) {
-  const auto slides = [&](std::int32_t v) { return may_slide[static_cast<std::size_t>(v)] != 0; };
+  const auto slides = [&](std::int32_t v) { return may_slide[v] != 0; };
   for (const Triangle& triangle : triangles) {
     for (const std::int32_t v : triangle) {
       begins_[static_cast<std::size_t>(v) + 1] += slides(v) ? 1 : 0;
@@ -38,7 +37,7 @@ SlidableFans::SlidableFans(std::span<const Triangle> triangles, std::span<const 
     begins_[v] += begins_[v - 1];
   }
   const std::vector<std::uint8_t> is_unknown = without_free_neighbour(triangles, is_free);
-  const auto unknown = [&](std::int32_t v) { return is_unknown[static_cast<std::size_t>(v)] != 0; };
+  const auto unknown = [&](std::int32_t v) { return is_unknown[v] != 0; };
   sides_.resize(begins_.back());
   std::vector<std::size_t> ends = begins_;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -47,11 +46,10 @@ SlidableFans::SlidableFans(std::span<const Triangle> triangles, std::span<const 
       if (slides(triangle[i])) {
         const std::int32_t first = triangle[(i + 1) % 3];
         const std::int32_t second = triangle[(i + 2) % 3];
-        sides_[ends[static_cast<std::size_t>(triangle[i])]++] = {first, second, static_cast<std::int32_t>(t),
-                                                                 unknown(first), unknown(second)};
+        sides_[ends[triangle[i]]++] = {first, second, static_cast<std::int32_t>(t), unknown(first), unknown(second)};
       }
     }
-    if (std::ranges::none_of(triangle, [&](std::int32_t v) { return is_free[static_cast<std::size_t>(v)] != 0; })) {
+    if (std::ranges::none_of(triangle, [&](std::int32_t v) { return is_free[v] != 0; })) {
       held_triangles_.push_back(static_cast<std::int32_t>(t));
     }
   }

@@ -22,16 +22,15 @@ class VertexGroups {
   explicit VertexGroups(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
 
   std::int32_t of(std::int32_t v) {
-    while (parents_[static_cast<std::size_t>(v)] != v) {
-      v = parents_[static_cast<std::size_t>(v)] =
-          parents_[static_cast<std::size_t>(parents_[static_cast<std::size_t>(v)])];
+    while (parents_[v] != v) {
+      v = parents_[v] = parents_[static_cast<std::size_t>(parents_[v])];
     }
     return v;
   }
   void join(std::int32_t a, std::int32_t b) {
     any_ = true;
     const auto [low, high] = std::minmax({of(a), of(b)});
-    parents_[static_cast<std::size_t>(high)] = low;
+    parents_[high] = low;
   }
 
   /// Whether any were joined.
@@ -54,7 +53,7 @@ class RunFinder {
 
   ChainRuns run() {
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
-      slides_[static_cast<std::size_t>(v)] = slidable_.may_slide(v) && !is_corner(v) ? 1 : 0;
+      slides_[v] = slidable_.may_slide(v) && !is_corner(v) ? 1 : 0;
     }
     if (std::ranges::find(slides_, 1) != slides_.end()) {
       link();
@@ -86,18 +85,16 @@ class RunFinder {
   }
 
  private:
-  Point2<double> point(std::int32_t v) const { return mesh_.points[static_cast<std::size_t>(v)]; }
-  double rounding(std::int32_t v) const { return mesh_.roundings[static_cast<std::size_t>(v)]; }
-  bool slides(std::int32_t v) const { return slides_[static_cast<std::size_t>(v)] != 0; }
-  void hold(std::int32_t v) { slides_[static_cast<std::size_t>(v)] = 0; }
+  Point2<double> point(std::int32_t v) const { return mesh_.points[v]; }
+  double rounding(std::int32_t v) const { return mesh_.roundings[v]; }
+  bool slides(std::int32_t v) const { return slides_[v] != 0; }
+  void hold(std::int32_t v) { slides_[v] = 0; }
   /// Counts it where it would slide.
   void hold(std::int32_t v, std::int64_t& count) {
     count += slides(v) ? 1 : 0;
     hold(v);
   }
-  const std::array<std::int32_t, 2>& neighbours(std::int32_t v) const {
-    return slidable_.neighbours[static_cast<std::size_t>(v)];
-  }
+  const std::array<std::int32_t, 2>& neighbours(std::int32_t v) const { return slidable_.neighbours[v]; }
 
   /// Whether the chain turns too much.
   bool is_corner(std::int32_t v) const {
@@ -136,7 +133,7 @@ class RunFinder {
       }
     }
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
-      if (touching.at_edges[static_cast<std::size_t>(v)] != 0) {
+      if (touching.at_edges[v] != 0) {
         hold(v, held_.at_edges);
       }
     }
@@ -144,7 +141,7 @@ class RunFinder {
 
   /// Counts a vertex in the place of another that does not slide for that, once.
   void count_unless_matched(std::int32_t v, std::vector<std::uint8_t>& would_slide) {
-    const bool would = std::exchange(would_slide[static_cast<std::size_t>(v)], std::uint8_t{0}) != 0;
+    const bool would = std::exchange(would_slide[v], std::uint8_t{0}) != 0;
     held_.in_same_place += would && !slides(v) ? 1 : 0;
   }
 
@@ -152,7 +149,7 @@ class RunFinder {
     runs_.clear();
     std::ranges::fill(run_of_, Slidable::none);
     for (std::int32_t v = 0; v < slidable_.vertex_count(); ++v) {
-      if (slides(v) && run_of_[static_cast<std::size_t>(v)] == Slidable::none) {
+      if (slides(v) && run_of_[v] == Slidable::none) {
         add_run(v);
       }
     }
@@ -175,7 +172,7 @@ class RunFinder {
       }
     }
     for (std::size_t i = run.begin(); i < run.end(); ++i) {
-      run_of_[static_cast<std::size_t>(run.vertices[i])] = static_cast<std::int32_t>(runs_.size());
+      run_of_[run.vertices[i]] = static_cast<std::int32_t>(runs_.size());
     }
     runs_.push_back(std::move(run));
   }
@@ -250,26 +247,26 @@ class RunFinder {
 
   /// Finds the copies of a run, turned as it is.
   void match(std::int32_t r, std::vector<std::int32_t>& faulty) {
-    const ChainRun& run = runs_[static_cast<std::size_t>(r)];
-    if (first_of_run_[static_cast<std::size_t>(r)] != Slidable::none) {
+    const ChainRun& run = runs_[r];
+    if (first_of_run_[r] != Slidable::none) {
       return;
     }
-    first_of_run_[static_cast<std::size_t>(r)] = r;
+    first_of_run_[r] = r;
     const std::int32_t start = run.vertices[run.begin()];
     const std::size_t group_size = group_of(start).size();
     for (const std::int32_t member : group_of(start)) {
       if (member == start) {
         continue;
       }
-      const std::int32_t other = run_of_[static_cast<std::size_t>(member)];
-      ChainRun copy = runs_[static_cast<std::size_t>(other)];
-      if (other == r || first_of_run_[static_cast<std::size_t>(other)] != Slidable::none || !turn_alike(run, copy)) {
+      const std::int32_t other = run_of_[member];
+      ChainRun copy = runs_[other];
+      if (other == r || first_of_run_[other] != Slidable::none || !turn_alike(run, copy)) {
         faulty.insert(faulty.end(), run.vertices.begin() + static_cast<std::ptrdiff_t>(run.begin()),
                       run.vertices.begin() + static_cast<std::ptrdiff_t>(run.end()));
         return;
       }
-      first_of_run_[static_cast<std::size_t>(other)] = r;
-      copies_[static_cast<std::size_t>(r)].push_back(std::move(copy));
+      first_of_run_[other] = r;
+      copies_[r].push_back(std::move(copy));
     }
     for (std::size_t i = run.begin(); i < run.end(); ++i) {
       if (group_of(run.vertices[i]).size() != group_size) {

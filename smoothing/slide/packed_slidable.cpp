@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
-
 namespace trismooth {
 
 PackedSlidable::PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed,

@@ -52,10 +52,10 @@ class ChainWriter {
     chains_.sliders.reserve(knots);
   }
 
-  Point2<double> point(std::int32_t v) const { return mesh_.points[static_cast<std::size_t>(v)]; }
-  double rounding(std::int32_t v) const { return mesh_.roundings[static_cast<std::size_t>(v)]; }
-  bool slides(std::int32_t v) const { return runs_.slides[static_cast<std::size_t>(v)] != 0; }
-  bool is_free(std::int32_t v) const { return slidable_.is_free[static_cast<std::size_t>(v)] != 0; }
+  Point2<double> point(std::int32_t v) const { return mesh_.points[v]; }
+  double rounding(std::int32_t v) const { return mesh_.roundings[v]; }
+  bool slides(std::int32_t v) const { return runs_.slides[v] != 0; }
+  bool is_free(std::int32_t v) const { return slidable_.is_free[v] != 0; }
 
   void write_chain(const ChainRun& run, std::span<const ChainRun> copies) {
     const auto count = static_cast<std::int32_t>(run.vertices.size());
@@ -154,23 +154,22 @@ class ChainWriter {
     // Which slider a vertex belongs to.
     std::vector<std::int32_t> slider_of(slidable_.vertices.size(), Slidable::none);
     for (std::int32_t s = 0; s < slider_count; ++s) {
-      chains_.for_copies(chains_.sliders[static_cast<std::size_t>(s)],
-                         [&](std::int32_t /*copy*/, std::int32_t v) { slider_of[static_cast<std::size_t>(v)] = s; });
+      chains_.for_copies(chains_.sliders[s], [&](std::int32_t /*copy*/, std::int32_t v) { slider_of[v] = s; });
     }
     std::vector<std::int32_t> colours(chains_.sliders.size(), Slidable::none);
     std::vector<std::int32_t> sizes;  // of the colours
     std::vector<std::int32_t> taken;  // by colour: the last slider whose neighbours have it
     for (const std::int32_t v : slidable_.fans.colouring_order()) {
-      const std::int32_t s = slider_of[static_cast<std::size_t>(v)];
+      const std::int32_t s = slider_of[v];
       if (s == Slidable::none || v != first_copy(s)) {
         continue;
       }
       taken.resize(sizes.size() + 1, Slidable::none);
-      const Slider& slider = chains_.sliders[static_cast<std::size_t>(s)];
+      const Slider& slider = chains_.sliders[s];
       const auto take_colour_of = [&](std::int32_t other_vertex) {
-        const std::int32_t other = slider_of[static_cast<std::size_t>(other_vertex)];
-        if (other != Slidable::none && colours[static_cast<std::size_t>(other)] != Slidable::none) {
-          taken[static_cast<std::size_t>(colours[static_cast<std::size_t>(other)])] = s;
+        const std::int32_t other = slider_of[other_vertex];
+        if (other != Slidable::none && colours[other] != Slidable::none) {
+          taken[static_cast<std::size_t>(colours[other])] = s;
         }
       };
       chains_.for_sides(slider, [&](std::int32_t /*vertex*/, const FanSide& side) {
@@ -179,7 +178,7 @@ class ChainWriter {
       });
       const auto colour = static_cast<std::size_t>(
           std::ranges::find_if(taken, [s](std::int32_t by) { return by != s; }) - taken.begin());
-      colours[static_cast<std::size_t>(s)] = static_cast<std::int32_t>(colour);
+      colours[s] = static_cast<std::int32_t>(colour);
       sizes.resize(std::max(sizes.size(), colour + 1), 0);
       ++sizes[colour];
     }
@@ -188,13 +187,13 @@ class ChainWriter {
     std::vector<std::int32_t> places = chains_.batches;
     std::vector<Slider> sorted(chains_.sliders.size());
     for (std::size_t s = 0; s < colours.size(); ++s) {
-      sorted[static_cast<std::size_t>(places[static_cast<std::size_t>(colours[s])]++)] = chains_.sliders[s];
+      sorted[static_cast<std::size_t>(places[colours[s]]++)] = chains_.sliders[s];
     }
     chains_.sliders = std::move(sorted);
   }
 
   std::int32_t first_copy(std::int32_t slider) const {
-    return chains_.vertices[static_cast<std::size_t>(chains_.sliders[static_cast<std::size_t>(slider)].knot)];
+    return chains_.vertices[static_cast<std::size_t>(chains_.sliders[slider].knot)];
   }
 
   const Slidable& slidable_;
@@ -209,7 +208,7 @@ class ChainWriter {
 std::int64_t SlideChains::vertex_count() const {
   std::int64_t count = 0;
   for (const Slider& slider : sliders) {
-    count += chains[static_cast<std::size_t>(slider.chain)].copies;
+    count += chains[slider.chain].copies;
   }
   return count;
 }
@@ -223,7 +222,7 @@ SlidingResult SlideChains::result() const {
 
 void SlideChains::renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered) {
   for (std::int32_t& v : vertices) {
-    v = numbers[static_cast<std::size_t>(v)];
+    v = numbers[v];
   }
   triangles = &renumbered;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "trismooth/smoothing/guard/guard_rule.h"
 
@@ -17,20 +16,19 @@ SlideGuard::SlideGuard(const SlideChains& chains, std::span<SlidePlace> places, 
       after_(after),
       slider_at_(chains.knots.size(), -1) {
   for (std::size_t s = 0; s < chains.sliders.size(); ++s) {
-    slider_at_[static_cast<std::size_t>(chains.sliders[s].knot)] = static_cast<std::int32_t>(s);
+    slider_at_[chains.sliders[s].knot] = static_cast<std::int32_t>(s);
   }
 }
 
 bool SlideGuard::has_slid(const Slider& slider) const {
   bool found = false;
-  chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
-    found = found || !(after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)]);
-  });
+  chains_.for_copies(slider,
+                     [&](std::int32_t /*copy*/, std::int32_t v) { found = found || !(after_[v] == before_[v]); });
   return found;
 }
 
 bool SlideGuard::put_back(std::int32_t number, std::vector<std::int32_t>& reverted) {
-  const Slider& slider = chains_.sliders[static_cast<std::size_t>(number)];
+  const Slider& slider = chains_.sliders[number];
   const bool slid = has_slid(slider);
   chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
     const auto i = static_cast<std::size_t>(v);
@@ -39,7 +37,7 @@ bool SlideGuard::put_back(std::int32_t number, std::vector<std::int32_t>& revert
       reverted.push_back(v);
     }
   });
-  places_[static_cast<std::size_t>(slider.knot)] = chains_.places[static_cast<std::size_t>(slider.knot)];
+  places_[slider.knot] = chains_.places[slider.knot];
   return slid;
 }
 
@@ -61,9 +59,8 @@ bool SlideGuard::settle_links(std::vector<std::int32_t>& reverted) {
     const Slider& slider = chains_.sliders[s];
     const auto knot = static_cast<std::size_t>(slider.knot);
     bool is_back = false;
-    chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
-      is_back = is_back || after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)];
-    });
+    chains_.for_copies(slider,
+                       [&](std::int32_t /*copy*/, std::int32_t v) { is_back = is_back || after_[v] == before_[v]; });
     if (is_back && places_[knot].arc != chains_.places[knot].arc) {
       found = put_back(static_cast<std::int32_t>(s), reverted) || found;
     }
@@ -75,7 +72,7 @@ bool SlideGuard::settle_links(std::vector<std::int32_t>& reverted) {
 bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
   std::vector<std::int32_t> beyond;  // sliders
   deviation_ = {};
-  const auto after = [this](std::int32_t v) { return after_[static_cast<std::size_t>(v)]; };
+  const auto after = [this](std::int32_t v) { return after_[v]; };
   for (std::size_t c = 0; c < chains_.chains.size(); ++c) {
     const SlideChain& chain = chains_.chains[c];
     const ChainCurve curve(view_, static_cast<std::int32_t>(c));
@@ -86,7 +83,7 @@ bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
       deviation_.relative = std::max(deviation_.relative, edge.deviation.relative);
       if (!edge.is_good) {
         const std::int32_t first = chain.first + i;
-        beyond.push_back(slider_at_[static_cast<std::size_t>(first)]);
+        beyond.push_back(slider_at_[first]);
         beyond.push_back(slider_at_[static_cast<std::size_t>(i + 1 == chain.count ? chain.first : first + 1)]);
       }
     }
@@ -111,12 +108,9 @@ std::int64_t SlideGuard::settle_triangles(double threshold_of_others, std::vecto
 bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
   const auto quotient = [](std::span<const Point2<double>> points, const Triangle& triangle) {
     const auto [a, b, c] = triangle;
-    return shape_quotient(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
-                          points[static_cast<std::size_t>(c)]);
+    return shape_quotient(points[a], points[b], points[c]);
   };
-  const auto has_moved = [this](std::int32_t v) {
-    return !(after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)]);
-  };
+  const auto has_moved = [this](std::int32_t v) { return !(after_[v] == before_[v]); };
   double threshold = threshold_of_others;
   for (const Triangle& triangle : chains_.held_triangles()) {
     if (std::ranges::any_of(triangle, has_moved)) {
@@ -150,9 +144,8 @@ bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std:
 std::int64_t SlideGuard::slid_vertices() const {
   std::int64_t count = 0;
   for (const Slider& slider : chains_.sliders) {
-    chains_.for_copies(slider, [&](std::int32_t /*copy*/, std::int32_t v) {
-      count += after_[static_cast<std::size_t>(v)] == before_[static_cast<std::size_t>(v)] ? 0 : 1;
-    });
+    chains_.for_copies(slider,
+                       [&](std::int32_t /*copy*/, std::int32_t v) { count += after_[v] == before_[v] ? 0 : 1; });
   }
   return count;
 }

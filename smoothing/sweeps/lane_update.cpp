@@ -1,7 +1,6 @@
 #include "trismooth/smoothing/sweeps/lane_update.h"
 
 #include <type_traits>
-#include <utility>
 
 #include "trismooth/base/compiled_for.h"
 #include "trismooth/smoothing/methods/laplacian.h"
