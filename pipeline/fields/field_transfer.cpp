@@ -32,7 +32,7 @@ TransferredField interpolated_as(const DataArray& array, std::span<const Triangl
       if (place.triangle < 0) {
         continue;
       }
-      const Triangle& triangle = triangles[static_cast<std::size_t>(place.triangle)];
+      const Triangle& triangle = triangles[place.triangle];
       bool keeps = false;
       for (std::size_t component = 0; component < array.components; ++component) {
         const auto value_at = [&](std::int32_t vertex) {

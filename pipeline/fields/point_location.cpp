@@ -51,8 +51,7 @@ class PointLocation::Walk {
         return t;
       }
       const auto own =
-          static_cast<std::size_t>(std::ranges::find(mesh_.triangles_[static_cast<std::size_t>(t)], vertex_) -
-                                   mesh_.triangles_[static_cast<std::size_t>(t)].begin());
+          static_cast<std::size_t>(std::ranges::find(mesh_.triangles_[t], vertex_) - mesh_.triangles_[t].begin());
       if (towards < 0 && areas.total > 0 && areas.areas[(own + 1) % 3] >= 0 && areas.areas[(own + 2) % 3] >= 0) {
         towards = t;
       }
@@ -63,7 +62,7 @@ class PointLocation::Walk {
   /// The triangle on the other side of the side across from a corner, or -1 where there is none, or several, or it is
   /// of another region.
   std::int32_t neighbour(std::int32_t triangle, std::size_t corner) {
-    const Triangle& corners = mesh_.triangles_[static_cast<std::size_t>(triangle)];
+    const Triangle& corners = mesh_.triangles_[triangle];
     std::int32_t one = corners[(corner + 1) % 3];
     std::int32_t other = corners[(corner + 2) % 3];
     if (mesh_.triangles_at(other).size() < mesh_.triangles_at(one).size()) {
@@ -72,7 +71,7 @@ class PointLocation::Walk {
     std::int32_t found = -1;
     for (const std::int32_t t : mesh_.triangles_at(one)) {
       ++scanned_;
-      const Triangle& candidate = mesh_.triangles_[static_cast<std::size_t>(t)];
+      const Triangle& candidate = mesh_.triangles_[t];
       if (t == triangle || std::ranges::find(candidate, other) == candidate.end()) {
         continue;
       }
@@ -118,14 +117,12 @@ std::span<const std::int32_t> PointLocation::triangles_at(std::int32_t vertex) c
 }
 
 CornerAreas PointLocation::areas_at(std::int32_t triangle, Point2<double> at) const {
-  const auto& [a, b, c] = triangles_[static_cast<std::size_t>(triangle)];
-  return corner_areas({points_[static_cast<std::size_t>(a)], points_[static_cast<std::size_t>(b)],
-                       points_[static_cast<std::size_t>(c)]},
-                      at);
+  const auto& [a, b, c] = triangles_[triangle];
+  return corner_areas({points_[a], points_[b], points_[c]}, at);
 }
 
 std::int32_t PointLocation::region_of(std::int32_t triangle) const {
-  return regions_.empty() ? 0 : regions_[static_cast<std::size_t>(triangle)];
+  return regions_.empty() ? 0 : regions_[triangle];
 }
 
 std::vector<MeshPlace> PointLocation::places_of(std::span<const std::int32_t> vertices,
@@ -134,7 +131,7 @@ std::vector<MeshPlace> PointLocation::places_of(std::span<const std::int32_t> ve
   std::atomic<bool> is_complete{true};
   workers.for_blocks(std::ssize(vertices), location_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      places[i] = Walk(*this, vertices[i], moved[static_cast<std::size_t>(vertices[i])]).go();
+      places[i] = Walk(*this, vertices[i], moved[vertices[i]]).go();
       if (places[i].triangle < 0) {
         is_complete = false;
       }
@@ -150,7 +147,7 @@ std::vector<MeshPlace> PointLocation::places_of(std::span<const std::int32_t> ve
       if (places[i].triangle >= 0 || around.empty()) {
         continue;
       }
-      const Point2<double> at = moved[static_cast<std::size_t>(vertices[i])];
+      const Point2<double> at = moved[vertices[i]];
       places[i] = tree.nearest(at, regions_, region_of(around.front()));
     }
   });

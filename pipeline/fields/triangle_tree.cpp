@@ -22,8 +22,7 @@ std::uint32_t step_of(double coordinate) {
 }
 
 std::array<Point2<double>, 3> corners_of(std::span<const Point2<double>> points, const Triangle& triangle) {
-  return {points[static_cast<std::size_t>(triangle[0])], points[static_cast<std::size_t>(triangle[1])],
-          points[static_cast<std::size_t>(triangle[2])]};
+  return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
 }
 
 double beyond(double low, double high, double value) {
@@ -57,7 +56,7 @@ TriangleTree::TriangleTree(std::span<const Point2<double>> points, std::span<con
   for (std::size_t i = 0; i < order_.size(); ++i) {
     order_[i] = along_curve[i].second;
     Box& box = boxes[i / triangles_a_leaf];
-    const auto corners = corners_of(points, triangles[static_cast<std::size_t>(order_[i])]);
+    const auto corners = corners_of(points, triangles[order_[i]]);
     for (const Point2<double> corner : corners) {
       box.add(corner);
     }

@@ -66,7 +66,7 @@ class TurnSets {
 UnwrappedLongitudes unwrap_longitudes(std::span<const double> longitudes, std::span<const Triangle> triangles) {
   UnwrappedLongitudes result{std::vector<std::int32_t>(longitudes.size(), 0), {}};
   const auto jump = [&](std::int32_t a, std::int32_t b) {
-    const double difference = longitudes[static_cast<std::size_t>(b)] - longitudes[static_cast<std::size_t>(a)];
+    const double difference = longitudes[b] - longitudes[a];
     const auto turns = static_cast<std::int32_t>(std::ceil(std::max(0.0, std::abs(difference) - 180) / 360));
     return difference > 0 ? -turns : turns;
   };
@@ -89,9 +89,7 @@ UnwrappedLongitudes unwrap_longitudes(std::span<const double> longitudes, std::s
     result.turns[v] = sets.turns_of(static_cast<std::int32_t>(v));
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto is_cut = [&](std::int32_t a, std::int32_t b) {
-      return result.turns[static_cast<std::size_t>(b)] - result.turns[static_cast<std::size_t>(a)] != jump(a, b);
-    };
+    const auto is_cut = [&](std::int32_t a, std::int32_t b) { return result.turns[b] - result.turns[a] != jump(a, b); };
     const auto& [a, b, c] = triangles[t];
     if (is_cut(a, b) || is_cut(b, c) || is_cut(c, a)) {
       result.cut.push_back(static_cast<std::int32_t>(t));

@@ -69,8 +69,8 @@ double west_of(const DegreeRange& range) {
 /// Takes the triangles out of those that are smoothed.
 void set_apart(PlanarMesh& mesh, std::span<const std::int32_t> cut) {
   for (const std::int32_t t : cut) {
-    for (const std::int32_t v : mesh.triangles[static_cast<std::size_t>(t)]) {
-      mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+    for (const std::int32_t v : mesh.triangles[t]) {
+      mesh.in_other_cell[v] = 1;
     }
   }
   leave_out(mesh, cut);

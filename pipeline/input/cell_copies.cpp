@@ -25,7 +25,7 @@ Middles middles_of(const TriangleCells& mesh, std::int32_t triangle) {
   Middles middles;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t across = (i + 2) % 3;
-    middles[i] = {mesh.triangles[static_cast<std::size_t>(triangle)][across], has_any ? found->middles[i] : -1};
+    middles[i] = {mesh.triangles[triangle][across], has_any ? found->middles[i] : -1};
   }
   std::ranges::sort(middles);
   return middles;
@@ -40,7 +40,7 @@ void hold_as_other_cell(TriangleCells& mesh, std::int32_t triangle) {
   for (const auto& [corner, middle] : middles_of(mesh, triangle)) {
     for (const std::int32_t v : {corner, middle}) {
       if (v >= 0) {
-        mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+        mesh.in_other_cell[v] = 1;
       }
     }
   }
@@ -65,7 +65,7 @@ std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const std::in
     cells.push_back(mesh.cells[t]);
   }
   for (const QuadraticTriangle& quadratic : mesh.quadratics) {
-    if (const std::int32_t number = numbers[static_cast<std::size_t>(quadratic.triangle)]; number >= 0) {
+    if (const std::int32_t number = numbers[quadratic.triangle]; number >= 0) {
       quadratics.push_back({number, quadratic.middles});
     }
   }
@@ -94,11 +94,11 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
       hold_as_other_cell(mesh, triangle);
       ++others;
     } else {
-      mesh.copies.push_back({first, mesh.cells[static_cast<std::size_t>(triangle)]});
+      mesh.copies.push_back({first, mesh.cells[triangle]});
     }
   }
   const auto [triangle, first] = repeated.front();
-  const auto cell_of = [&](std::int32_t t) { return std::to_string(mesh.cells[static_cast<std::size_t>(t)]); };
+  const auto cell_of = [&](std::int32_t t) { return std::to_string(mesh.cells[t]); };
   mesh.notes.push_back(counted(repeated.size(), "triangle is", "triangles are") + " listed again (the first is cell " +
                        cell_of(triangle) + ", which has the corners of cell " + cell_of(first) +
                        "): " + (repeated.size() == 1 ? "it is" : "each is") +
@@ -110,7 +110,7 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
   }
   const std::vector<std::int32_t> numbers = leave_out(mesh, left_out);
   for (CellCopy& copy : mesh.copies) {
-    copy.triangle = numbers[static_cast<std::size_t>(copy.triangle)];
+    copy.triangle = numbers[copy.triangle];
   }
 }
 

@@ -41,7 +41,7 @@ void InnerEdges::label_used_vertices() {
   labelled_.assign(triangles_.begin(), triangles_.end());
   for (Triangle& triangle : labelled_) {
     for (std::int32_t& v : triangle) {
-      std::int32_t& label = labels[static_cast<std::size_t>(v)];
+      std::int32_t& label = labels[v];
       label = label == unused ? label_count_++ : label;
       v = label;
     }
@@ -58,7 +58,7 @@ std::int64_t InnerEdges::vertices_between(std::span<const std::int32_t> numbers)
   std::int64_t count = 0;
   for (std::size_t t = 0; t < labelled_.size(); ++t) {
     for (const std::int32_t v : labelled_[t]) {
-      std::int32_t& number = seen[static_cast<std::size_t>(v)];
+      std::int32_t& number = seen[v];
       if (number == unseen) {
         number = numbers[t];
       } else if (number != several && number != numbers[t]) {
@@ -74,9 +74,8 @@ double InnerEdges::fraction_between(std::span<const std::int32_t> numbers) {
   if (!neighbours_) {
     neighbours_ = find_neighbours(triangles_);
   }
-  const auto changes = std::ranges::count_if(*neighbours_, [&](const auto& pair) {
-    return numbers[static_cast<std::size_t>(pair[0])] != numbers[static_cast<std::size_t>(pair[1])];
-  });
+  const auto changes =
+      std::ranges::count_if(*neighbours_, [&](const auto& pair) { return numbers[pair[0]] != numbers[pair[1]]; });
   return neighbours_->empty() ? 0 : static_cast<double>(changes) / static_cast<double>(neighbours_->size());
 }
 

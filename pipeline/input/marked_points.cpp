@@ -42,12 +42,12 @@ struct Region {
 /// Per vertex: 1 where a neighbour is not of its group.
 std::vector<std::uint8_t> find_changes(std::span<const Triangle> triangles, std::span<const std::int32_t> group_of) {
   std::vector<std::uint8_t> changes(group_of.size(), 0);
-  const auto group = [&](std::int32_t v) { return group_of[static_cast<std::size_t>(v)]; };
+  const auto group = [&](std::int32_t v) { return group_of[v]; };
   for (const auto& [a, b, c] : triangles) {
     if (group(a) != group(b) || group(a) != group(c)) {
-      changes[static_cast<std::size_t>(a)] = 1;
-      changes[static_cast<std::size_t>(b)] |= static_cast<std::uint8_t>(group(b) != group(a) || group(b) != group(c));
-      changes[static_cast<std::size_t>(c)] |= static_cast<std::uint8_t>(group(c) != group(a) || group(c) != group(b));
+      changes[a] = 1;
+      changes[b] |= static_cast<std::uint8_t>(group(b) != group(a) || group(b) != group(c));
+      changes[c] |= static_cast<std::uint8_t>(group(c) != group(a) || group(c) != group(b));
     }
   }
   return changes;
@@ -67,13 +67,13 @@ std::vector<Group> find_groups(std::span<const Triangle> triangles, std::span<co
         groups.push_back({region, markers[v]});
       }
       group_of[v] = number->second;
-      ++groups[static_cast<std::size_t>(group_of[v])].vertices;
+      ++groups[group_of[v]].vertices;
     }
   }
   const std::vector<std::uint8_t> changes = find_changes(triangles, group_of);
   for (std::size_t v = 0; v < markers.size(); ++v) {
     if (group_of[v] != none && changes[v] == 0) {
-      ++groups[static_cast<std::size_t>(group_of[v])].amid_alike;
+      ++groups[group_of[v]].amid_alike;
     }
   }
   return groups;
@@ -84,7 +84,7 @@ void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> gr
            std::vector<Group>& groups) {
   const auto last = std::ranges::max_element(groups, {}, &Group::region);
   std::vector<Region> regions(last == groups.end() ? 0 : static_cast<std::size_t>(last->region) + 1);
-  const auto region_of = [&](const Group& group) -> Region& { return regions[static_cast<std::size_t>(group.region)]; };
+  const auto region_of = [&](const Group& group) -> Region& { return regions[group.region]; };
   const auto rank = [zero](const Group& group) {
     return std::tuple(group.marker == zero, group.vertices, -group.marker);
   };
@@ -101,8 +101,8 @@ void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> gr
     region_of(group).marked += group.is_marked ? group.vertices : 0;
   }
   const auto marked_group = [&](std::int32_t v) {
-    const std::int32_t g = group_of[static_cast<std::size_t>(v)];
-    return g != none && groups[static_cast<std::size_t>(g)].is_marked ? &groups[static_cast<std::size_t>(g)] : nullptr;
+    const std::int32_t g = group_of[v];
+    return g != none && groups[g].is_marked ? &groups[g] : nullptr;
   };
   for (const auto& [a, b, c] : triangles) {
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
@@ -138,8 +138,8 @@ std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangle
       all ^= splitmix64(static_cast<std::uint64_t>(v));
     }
     for (const std::int32_t v : triangles[t]) {
-      left[static_cast<std::size_t>(v)] ^= all ^ splitmix64(static_cast<std::uint64_t>(v));
-      std::int32_t& of_vertex = inside[static_cast<std::size_t>(v)];
+      left[v] ^= all ^ splitmix64(static_cast<std::uint64_t>(v));
+      std::int32_t& of_vertex = inside[v];
       of_vertex = of_vertex == unseen || of_vertex == region ? region : none;
     }
   }
@@ -159,7 +159,7 @@ MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<c
   MarkedPoints points;
   for (std::size_t v = 0; v < markers.size(); ++v) {
     if (group_of[v] != none) {
-      const Group& group = groups[static_cast<std::size_t>(group_of[v])];
+      const Group& group = groups[group_of[v]];
       points.others += group.surrounds || group.is_marked ? 0 : 1;
       if (group.is_marked) {
         points.vertices.push_back(static_cast<std::int32_t>(v));

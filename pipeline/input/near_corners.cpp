@@ -21,7 +21,7 @@ std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> poin
   std::vector<std::uint8_t> is_corner(points.size(), 0);
   for (const Triangle& triangle : triangles) {
     for (const std::int32_t v : triangle) {
-      is_corner[static_cast<std::size_t>(v)] = 1;
+      is_corner[v] = 1;
     }
   }
   PointSquares squares(points.size());
@@ -31,7 +31,7 @@ std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> poin
     }
     std::int32_t& first = joined[v];
     squares.visit_near(points[v], distance, distance, [&](std::int32_t other) {
-      const Point2<double> way = points[static_cast<std::size_t>(other)] - points[v];
+      const Point2<double> way = points[other] - points[v];
       if (std::hypot(way.x, way.y) <= distance) {
         first = std::min(first, other);
       }
@@ -51,7 +51,7 @@ std::int64_t merge_corners(PlanarMesh& mesh, double distance) {
   std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::int32_t& v : triangles[t]) {
-      v = mesh.merged[static_cast<std::size_t>(v)];
+      v = mesh.merged[v];
     }
     const auto& [a, b, c] = triangles[t];
     if (a == b || b == c || c == a) {
@@ -72,7 +72,7 @@ std::int64_t merge_corners(PlanarMesh& mesh, double distance) {
 
 void merge_flags(const PlanarMesh& mesh, std::vector<std::uint8_t>& flags) {
   for (std::size_t v = 0; v < std::min(mesh.merged.size(), flags.size()); ++v) {
-    flags[static_cast<std::size_t>(mesh.merged[v])] |= flags[v];
+    flags[mesh.merged[v]] |= flags[v];
   }
 }
 
@@ -92,8 +92,7 @@ double shortest_side(std::span<const Point2<double>> points, std::span<const Tri
   double shortest = std::numeric_limits<double>::infinity();
   for (const Triangle& triangle : triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point2<double> side =
-          points[static_cast<std::size_t>(triangle[(i + 1) % 3])] - points[static_cast<std::size_t>(triangle[i])];
+      const Point2<double> side = points[static_cast<std::size_t>(triangle[(i + 1) % 3])] - points[triangle[i]];
       const double length = std::hypot(side.x, side.y);
       shortest = length > 0 ? std::min(shortest, length) : shortest;
     }
@@ -114,7 +113,7 @@ std::string describe_apart_triangles(std::span<const Point2<double>> points, std
   double farthest = 0;
   for (std::size_t v = 0; v < joined.size(); ++v) {
     if (joined[v] != static_cast<std::int32_t>(v)) {
-      const Point2<double> way = points[static_cast<std::size_t>(joined[v])] - points[v];
+      const Point2<double> way = points[joined[v]] - points[v];
       farthest = std::max(farthest, std::hypot(way.x, way.y));
       ++corners;
     }

@@ -54,7 +54,7 @@ class InnerNeighbours {
   /// Of the vertices whose flag in `wanted` is 1.
   InnerNeighbours(std::span<const Triangle> triangles, std::span<const std::uint8_t> wanted)
       : starts_(wanted.size() + 1, 0), ends_(wanted.size(), 0) {
-    const auto is_wanted = [wanted](std::int32_t v) { return wanted[static_cast<std::size_t>(v)] != 0; };
+    const auto is_wanted = [wanted](std::int32_t v) { return wanted[v] != 0; };
     for (const Triangle& triangle : triangles) {
       for (const std::int32_t v : triangle) {
         starts_[static_cast<std::size_t>(v) + 1] += is_wanted(v) ? 2 : 0;
@@ -64,11 +64,11 @@ class InnerNeighbours {
       starts_[v + 1] += starts_[v];
       ends_[v] = starts_[v];
     }
-    neighbours_.resize(static_cast<std::size_t>(starts_.back()));
+    neighbours_.resize(starts_.back());
     for (const auto& [a, b, c] : triangles) {
       for (const auto& [v, left, right] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
         if (is_wanted(v)) {
-          std::int64_t& end = ends_[static_cast<std::size_t>(v)];
+          std::int64_t& end = ends_[v];
           neighbours_[static_cast<std::size_t>(end++)] = left;
           neighbours_[static_cast<std::size_t>(end++)] = right;
         }
@@ -123,7 +123,7 @@ class SetFinder {
     std::vector<std::uint8_t> in_set(document.point_count(), 0);
     for (const std::vector<std::int32_t>& members : members_) {
       for (const std::int32_t v : members) {
-        in_set[static_cast<std::size_t>(v)] = 1;
+        in_set[v] = 1;
       }
     }
     const InnerNeighbours neighbours(triangles, in_set);
@@ -133,13 +133,12 @@ class SetFinder {
     for (std::size_t s = 0; s < document.point_sets.size(); ++s) {
       const auto number = static_cast<std::int32_t>(s);
       for (const std::int32_t v : members_[s]) {
-        last_set[static_cast<std::size_t>(v)] = number;
+        last_set[v] = number;
       }
       const bool is_area = std::ranges::any_of(members_[s], [&](std::int32_t v) {
         const auto around = neighbours[v];
-        return !around.empty() && std::ranges::all_of(around, [&](std::int32_t neighbour) {
-          return last_set[static_cast<std::size_t>(neighbour)] == number;
-        });
+        return !around.empty() &&
+               std::ranges::all_of(around, [&](std::int32_t neighbour) { return last_set[neighbour] == number; });
       });
       found_.sets.push_back({names_[s], std::ssize(members_[s]), is_area, false});
     }
@@ -190,7 +189,7 @@ class SetFinder {
     for (std::size_t cell = 0; cell < document_.cells.size(); ++cell) {
       if (cell_type::dimension(document_.cells.types[cell]) < 2) {
         for (const std::int32_t v : document_.cells[cell]) {
-          is_held[static_cast<std::size_t>(v)] = 1;
+          is_held[v] = 1;
         }
       }
     }
@@ -216,9 +215,7 @@ class SetFinder {
       if (slides_ && names_[s] == points_of_geometry) {
         continue;
       }
-      std::erase_if(members_[s], [&](std::int32_t v) {
-        return neighbours[v].empty() || regions_inside[static_cast<std::size_t>(v)] < 0;
-      });
+      std::erase_if(members_[s], [&](std::int32_t v) { return neighbours[v].empty() || regions_inside[v] < 0; });
     }
   }
 
@@ -293,7 +290,7 @@ class SetFinder {
       found_.flags.resize(document_.point_count(), 0);
     }
     for (const std::int32_t v : members_[set]) {
-      found_.flags[static_cast<std::size_t>(v)] = 1;
+      found_.flags[v] = 1;
     }
   }
 

@@ -44,10 +44,10 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
     std::vector<std::int32_t> line_cells;
     std::vector<std::uint8_t> has_triangles(cells.size(), 0);
     for (const std::int32_t cell : mesh.cells) {
-      has_triangles[static_cast<std::size_t>(cell)] = 1;
+      has_triangles[cell] = 1;
     }
     for (const CellCopy& copy : mesh.copies) {
-      has_triangles[static_cast<std::size_t>(copy.cell)] = 1;
+      has_triangles[copy.cell] = 1;
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (has_triangles[c] != 0) {
@@ -58,7 +58,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
         continue;
       }
       for (const std::int32_t v : cells[c]) {
-        found.in_other_cell[static_cast<std::size_t>(v)] = 1;
+        found.in_other_cell[v] = 1;
       }
     }
     if (!line_cells.empty()) {
@@ -77,7 +77,7 @@ SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& m
       }
     }
     for (std::size_t i = 0; i < line_cells.size(); ++i) {
-      const auto vertices = cells[static_cast<std::size_t>(line_cells[i])];
+      const auto vertices = cells[line_cells[i]];
       for (std::size_t j = 0; j + 1 < vertices.size(); ++j) {
         found.lines.insert(found.lines.end(), {vertices[j], vertices[j + 1]});
         found.tags.push_back(tags.of_item[i]);

@@ -252,10 +252,7 @@ std::string worst_table(std::string_view title, const QualityReport& report, con
             html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
                                   element.all_fixed ? "<small>all corners fixed</small>" : ""),
                       "text") +
-            (names.empty()
-                 ? ""
-                 : html_cell(element.region < 0 ? "" : escape_html(names[static_cast<std::size_t>(element.region)]),
-                             "text")) +
+            (names.empty() ? "" : html_cell(element.region < 0 ? "" : escape_html(names[element.region]), "text")) +
             "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";

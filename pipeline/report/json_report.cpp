@@ -157,12 +157,11 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {
-    worst.push_back(
-        {{"cell", element.triangle},
-         {"shape", number_json(element.shape)},
-         {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
-         {"region", element.region < 0 ? Json(nullptr) : Json(names[static_cast<std::size_t>(element.region)])},
-         {"all_fixed", element.all_fixed}});
+    worst.push_back({{"cell", element.triangle},
+                     {"shape", number_json(element.shape)},
+                     {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
+                     {"region", element.region < 0 ? Json(nullptr) : Json(names[element.region])},
+                     {"all_fixed", element.all_fixed}});
   }
   return {{"triangles", report.triangles},
           {"inverted", report.inverted},

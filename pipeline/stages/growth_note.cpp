@@ -39,7 +39,7 @@ class Fan {
     Point2<double> sum{0, 0};
     for (const std::size_t t : triangles_) {
       for (const std::int32_t v : view_->triangles[t]) {
-        const Point2<double> point = view_->points[static_cast<std::size_t>(v)];
+        const Point2<double> point = view_->points[v];
         sum = v == vertex_ ? sum : Point2<double>{sum.x + point.x, sum.y + point.y};
       }
     }
@@ -68,7 +68,7 @@ class Fan {
 
  private:
   std::array<Point2<double>, 3> corners(std::size_t i, Point2<double> at) const {
-    const auto place = [&](std::int32_t v) { return v == vertex_ ? at : view_->points[static_cast<std::size_t>(v)]; };
+    const auto place = [&](std::int32_t v) { return v == vertex_ ? at : view_->points[v]; };
     const auto [a, b, c] = canonical_corners(*view_, triangles_[i]);
     return {place(a), place(b), place(c)};
   }
@@ -85,9 +85,8 @@ std::optional<std::size_t> worst_with_free_corner(const TriangleView& view, std:
   for (std::size_t t = 0; t < view.triangles.size(); ++t) {
     const auto [a, b, c] = corner_points(view, t);
     const double quotient = shape_quotient(a, b, c);
-    if (quotient < smallest && std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) {
-          return fixed[static_cast<std::size_t>(v)] == 0;
-        })) {
+    if (quotient < smallest &&
+        std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) { return fixed[v] == 0; })) {
       smallest = quotient;
       worst = t;
     }
@@ -98,7 +97,7 @@ std::optional<std::size_t> worst_with_free_corner(const TriangleView& view, std:
 /// The bound of the vertex, in the local unit of `before`.
 double bound_of(const TriangleView& before, std::int32_t vertex, const QualityReport& report) {
   const Fan fan(before, vertex);
-  const Point2<double> at = before.points[static_cast<std::size_t>(vertex)];
+  const Point2<double> at = before.points[vertex];
   double largest_share = 0;
   double areas = 0;
   for (std::size_t i = 0; i < fan.size(); ++i) {
@@ -126,11 +125,11 @@ void note_growth_bound(RunState& run, const TriangleView& before) {
     return;
   }
   for (const std::int32_t v : now.triangles[*worst]) {
-    if (run.found.fixed[static_cast<std::size_t>(v)] != 0) {
+    if (run.found.fixed[v] != 0) {
       continue;
     }
     const Fan fan(now, v);
-    const Point2<double> at = now.points[static_cast<std::size_t>(v)];
+    const Point2<double> at = now.points[v];
     const Point2<double> to = fan.middle();
     const double shape = shape_constant * fan.smallest_quotient(at);
     const double shape_there = shape_constant * fan.smallest_quotient(to);

@@ -53,7 +53,7 @@ void add_vertices(std::vector<std::uint8_t>& flags, const std::vector<std::int32
     flags.resize(count, 0);
   }
   for (const std::int32_t v : vertices) {
-    flags[static_cast<std::size_t>(v)] = 1;
+    flags[v] = 1;
   }
 }
 
@@ -71,7 +71,7 @@ void require_vertices(const std::vector<std::int32_t>& numbers, std::int64_t cou
 ReasonCounts count_vertices(RunState& run) {
   ReasonCounts counts = count_reasons(run.found.fixed, run.workers);
   for (const MiddleNode& middle : run.mesh.middles) {
-    --counts[run.found.fixed[static_cast<std::size_t>(middle.vertex)]];
+    --counts[run.found.fixed[middle.vertex]];
   }
   for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
     counts[run.found.fixed[v]] -= run.mesh.merged[v] != static_cast<std::int32_t>(v) ? 1 : 0;
@@ -224,7 +224,7 @@ void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
     for (const QuadraticTriangle& quadratic : run.mesh.quadratics) {
       for (const std::int32_t middle : quadratic.middles) {
         // (A middle of two triangles counts once.)
-        middles += std::exchange(held[static_cast<std::size_t>(middle)], std::uint8_t{0}) != 0 ? 1 : 0;
+        middles += std::exchange(held[middle], std::uint8_t{0}) != 0 ? 1 : 0;
       }
     }
   }

@@ -28,13 +28,12 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
     }
   }
   for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
-    holds[v] = holds[static_cast<std::size_t>(run.mesh.merged[v])];
+    holds[v] = holds[run.mesh.merged[v]];
   }
   for (const MiddleNode& middle : run.mesh.middles) {
-    const bool follows =
-        std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[static_cast<std::size_t>(end)] == 0; });
+    const bool follows = std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[end] == 0; });
     if (follows) {
-      holds[static_cast<std::size_t>(middle.vertex)] = 0;
+      holds[middle.vertex] = 0;
     }
   }
   return holds;
