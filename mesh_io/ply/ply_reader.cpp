@@ -59,7 +59,8 @@ struct CellBlock {
 };
 
 std::string row_label(const PlyElement& element, std::uint64_t row) {
-  return element.name + " " + std::to_string(row);
+  const std::string name = trismooth::quoted(element.name);  // without what is not ASCII
+  return name.substr(1, name.size() - 2) + " " + std::to_string(row);
 }
 
 /// Reads all that follows the header. Source is PlyTextSource or PlyBinarySource.
