@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,19 +9,23 @@
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
+#include "trismooth/mesh_io/format_description.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
 
-/// One file format: how to read it and how to write a document that came from elsewhere. A document that came from
-/// the same format is written by its OriginalFile instead.
+/// One file format: what it is, how to read it and how to write a document that came from elsewhere. A document that
+/// came from the same format is written by its OriginalFile instead.
 struct Codec {
+  FormatDescription description;
+
   /// Reads the file at `path`, whose bytes are `bytes`. Throws ReadError.
-  MeshDocument (*read_shared)(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
+  MeshDocument (*read_shared)(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) = nullptr;
   /// Writes the document from scratch to the plain path `path`: the same bytes for all workers. Throws WriteError.
-  void (*write_shared)(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
+  void (*write_shared)(const std::filesystem::path& path, const MeshDocument& document,
+                       const FileWorkers& workers) = nullptr;
   /// What the format cannot hold of the document, one sentence each.
-  std::vector<std::string> (*what_is_lost)(const MeshDocument& document);
+  std::vector<std::string> (*what_is_lost)(const MeshDocument& document) = nullptr;
   /// Whether a file with these bytes is one of the format and of no other, from its first lines or bytes: linear in
   /// them. Null for formats whose files do not show what they are.
   bool (*recognises)(std::string_view bytes) = nullptr;
@@ -43,27 +48,20 @@ struct Codec {
   }
 };
 
-/// The codec of an available format.
-const Codec& codec_of(FileFormat format);
+/// One codec a format, each in the folder of its format. Those of a format that this build cannot read (VTK's without
+/// VTK) have a description and no functions.
+extern const Codec off_codec, obj_codec, ply_codec, stl_codec, vtk_legacy_codec, vtu_codec, vtp_codec, msh_codec,
+    medit_codec, su2_codec, inp_codec, adcirc_codec, sms_codec, freefem_codec, mfem_codec, triangle_codec,
+    nastran_codec, unv_codec;
 
-/// One codec a format, each in a source file of its name.
-extern const Codec off_codec;
-extern const Codec obj_codec;
-extern const Codec ply_codec;
-extern const Codec stl_codec;
-extern const Codec vtk_legacy_codec;
-extern const Codec vtu_codec;
-extern const Codec vtp_codec;
-extern const Codec medit_codec;
-extern const Codec su2_codec;
-extern const Codec inp_codec;
-extern const Codec adcirc_codec;
-extern const Codec freefem_codec;
-extern const Codec sms_codec;
-extern const Codec mfem_codec;
-extern const Codec triangle_codec;
-extern const Codec msh_codec;
-extern const Codec nastran_codec;
-extern const Codec unv_codec;
+/// In the order of FileFormat.
+inline constexpr std::array all_codecs{&off_codec,      &obj_codec,     &ply_codec, &stl_codec,     &vtk_legacy_codec,
+                                       &vtu_codec,      &vtp_codec,     &msh_codec, &medit_codec,   &su2_codec,
+                                       &inp_codec,      &adcirc_codec,  &sms_codec, &freefem_codec, &mfem_codec,
+                                       &triangle_codec, &nastran_codec, &unv_codec};
+
+constexpr const Codec& codec_of(FileFormat format) {
+  return *all_codecs[static_cast<std::size_t>(format)];
+}
 
 }  // namespace trismooth

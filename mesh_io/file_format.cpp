@@ -4,55 +4,22 @@
 #include <array>
 #include <cctype>
 
-#include "trismooth/mesh_io/vtk_support.h"
+#include "trismooth/mesh_io/codec.h"
 
 namespace trismooth {
 
 namespace {
 
-constexpr std::size_t most_extensions = 4;
-
-struct FormatNames {
-  FileFormat format;
-  std::string_view name;
-  std::string_view title;
-  std::array<std::string_view, most_extensions> extensions;  ///< empty behind the last
-};
-
-/// In the order of the enumeration.
-constexpr auto names_of_formats = std::to_array<FormatNames>({
-    {FileFormat::off, "off", "OFF", {".off"}},
-    {FileFormat::obj, "obj", "OBJ", {".obj"}},
-    {FileFormat::ply, "ply", "PLY", {".ply"}},
-    {FileFormat::stl, "stl", "STL", {".stl"}},
-    {FileFormat::vtk, "vtk", "legacy VTK", {".vtk"}},
-    {FileFormat::vtu, "vtu", "VTK XML (unstructured grid)", {".vtu"}},
-    {FileFormat::vtp, "vtp", "VTK XML (polygonal data)", {".vtp"}},
-    {FileFormat::msh, "msh", "Gmsh MSH", {".msh"}},
-    {FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}},
-    {FileFormat::su2, "su2", "SU2", {".su2"}},
-    {FileFormat::inp, "inp", "Abaqus", {".inp"}},
-    {FileFormat::adcirc, "adcirc", "ADCIRC", {".14", ".grd", ".gr3", ".ll"}},
-    {FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}},
-    {FileFormat::freefem, "freefem", "FreeFem", {".msh"}},
-    {FileFormat::mfem, "mfem", "MFEM", {".mesh"}},
-    {FileFormat::triangle, "triangle", "Triangle", {".node", ".ele"}},
-    {FileFormat::nastran, "nastran", "Nastran", {".bdf", ".nas"}},
-    {FileFormat::unv, "unv", "I-DEAS UNV", {".unv"}},
-});
-
 constexpr auto ordered_formats = [] {
-  std::array<FileFormat, names_of_formats.size()> all{};
-  std::ranges::transform(names_of_formats, all.begin(), &FormatNames::format);
+  std::array<FileFormat, all_codecs.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = static_cast<FileFormat>(i);
+  }
   return all;
 }();
 
-static_assert(std::ranges::all_of(ordered_formats, [](FileFormat format) {
-  return ordered_formats[static_cast<std::size_t>(format)] == format;
-}));
-
-const FormatNames& names_of(FileFormat format) {
-  return names_of_formats[static_cast<std::size_t>(format)];
+const FormatDescription& described(FileFormat format) {
+  return codec_of(format).description;
 }
 
 std::string last_extension(const std::filesystem::path& path) {
@@ -65,15 +32,15 @@ std::string last_extension(const std::filesystem::path& path) {
 }  // namespace
 
 std::string_view to_string(FileFormat format) {
-  return names_of(format).name;
+  return described(format).name;
 }
 
 std::string_view title_of(FileFormat format) {
-  return names_of(format).title;
+  return described(format).title;
 }
 
 std::span<const std::string_view> extensions_of(FileFormat format) {
-  const auto& extensions = names_of(format).extensions;
+  const auto& extensions = described(format).extensions;
   return std::span(extensions)
       .first(static_cast<std::size_t>(std::ranges::find(extensions, std::string_view()) - extensions.begin()));
 }
@@ -106,12 +73,13 @@ std::optional<FileFormat> format_of(const std::filesystem::path& path) {
 }
 
 std::optional<FileFormat> format_named(std::string_view name) {
-  const auto* const found = std::ranges::find(names_of_formats, name, &FormatNames::name);
-  return found == names_of_formats.end() ? std::nullopt : std::optional(found->format);
+  const auto* const found =
+      std::ranges::find(ordered_formats, name, [](FileFormat format) { return to_string(format); });
+  return found == ordered_formats.end() ? std::nullopt : std::optional(*found);
 }
 
 bool is_available(FileFormat format) {
-  return has_vtk() || (format != FileFormat::vtu && format != FileFormat::vtp);
+  return codec_of(format).read_shared != nullptr;
 }
 
 std::string format_list() {
@@ -153,12 +121,11 @@ std::string titled_format_list() {
 }
 
 bool has_arrays(FileFormat format) {
-  return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp ||
-         format == FileFormat::msh;
+  return described(format).holds.arrays;
 }
 
 bool has_names(FileFormat format) {
-  return format > FileFormat::vtp;
+  return described(format).holds.names;
 }
 
 }  // namespace trismooth

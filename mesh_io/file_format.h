@@ -73,7 +73,8 @@ std::string titled_format_list();
 /// "off, obj, ...": the short names of the available formats, for messages about options.
 std::string format_names();
 
-/// True for the formats that hold named arrays and take annotations (vtk, vtu, vtp, msh), false for those that do not.
+/// True for the formats that hold arrays of points and cells by name, and take annotations: vtk, vtu, vtp, msh, and ply
+/// as properties.
 bool has_arrays(FileFormat format);
 
 /// True for the formats that hold names of values and sets, or say themselves what they cannot hold of these.

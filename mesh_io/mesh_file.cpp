@@ -24,50 +24,8 @@
 #include "trismooth/mesh_io/mesh_output.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
-#include "trismooth/mesh_io/vtk_support.h"
 
 namespace trismooth {
-
-const Codec& codec_of(FileFormat format) {
-  switch (format) {
-    case FileFormat::off:
-      return off_codec;
-    case FileFormat::obj:
-      return obj_codec;
-    case FileFormat::ply:
-      return ply_codec;
-    case FileFormat::stl:
-      return stl_codec;
-    case FileFormat::vtk:
-      return vtk_legacy_codec;
-    case FileFormat::medit:
-      return medit_codec;
-    case FileFormat::su2:
-      return su2_codec;
-    case FileFormat::inp:
-      return inp_codec;
-    case FileFormat::adcirc:
-      return adcirc_codec;
-    case FileFormat::freefem:
-      return freefem_codec;
-    case FileFormat::sms:
-      return sms_codec;
-    case FileFormat::mfem:
-      return mfem_codec;
-    case FileFormat::triangle:
-      return triangle_codec;
-    case FileFormat::msh:
-      return msh_codec;
-    case FileFormat::nastran:
-      return nastran_codec;
-    case FileFormat::unv:
-      return unv_codec;
-    case FileFormat::vtu:
-    case FileFormat::vtp:
-      break;
-  }
-  return vtk_xml_codec(format);
-}
 
 namespace {
 
@@ -88,60 +46,9 @@ bool is_written_back(const MeshDocument& document, FileFormat target) {
          (!document.has_stale_annotations || document.original->takes_added_arrays());
 }
 
-/// That a file of the format gives its first point without saying so; nothing where it gives none, or says so.
-std::optional<std::int64_t> counted_from(FileFormat format) {
-  switch (format) {
-    case FileFormat::obj:
-    case FileFormat::medit:
-    case FileFormat::freefem:
-      return 1;
-    case FileFormat::su2:
-      return 0;
-    default:
-      return std::nullopt;
-  }
-}
-
 void replace_annotations(std::vector<DataArray>& arrays, std::span<const DataArray> added) {
   std::erase_if(arrays, [](const DataArray& array) { return is_annotation(array.name); });
   arrays.insert(arrays.end(), added.begin(), added.end());
-}
-
-bool holds_strips(FileFormat format) {
-  return format == FileFormat::vtk || format == FileFormat::vtu || format == FileFormat::vtp;
-}
-
-bool holds_cells_of_any_order(FileFormat format) {
-  return format == FileFormat::vtk || format == FileFormat::vtu;
-}
-
-bool holds_quads(FileFormat format) {
-  switch (format) {
-    case FileFormat::stl:
-    case FileFormat::adcirc:
-    case FileFormat::freefem:
-    case FileFormat::triangle:
-      return false;
-    default:
-      return true;
-  }
-}
-
-bool holds_curved_cells(FileFormat format) {
-  switch (format) {
-    case FileFormat::off:
-    case FileFormat::obj:
-    case FileFormat::ply:
-    case FileFormat::stl:
-    case FileFormat::vtp:
-    case FileFormat::su2:
-    case FileFormat::adcirc:
-    case FileFormat::freefem:
-    case FileFormat::mfem:
-      return false;
-    default:
-      return true;
-  }
 }
 
 /// What has_strips() as a format holds it that has no strips.
@@ -177,21 +84,22 @@ std::string describe_collapsed(std::size_t quads, FileFormat target) {
 /// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals or cells of any
 /// order that the document has; what changes thereby is added to `losses`.
 std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat target, std::vector<std::string>& losses) {
+  const FormatContent& holds = codec_of(target).description.holds;
   std::optional<MeshDocument> changed;
   const auto now = [&]() -> const MeshDocument& { return changed ? *changed : document; };
-  if (!holds_cells_of_any_order(target) && has_cells_of_any_order(document)) {
+  if (!holds.cells_of_any_order && has_cells_of_any_order(document)) {
     changed = with_fixed_orders(document);
   }
-  if (!holds_strips(target) && has_strips(now())) {
+  if (!holds.strips && has_strips(now())) {
     MeshDocument expanded = with_strips_as_triangles(now());
     losses.push_back(describe_strips(now(), expanded, target));
     changed = std::move(expanded);
   }
-  if (const std::size_t quads = holds_quads(target) ? 0 : count_collapsed_quads(now()); quads > 0) {
+  if (const std::size_t quads = holds.quads ? 0 : count_collapsed_quads(now()); quads > 0) {
     losses.push_back(describe_collapsed(quads, target));
     changed = with_collapsed_quads_as_triangles(now());
   }
-  if (!holds_curved_cells(target) && has_curved_cells(now())) {
+  if (!holds.curved_cells && has_curved_cells(now())) {
     MeshDocument straight = with_straight_cells(now());
     losses.push_back(describe_straight(now(), straight, target));
     changed = std::move(straight);
@@ -203,7 +111,7 @@ std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target
   std::vector<std::string> lost = codec_of(target).what_is_lost(document);
   if (!has_names(target)) {
     // Names of arrays that are lost as a whole are not worth a word.
-    if (has_arrays(target) || target == FileFormat::ply) {
+    if (has_arrays(target)) {
       std::ranges::move(describe_lost_names(title_of(target), document), std::back_inserter(lost));
     }
     std::ranges::move(describe_lost_sets(title_of(target), document), std::back_inserter(lost));
@@ -246,7 +154,7 @@ MeshDocument read_mesh(const std::filesystem::path& path, const FileOptions& opt
   MeshDocument document = codec.read_shared(content.name, std::move(content.bytes), file_workers);
   document.format = choice.format;
   if (!document.first_point_label) {
-    document.first_point_label = counted_from(choice.format);
+    document.first_point_label = codec.description.first_point_label;
   }
   for (std::string& note : {std::ref(content.note), std::ref(choice.note)}) {
     if (!note.empty()) {
@@ -302,8 +210,7 @@ bool writes_values_of(const MeshDocument& document, FileFormat target, std::stri
 }
 
 bool takes_added_arrays(const MeshDocument& document, FileFormat target) {
-  return is_written_back(document, target) ? document.original->takes_added_arrays()
-                                           : has_arrays(target) || target == FileFormat::ply;
+  return is_written_back(document, target) ? document.original->takes_added_arrays() : has_arrays(target);
 }
 
 }  // namespace trismooth

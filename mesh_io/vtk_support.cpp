@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 
+#include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/new_parallel_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mesh_io/ranges/vtu_range.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_descriptions.h"
 
 // The one place that knows whether the build has VTK.
 #ifdef TRISMOOTH_HAS_VTK
@@ -20,10 +22,6 @@ bool has_vtk() {
   return true;
 }
 
-const Codec& vtk_xml_codec(FileFormat format) {
-  return format == FileFormat::vtu ? vtu_codec : vtp_codec;
-}
-
 void silence_libraries() {
   silence_vtk();
 }
@@ -34,9 +32,8 @@ bool has_vtk() {
   return false;
 }
 
-const Codec& vtk_xml_codec(FileFormat /*format*/) {
-  throw std::logic_error("this build has no VTK, and no codec for .vtu and .vtp");
-}
+const Codec vtu_codec{vtu_description};
+const Codec vtp_codec{vtp_description};
 
 void silence_libraries() {}
 

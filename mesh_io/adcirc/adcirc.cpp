@@ -139,6 +139,13 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
 
 }  // namespace
 
-const Codec adcirc_codec{&read_adcirc, &write_adcirc, &lost_in_adcirc};
+const Codec adcirc_codec{{FileFormat::adcirc,
+                          "adcirc",
+                          "ADCIRC",
+                          {".14", ".grd", ".gr3", ".ll"},
+                          {.names = true, .quads = false, .curved_cells = false}},
+                         &read_adcirc,
+                         &write_adcirc,
+                         &lost_in_adcirc};
 
 }  // namespace trismooth

@@ -31,6 +31,10 @@ bool is_medit(std::string_view bytes) {
 
 }  // namespace
 
-const Codec medit_codec{&read_medit, &write_medit, &lost_in_medit, &is_medit};
+const Codec medit_codec{{FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}, {.names = true}, 1},
+                        &read_medit,
+                        &write_medit,
+                        &lost_in_medit,
+                        &is_medit};
 
 }  // namespace trismooth

@@ -184,6 +184,10 @@ std::vector<std::string> lost_in_mfem(const MeshDocument& document) {
 
 }  // namespace
 
-const Codec mfem_codec{&read_mfem, &write_mfem, &lost_in_mfem, &is_mfem};
+const Codec mfem_codec{{FileFormat::mfem, "mfem", "MFEM", {".mesh"}, {.names = true, .curved_cells = false}},
+                       &read_mfem,
+                       &write_mfem,
+                       &lost_in_mfem,
+                       &is_mfem};
 
 }  // namespace trismooth

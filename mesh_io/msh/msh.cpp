@@ -22,6 +22,10 @@ bool is_msh(std::string_view bytes) {
 
 }  // namespace
 
-const Codec msh_codec{&read_msh_file, &write_msh, &lost_in_msh, &is_msh};
+const Codec msh_codec{{FileFormat::msh, "msh", "Gmsh MSH", {".msh"}, {.arrays = true, .names = true}},
+                      &read_msh_file,
+                      &write_msh,
+                      &lost_in_msh,
+                      &is_msh};
 
 }  // namespace trismooth

@@ -251,6 +251,10 @@ bool is_nastran(std::string_view bytes) {
 
 }  // namespace
 
-const Codec nastran_codec{&read_nastran, &write_nastran, &lost_in_nastran, &is_nastran};
+const Codec nastran_codec{{FileFormat::nastran, "nastran", "Nastran", {".bdf", ".nas"}, {.names = true}},
+                          &read_nastran,
+                          &write_nastran,
+                          &lost_in_nastran,
+                          &is_nastran};
 
 }  // namespace trismooth

@@ -65,6 +65,7 @@ std::vector<std::string> lost_in_obj(const MeshDocument& document) {
 
 }  // namespace
 
-const Codec obj_codec{&read_obj, &write_obj, &lost_in_obj};
+const Codec obj_codec{
+    {FileFormat::obj, "obj", "OBJ", {".obj"}, {.curved_cells = false}, 1}, &read_obj, &write_obj, &lost_in_obj};
 
 }  // namespace trismooth

@@ -63,6 +63,7 @@ bool is_off(std::string_view bytes) {
 
 }  // namespace
 
-const Codec off_codec{&read_off, &write_off, &lost_in_off, &is_off};
+const Codec off_codec{
+    {FileFormat::off, "off", "OFF", {".off"}, {.curved_cells = false}}, &read_off, &write_off, &lost_in_off, &is_off};
 
 }  // namespace trismooth

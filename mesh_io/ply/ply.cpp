@@ -22,6 +22,10 @@ bool is_ply(std::string_view bytes) {
 
 }  // namespace
 
-const Codec ply_codec{&read_ply, &write_ply, &what_ply_loses, &is_ply};
+const Codec ply_codec{{FileFormat::ply, "ply", "PLY", {".ply"}, {.arrays = true, .curved_cells = false}},
+                      &read_ply,
+                      &write_ply,
+                      &what_ply_loses,
+                      &is_ply};
 
 }  // namespace trismooth

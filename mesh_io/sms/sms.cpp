@@ -178,6 +178,10 @@ bool recognises_sms(std::string_view bytes) {
 
 }  // namespace
 
-const Codec sms_codec{&read_sms, &write_sms, &lost_in_sms, &recognises_sms};
+const Codec sms_codec{{FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}, {.names = true}},
+                      &read_sms,
+                      &write_sms,
+                      &lost_in_sms,
+                      &recognises_sms};
 
 }  // namespace trismooth

@@ -312,6 +312,7 @@ bool is_unv(std::string_view bytes) {
 
 }  // namespace
 
-const Codec unv_codec{&read_unv, &write_unv, &lost_in_unv, &is_unv};
+const Codec unv_codec{
+    {FileFormat::unv, "unv", "I-DEAS UNV", {".unv"}, {.names = true}}, &read_unv, &write_unv, &lost_in_unv, &is_unv};
 
 }  // namespace trismooth

@@ -159,6 +159,11 @@ bool is_vtk_legacy(std::string_view bytes) {
 
 }  // namespace
 
-const Codec vtk_legacy_codec{&read, &write_vtk_legacy, &lost_in_vtk_legacy, &is_vtk_legacy};
+const Codec vtk_legacy_codec{
+    {FileFormat::vtk, "vtk", "legacy VTK", {".vtk"}, {.arrays = true, .strips = true, .cells_of_any_order = true}},
+    &read,
+    &write_vtk_legacy,
+    &lost_in_vtk_legacy,
+    &is_vtk_legacy};
 
 }  // namespace trismooth

@@ -37,6 +37,7 @@
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_cells.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_data_sets.h"
+#include "trismooth/mesh_io/vtk_xml/vtk_xml_descriptions.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_reader.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_writer.h"
 
@@ -413,9 +414,9 @@ bool is_vtk_xml(std::string_view bytes) {
 
 }  // namespace
 
-const Codec vtu_codec{&read<VtkXmlKind::unstructured_grid>, &write_unstructured_grid, &lost_in_unstructured_grid,
-                      &is_vtk_xml<VtkXmlKind::unstructured_grid>};
-const Codec vtp_codec{&read<VtkXmlKind::poly_data>, &write_poly_data, &lost_in_poly_data,
+const Codec vtu_codec{vtu_description, &read<VtkXmlKind::unstructured_grid>, &write_unstructured_grid,
+                      &lost_in_unstructured_grid, &is_vtk_xml<VtkXmlKind::unstructured_grid>};
+const Codec vtp_codec{vtp_description, &read<VtkXmlKind::poly_data>, &write_poly_data, &lost_in_poly_data,
                       &is_vtk_xml<VtkXmlKind::poly_data>};
 
 }  // namespace trismooth

@@ -15,9 +15,8 @@ namespace {
 /// What is asked for is arrays: a file without them would be no answer.
 void require_arrays(const std::filesystem::path& path) {
   const auto format = format_of(path);
-  if (!format || has_arrays(*format) || *format == FileFormat::ply) {
-    return;  // an unknown extension is told where the file is to be made; PLY takes them if it is made of another
-             // format
+  if (!format || has_arrays(*format)) {
+    return;  // an unknown extension is told where the file is to be made
   }
   std::string formats;
   for (const FileFormat other : all_formats()) {

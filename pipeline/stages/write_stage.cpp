@@ -83,10 +83,9 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
   if (annotate && !annotates) {
     const std::string which = target == FileFormat::msh ? " of version 1, or with tags above 2147483647," : "";
     run.note("--annotate has no effect: " +
-             (target == FileFormat::ply || has_arrays(target)
-                  ? "a " + std::string(title_of(target)) + " file" + which +
-                        " that was read is written back with nothing added"
-                  : "." + std::string(to_string(target)) + " holds no arrays") +
+             (has_arrays(target) ? "a " + std::string(title_of(target)) + " file" + which +
+                                       " that was read is written back with nothing added"
+                                 : "." + std::string(to_string(target)) + " holds no arrays") +
              "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
   }
   if (!annotates && !dropped.empty()) {

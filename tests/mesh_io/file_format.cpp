@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/codec.h"
+
 #include "catch.h"
 
 using trismooth::all_formats;
@@ -73,6 +75,7 @@ TEST_CASE("every format is named by its extensions, in any case of letters and i
   std::set<std::string_view> titles;
   for (const FileFormat format : all_formats()) {
     CAPTURE(to_string(format));
+    CHECK(trismooth::codec_of(format).description.format == format);
     names.insert(to_string(format));
     titles.insert(title_of(format));
     CHECK(trismooth::format_named(to_string(format)) == format);
@@ -114,11 +117,12 @@ TEST_CASE("the last extension counts, and nothing else of the name") {
   }
 }
 
-TEST_CASE("VTK's formats and MSH hold arrays") {
-  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh}) {
+TEST_CASE("VTK's formats, MSH and PLY hold arrays") {
+  for (const FileFormat format :
+       {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh, FileFormat::ply}) {
     CHECK(has_arrays(format));
   }
-  for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl}) {
+  for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::stl, FileFormat::nastran}) {
     CHECK_FALSE(has_arrays(format));
   }
 }

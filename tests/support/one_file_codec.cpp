@@ -74,7 +74,8 @@ void write_triangle_joined(const std::filesystem::path& path, const MeshDocument
   write_joined(path, [&](const std::filesystem::path& file) { trismooth::write_triangle(file, document, workers); });
 }
 
-const Codec joined_triangle_codec{&read_joined, &write_triangle_joined, &trismooth::lost_in_triangle};
+const Codec joined_triangle_codec{trismooth::triangle_codec.description, &read_joined, &write_triangle_joined,
+                                  &trismooth::lost_in_triangle};
 
 }  // namespace
 

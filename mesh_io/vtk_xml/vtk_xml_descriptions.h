@@ -1,0 +1,19 @@
+#pragma once
+
+#include "trismooth/mesh_io/format_description.h"
+
+namespace trismooth {
+
+/// Of VTK's XML formats, also where the build has no VTK and can name them alone.
+inline constexpr FormatDescription vtu_description{FileFormat::vtu,
+                                                   "vtu",
+                                                   "VTK XML (unstructured grid)",
+                                                   {".vtu"},
+                                                   {.arrays = true, .strips = true, .cells_of_any_order = true}};
+inline constexpr FormatDescription vtp_description{FileFormat::vtp,
+                                                   "vtp",
+                                                   "VTK XML (polygonal data)",
+                                                   {".vtp"},
+                                                   {.arrays = true, .curved_cells = false, .strips = true}};
+
+}  // namespace trismooth
