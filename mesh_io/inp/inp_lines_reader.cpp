@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "trismooth/base/cell_list.h"
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -17,23 +18,9 @@ namespace {
 /// Keywords that make nodes or elements by a rule, or move nodes: these have no lines of their own.
 constexpr auto makers = std::to_array<std::string_view>({"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"});
 
-constexpr std::size_t most_sources = 10000;
-constexpr std::size_t most_nested_sources = 64;
-
 /// File names may be in quotation marks.
 std::filesystem::path file_named(std::string_view value) {
   return inp_label(value.starts_with('"') ? value : "\"" + std::string(value) + "\"");
-}
-
-bool is_regular(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
-}
-
-std::filesystem::path canonical_path(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
-  return error ? path : canonical;
 }
 
 }  // namespace
@@ -229,39 +216,12 @@ void InpLinesReader::start_lines_of_set(std::string_view name, bool of_nodes) {
 /// Reads the file that the keyword line names, as if its lines stood behind that line.
 void InpLinesReader::include(const InpKeyword& keyword, const InpParameter& input) {
   const std::filesystem::path name = file_named(input.value);
-  const std::filesystem::path path = find_included(name);
-  const std::filesystem::path canonical = canonical_path(path);
-  if (!is_regular(path)) {
-    fail_at(input.value, "the file " + trismooth::quoted(name.string()) + " that is included here cannot be read");
-  }
-  for (const std::size_t source : open_) {
-    if (canonical_path(model_.sources[source].path) == canonical) {
-      fail_at(input.value, "the file " + trismooth::quoted(name.string()) + " is included in itself");
-    }
-  }
-  if (open_.size() > most_nested_sources || model_.sources.size() > most_sources) {
-    fail_at(input.value, "too many files are included");
-  }
   const bool is_line = keyword.name == "INCLUDE";
-  model_.sources[open_.back()].includes.push_back({model_.sources.size(), name, is_line ? keyword.begin : input.begin,
-                                                   is_line ? keyword.end : input.end, keyword.end, !is_line});
-  model_.sources.push_back({path, read_file_bytes(path, workers_), {}, {}, {}});
-  read_source(model_.sources.size() - 1);
-}
-
-/// Beside the file that includes it, or else beside the first one.
-std::filesystem::path InpLinesReader::find_included(const std::filesystem::path& name) const {
-  std::string with_slashes = name.string();
-  std::ranges::replace(with_slashes, '\\', '/');
-  for (const std::filesystem::path& spelling : {name, std::filesystem::path(with_slashes)}) {
-    for (const std::size_t source : {open_.back(), std::size_t{0}}) {
-      std::filesystem::path path = model_.sources[source].path.parent_path() / spelling;
-      if (is_regular(path)) {
-        return path;
-      }
-    }
-  }
-  return name;
+  const std::size_t source = add_included(model_.sources, open_, name, workers_,
+                                          [&](const std::string& problem) { fail_at(input.value, problem); });
+  model_.sources[open_.back()].includes.push_back(
+      {source, name, is_line ? keyword.begin : input.begin, is_line ? keyword.end : input.end, keyword.end, !is_line});
+  read_source(source);
 }
 
 std::size_t InpLinesReader::offset_of(std::string_view part) const {

@@ -40,7 +40,6 @@ class InpLinesReader {
   void start_held(const InpKeyword& keyword, Block block);
   void start_lines_of_set(std::string_view name, bool of_nodes);
   void include(const InpKeyword& keyword, const InpParameter& input);
-  std::filesystem::path find_included(const std::filesystem::path& name) const;
 
   // Data lines.
   void read_node(std::string_view line);

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/inp/inp_cells.h"
@@ -46,17 +47,7 @@ void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<s
     notes.push_back("sets name " + std::to_string(unknown_members) +
                     " nodes, elements or other sets that are not there; these lines stay as they are");
   }
-  std::set<std::string> included;
-  for (const InpSource& source : model.sources) {
-    for (const InpInclude& include : source.includes) {
-      included.insert(trismooth::quoted(include.name.string()));
-    }
-  }
-  if (!included.empty()) {
-    notes.push_back("includes " + listed_names(included) +
-                    ": a file whose nodes move, or that is not found from the output's folder, is written in the "
-                    "place of the line that includes it; the file itself stays as it is");
-  }
+  add_note_of_included(model.sources, notes);
   if (model.names_other_files) {
     notes.emplace_back("names files that hold no mesh (INPUT=, FILE=): output in another folder needs them there");
   }

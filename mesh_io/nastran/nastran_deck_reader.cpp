@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/nastran/nastran_holders.h"
 #include "trismooth/mesh_io/text/blanks.h"
@@ -16,8 +17,6 @@ namespace trismooth {
 namespace {
 
 constexpr auto most_nastran_items = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-constexpr std::size_t most_nastran_sources = 10000;
-constexpr std::size_t most_nested_nastran_sources = 64;
 
 /// Whether lines of other sections come first: a line begins the bulk data, before any node.
 bool has_control_section(std::string_view text, std::size_t begin) {
@@ -31,17 +30,6 @@ bool has_control_section(std::string_view text, std::size_t begin) {
     }
   }
   return false;
-}
-
-bool is_nastran_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
-}
-
-std::filesystem::path canonical_nastran_path(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
-  return error ? path : canonical;
 }
 
 }  // namespace
@@ -118,38 +106,11 @@ std::size_t NastranDeckReader::include(std::size_t begin) {
   } else {
     name = trimmed(rest.substr(0, rest.find('$')));
   }
-  const std::filesystem::path path = find_included(name);
-  if (name.empty() || !is_nastran_file(path)) {
-    fail_at(statement, "the file " + trismooth::quoted(name) + " that is included here cannot be read");
-  }
-  const std::filesystem::path canonical = canonical_nastran_path(path);
-  for (const std::size_t source : open_) {
-    if (canonical_nastran_path(model_.sources[source].path) == canonical) {
-      fail_at(statement, "the file " + trismooth::quoted(name) + " is included in itself");
-    }
-  }
-  if (open_.size() > most_nested_nastran_sources || model_.sources.size() > most_nastran_sources) {
-    fail_at(statement, "too many files are included");
-  }
-  model_.sources[open_.back()].includes.push_back({model_.sources.size(), name, begin, lines.offset()});
-  model_.sources.push_back({path, read_file_bytes(path, workers_), {}, {}, {}});
-  read_source(model_.sources.size() - 1);
+  const std::size_t source = add_included(model_.sources, open_, name, workers_,
+                                          [&](const std::string& problem) { fail_at(statement, problem); });
+  model_.sources[open_.back()].includes.push_back({source, name, begin, lines.offset()});
+  read_source(source);
   return lines.offset();
-}
-
-/// Beside the file that includes it, or else beside the first one.
-std::filesystem::path NastranDeckReader::find_included(const std::filesystem::path& name) const {
-  std::string with_slashes = name.string();
-  std::ranges::replace(with_slashes, '\\', '/');
-  for (const std::filesystem::path& spelling : {name, std::filesystem::path(with_slashes)}) {
-    for (const std::size_t source : {open_.back(), std::size_t{0}}) {
-      std::filesystem::path path = model_.sources[source].path.parent_path() / spelling;
-      if (is_nastran_file(path)) {
-        return path;
-      }
-    }
-  }
-  return name;
 }
 
 void NastranDeckReader::read_card(std::size_t begin) {

@@ -31,7 +31,6 @@ class NastranDeckReader {
  private:
   void read_source(std::size_t source);
   std::size_t include(std::size_t begin);
-  std::filesystem::path find_included(const std::filesystem::path& name) const;
 
   void read_card(std::size_t begin);
   void check_marks(bool needs_more) const;

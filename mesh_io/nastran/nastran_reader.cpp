@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/nastran/nastran_deck_reader.h"
@@ -145,17 +146,7 @@ void add_notes(const NastranModel& model, std::vector<std::string>& notes) {
         "New numbers of nodes in free field take up to 16 characters, of which a solver may read 8 digits or so; in "
         "large field (GRID*) it reads them all.");
   }
-  std::set<std::string> included;
-  for (const NastranSource& source : model.sources) {
-    for (const NastranInclude& include : source.includes) {
-      included.insert(include.name.string());
-    }
-  }
-  if (!included.empty()) {
-    notes.push_back("includes " + listed_nastran_names(included) +
-                    ": a file whose nodes move, or that is not found from the output's folder, is written in the "
-                    "place of the line that includes it; the file itself stays as it is");
-  }
+  add_note_of_included(model.sources, notes);
 }
 
 /// Sources whose vertices are simply all of them need no list of these.

@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/vtk_xml/xml_names.h"
 
+#include "trismooth/base/markup_entity.h"
 #include "trismooth/base/utf8.h"
 
 namespace trismooth {
@@ -45,18 +46,6 @@ std::string escape_xml_attribute(std::string_view name) {
   std::string escaped;
   for (const char character : as_xml_text(name)) {
     switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
       case '\t':
         escaped += "&#9;";
         break;
@@ -66,8 +55,10 @@ std::string escape_xml_attribute(std::string_view name) {
       case '\r':
         escaped += "&#13;";
         break;
-      default:
-        escaped += character;
+      default: {
+        const std::string_view entity = markup_entity(character);
+        entity.empty() ? escaped += character : escaped += entity;
+      }
     }
   }
   return escaped;

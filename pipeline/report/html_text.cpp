@@ -1,5 +1,6 @@
 #include "trismooth/pipeline/report/html_text.h"
 
+#include "trismooth/base/markup_entity.h"
 #include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {
@@ -9,28 +10,15 @@ std::string escape_html(std::string_view text) {
   escaped.reserve(text.size());
   while (!text.empty()) {
     const TextPiece piece = first_piece(text);
-    switch (piece.bytes.front()) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      case '\t':
-      case '\n':
-        escaped += ' ';
-        break;
-      default:
-        escaped += piece.is_harmless ? piece.bytes : std::string_view("\xef\xbf\xbd");
+    const char first = piece.bytes.front();
+    if (const std::string_view entity = markup_entity(first); !entity.empty()) {
+      escaped += entity;
+    } else if (first == '\'') {
+      escaped += "&#39;";
+    } else if (first == '\t' || first == '\n') {
+      escaped += ' ';
+    } else {
+      escaped += piece.is_harmless ? piece.bytes : std::string_view("\xef\xbf\xbd");
     }
     text.remove_prefix(piece.bytes.size());
   }
