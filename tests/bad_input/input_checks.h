@@ -8,6 +8,7 @@
 #include "trismooth/mesh_io/mesh_document.h"
 
 #include "support/accepted_files.h"
+#include "support/text_words.h"
 
 /// What reading some bytes came to: a document or a refusal.
 struct Outcome {
@@ -34,10 +35,6 @@ std::string difference(const trismooth::MeshDocument& a, const trismooth::MeshDo
 
 /// The bytes that a document gives when it is written back to its own format.
 std::string written_back(const trismooth::MeshDocument& document);
-
-inline bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != text.npos;
-}
 
 /// Tests that visit every place of a file visit every n-th with sanitizers, which read some ten times slower, of the
 /// files that take longest.

@@ -175,8 +175,8 @@ TEST_CASE("A wrong byte order, compressor or width of block headers is refused w
 TEST_CASE("A file of another format under this extension is refused in one line") {
   Faults faults;
   for (const AcceptedFile& file : accepted_files::all()) {
-    for (const std::string extension : {".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".vtp", ".msh", ".su2", ".14",
-                                        ".2dm", ".inp", ".bdf", ".unv", ".mesh"}) {
+    for (const trismooth::FileFormat format : trismooth::all_formats()) {
+      const std::string extension(extensions_of(format).front());
       const AcceptedFile other{file.name, extension, file.bytes};
       if (format_of(other) == format_of(file)) {
         continue;

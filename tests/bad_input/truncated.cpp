@@ -1,6 +1,6 @@
 // Every file of the collection, cut at every byte. Most cuts are refused. Those that leave a whole file cannot be told
 // from one: formats without an end or a count (OBJ, and the arrays of legacy VTK files) end wherever they are cut, and
-// a last number is whole wherever it is cut. The rules of whole_files.h say which cuts these are; no other is accepted.
+// a last number is whole wherever it is cut. The samples of the formats say which cuts these are; no other is accepted.
 #include <algorithm>
 #include <span>
 #include <string>
@@ -12,13 +12,12 @@
 #include "catch.h"
 #include "input_checks.h"
 #include "support/accepted_files.h"
-#include "whole_files.h"
+#include "support/format_sample.h"
 
 using accepted_files::AcceptedFile;
+using accepted_files::Rest;
 using trismooth::DataArray;
 using trismooth::MeshDocument;
-using whole_files::is_whole;
-using whole_files::last_coordinate;
 
 namespace {
 
@@ -68,22 +67,18 @@ TEST_CASE("A file cut anywhere is refused unless what is left is a whole file") 
   Faults faults;
   for (const AcceptedFile& file : accepted_files::all()) {
     const MeshDocument whole = read(file).document.value();
-    // Only these formats can end after some of the cells.
-    const bool all_cells = file.extension != ".obj" && !file.name.starts_with("stl_ascii") &&
-                           !file.name.starts_with("medit") && !file.name.starts_with("2dm") &&
-                           !file.name.starts_with("unv") && !contains(file.name, "_poly_");
-    const bool is_deck =
-        format_of(file) == trismooth::FileFormat::inp || format_of(file) == trismooth::FileFormat::nastran;
+    const accepted_files::FormatSample& sample = accepted_files::sample_of(format_of(file));
+    const Rest rest = sample.rest_of == nullptr ? Rest::all_cells : sample.rest_of(file);
     for (std::size_t cut = 0; cut < file.bytes.size(); cut += stride_of(file)) {
       const std::string place = fmt::format("cut at byte {}", cut);
       const Outcome outcome = read(file, file.bytes.substr(0, cut));
       faults.add_any(file.name, place, outcome.fault);
-      if (outcome.document.has_value() != is_whole(file, cut)) {
+      if (outcome.document.has_value() != sample.is_whole(file, cut)) {
         faults.add(file.name, place, outcome.document ? "is accepted" : outcome.message);
-      } else if (outcome.document && last_coordinate(file).empty()) {
+      } else if (outcome.document && rest != Rest::another_mesh) {
         faults.add_any(file.name, place,
-                       is_deck ? not_a_beginning_of_deck(*outcome.document, whole)
-                               : not_a_beginning(*outcome.document, whole, all_cells));
+                       rest == Rest::lines ? not_a_beginning_of_deck(*outcome.document, whole)
+                                           : not_a_beginning(*outcome.document, whole, rest == Rest::all_cells));
       }
     }
   }

@@ -11,7 +11,8 @@ In README.md and docs/*.md:
 - a block whose first line says `no-run: REASON` behind the language is left out;
 - links must lead to files and headings, and names of files in backticks and in the picture of the architecture must
   exist;
-- every option of the program must be on the page of the command line, and every option named anywhere must be one.
+- every option of the program must be on the page of the command line, and every option named anywhere must be one;
+- every extension of a format must be on the page of the formats.
 
 PART (cuda, halfedge, mesh_io, pipeline) is a part that the build does not have: C++ that includes it is left out.
 Python 3 and its standard library suffice.
@@ -200,6 +201,14 @@ def check_options(program):
             yield f"{page.relative_to(ROOT)}: trismooth has no option {option}"
 
 
+def check_formats(program):
+    info = subprocess.run([program, "info"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    page = (ROOT / "docs/formats.md").read_text()
+    for extension in sorted(set(re.findall(r"(?<=[(\s])\.[a-z0-9]+(?=[)\s])", info[:info.index(";")]))):
+        if f"`{extension}`" not in page:
+            yield f"docs/formats.md: {extension} is missing"
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
@@ -224,6 +233,7 @@ def main():
         faults += check_paths(page)
     faults += check_picture(ROOT / "docs/images/architecture.svg")
     faults += check_options(arguments.program)
+    faults += check_formats(arguments.program)
     for block in blocks:
         if not block.language:
             faults.append(f"{block.place}: the block does not say what language it is in")

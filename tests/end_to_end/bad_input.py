@@ -57,103 +57,41 @@ def garbage(count):
 
 
 def rejected_files():
-    """[(name, content, what the message says)]."""
+    """[(name, content, what the message says)]: examples; damage anywhere in files of all formats is in tests/bad_input."""
     off = sample_meshes.off(grid())
     lines = off.decode().split("\n")
     ply = sample_meshes.ply(grid(), "ascii")
     binary_ply = sample_meshes.ply(grid(), "binary_little_endian")
     stl = sample_meshes.stl(grid(), True)
-    vtk = sample_meshes.legacy_vtk(grid())
-    binary_vtk = sample_meshes.legacy_vtk(grid(), binary=True)
-    vtu = sample_meshes.vtu(grid())
     raw_vtu = sample_meshes.vtu(grid(), "appended raw", compressed=True)
-    obj = sample_meshes.obj(grid())
     return [
         ("empty.off", "", ":1: .*empty|:1: .*end of the file"),
-        ("only_keyword.off", "OFF\n", ":2: .*number of vertices.*end of the file"),
-        ("cut_in_vertices.off", "\n".join(lines[:9]), "16 vertices"),
         ("cut_in_faces.off", "\n".join(lines[:31]) + "\n", ":3[12]: .*18 faces.*13"),
         ("index_out_of_range.off", off_with(20, "3 0 1 16"), ":20: face 2 of 18: .*'16'.*16 vertices"),
-        ("index_negative.off", off_with(20, "3 0 1 -1"), ":20: face 2 of 18: .*'-1'"),
-        ("index_wraps.off", off_with(20, "3 0 1 4294967301"), ":20: .*'4294967301'"),
-        ("index_wraps_64.off", off_with(20, "3 0 1 18446744073709551621"), ":20: .*'18446744073709551621'"),
-        ("index_fraction.off", off_with(20, "3 0 1 5.5"), ":20: .*'5.5'"),
-        ("nan.off", off_with(8, "nan 1 0"), ":8: .*'nan'"),
-        ("inf.off", off_with(8, "1 -inf 0"), ":8: .*'-inf'"),
-        ("overflow.off", off_with(8, "1e999 1 0"), ":8: .*'1e999'"),
         ("word.off", off_with(8, "abc 1 0"), ":8: .*'abc'"),
-        ("decimal_comma.off", off_with(8, "1,5 1 0"), ":8: .*'1,5'"),
-        ("two_coordinates.off", off_with(8, "1 1"), ":[89]: "),
-        ("several_vertices_a_line.off", off_with(3, "0 0 0 1 0 0 2 0 0 3 0 0"), ":3: "),
         ("huge_counts.off", "OFF\n4000000000 8000000000 0\n0 0 0\n3 0 1 2\n", ":2: .*'4000000000'"),
         ("large_counts.off", "OFF\n2000000000 2000000000 0\n0 0 0\n3 0 1 2\n", "2000000000"),
-        ("wrapped_counts.off", "OFF\n4294967299 4294967297 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ":2: .*'4294967299'"),
-        ("negative_counts.off", "OFF\n-3 1 0\n0 0 0\n", ":2: .*'-3'"),
-        ("garbage.off", b"OFF\n" + garbage(4096), ":2: "),
         ("garbage_throughout.off", b"\x89PNG" + garbage(4096), ":1: is not an OFF file"),
         ("zeros.off", bytes(4096), ":1: "),
-        ("degree_huge.off", off_with(20, "1000000000 0 1 5"), ":20: face 2 of 18: .*1000000000"),
-        ("degree_2.off", off_with(20, "2 0 1"), ":20: face 2 of 18: .*'2'"),
         ("homogeneous.off", replaced(off, b"OFF", b"4OFF"), ":1: unsupported OFF variant '4OFF'"),
-        ("binary.off", b"OFF BINARY\n" + struct.pack(">3i9f3i", 3, 1, 0, *[0.0] * 9, 3, 0, 1), ""),
         ("not_planar.off", off_with(8, "1 1 0.3"), "not planar"),
         ("quads_only.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "1 cell but no triangle"),
         ("pentagon.off", "OFF\n5 1 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n0 0 0\n5 0 1 2 3 4\n", "1 cell but no triangle"),
         ("moebius.off", "OFF\n5 5 0\n" + "".join(f"{x} {x * x} 0\n" for x in range(5)) +
          "".join(f"3 {i} {(i + 1) % 5} {(i + 2) % 5}\n" for i in range(5)), "orient"),
-
-        ("index_out_of_range.obj", obj + b"f 1 2 17\n", ":41: .*17.*16 vertices"),
-        ("index_zero.obj", obj + b"f 0 1 2\n", "'0'"),
-        ("index_relative.obj", obj + b"f -1 -2 -17\n", "'-17'"),
-        ("word.obj", obj + b"v 1 x 0\n", "'x'"),
-        ("nan.obj", obj + b"v 1 nan 0\n", "'nan'"),
-        ("face_of_two.obj", obj + b"f 1 2\n", ":"),
-
-        ("missing_face.ply", "\n".join(ply.decode().split("\n")[:-6]) + "\n", "face|edge"),
-        ("no_end_of_header.ply", ply[:ply.index(b"end_header")], "header"),
-        ("no_coordinates.ply", replaced(ply, b"property double y", b"property double w"), "'?y'?"),
+        ("index_relative.obj", sample_meshes.obj(grid()) + b"f -1 -2 -17\n", "'-17'"),
         ("bad_type.ply", replaced(ply, b"property double x", b"property quad x"), ":6: .*'quad'"),
         ("huge_count.ply", replaced(ply, b"vertex 16", b"vertex 4000000000"), "4000000000"),
-        ("cut.ply", binary_ply[:-30], ":|byte"),
         ("huge_list.ply", replaced(binary_ply, struct.pack("<B3i", 3, *grid().cells[0][1]),
                                    struct.pack("<B3i", 255, *grid().cells[0][1])), "byte|:"),
-        ("index.ply", replaced(binary_ply, struct.pack("<B3i", 3, *grid().cells[0][1]),
-                               struct.pack("<B3i", 3, 0, 1, 99)), "99"),
-        ("nan.ply", replaced(binary_ply, struct.pack("<3d", *grid().points[5]),
-                             struct.pack("<3d", float("nan"), 0, 0)), "nan|finite"),
-
         ("huge_count.stl", stl[:80] + struct.pack("<I", 0xFFFFFFFF) + stl[84:134], "byte 80: .*4294967295"),
-        ("cut.stl", stl[:-20], "byte"),
-        ("inf.stl", stl[:96] + struct.pack("<f", float("inf")) + stl[100:], "byte 96"),
-        ("cut_text.stl", sample_meshes.stl(grid(), False)[:-60], ":"),
-        ("garbage.stl", garbage(50), ":|byte"),
-
-        ("cells_size.vtk", vtk_with(b"CELLS 18 72", b"CELLS 18 70"), ":.*70"),
         ("cell_types_short.vtk", vtk_with(b"CELL_TYPES 18", b"CELL_TYPES 17"), ":.*17 cell types for 18 cells"),
-        ("huge_points.vtk", vtk_with(b"POINTS 16", b"POINTS 1600000000"), "declares (16|48)00000000 "),
-        ("huge_points_binary.vtk", replaced(binary_vtk, b"POINTS 16", b"POINTS 1600000000"),
+        ("huge_points_binary.vtk", vtk_with(b"POINTS 16", b"POINTS 1600000000", binary=True),
          "declares (16|48)00000000 "),
         ("huge_cells.vtk", vtk_with(b"CELLS 18 72", b"CELLS 4611686018427387904 72"), "4611686018427387904"),
-        ("nan.vtk", vtk_with(b"POINTS 16 double\n0.0", b"POINTS 16 double\nnan"), ":9: .*finite"),
-        ("cut.vtk", vtk[:len(vtk) // 2], ":"),
-        ("cut_binary.vtk", binary_vtk[:len(binary_vtk) // 2], ":|byte"),
-        ("arrays_cut.vtk", vtk[:-40], ":"),
-        ("no_such_dataset.vtk", vtk_with(b"UNSTRUCTURED_GRID", b"STRUCTURED_GRID"), "STRUCTURED_GRID"),
-        ("offsets.vtk", vtk_with(b"int64\n0 3 6", b"int64\n0 9 6", version="5.1"), ":"),
-        ("index.vtk", vtk_with(b"CELLS 18 72\n3 0", b"CELLS 18 72\n3 16"), ":.*'?16'?"),
-        ("garbage.vtk", garbage(4096), ":1: "),
-
-        ("cut.vtu", vtu[:vtu.index(b"<Points>") + 120], "not well-formed XML|:"),
         ("offsets_not_monotone.vtu", vtu_with(b"3 6 9 12 15", b"3 6 9 1200000 15"), "offsets.*1200000"),
-        ("index.vtu", vtu_with(b'format="ascii">\n0 1', b'format="ascii">\n0 99', mode="ascii"), "99"),
-        ("short_types.vtu", vtu_with(b"5 5 5 5 5 5 5 5 5", b"5 5 5 5 5 5 5 5"), "types"),
-        ("point_count.vtu", vtu_with(b'NumberOfPoints="16"', b'NumberOfPoints="17"'), "17|16|51|48"),
         ("huge_count.vtu", vtu_with(b'NumberOfPoints="16"', b'NumberOfPoints="4000000000"'), "4000000000"),
         ("damaged_block.vtu", with_damaged_block(raw_vtu), "damaged|compressed"),
-        ("cut_appended.vtu", raw_vtu[:-200], ":"),
-        ("offset_outside.vtu", replaced(raw_vtu, b'offset="0"', b'offset="99999999"'), "99999999|outside|offset"),
-        ("nan.vtu", vtu_with(b'NumberOfComponents="3" format="ascii">\n0.0',
-                             b'NumberOfComponents="3" format="ascii">\nnan'), "nan|finite"),
         ("entities.vtu", b'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY a "aaaaaaaaaa">' +
          b"".join(b'<!ENTITY %c "%s">' % (c, b"&%c;" % (c - 1) * 10) for c in range(98, 110)) +
          b"]><VTKFile>&m;</VTKFile>", None),
@@ -197,14 +135,14 @@ class Refused(BadInputTest):
                 self.assert_refused(name, "out" + os.path.splitext(name)[1], place)
 
     def test_the_quality_command_refuses_them_too(self):
-        for name, content, _ in rejected_files()[::7]:
+        for name, content, _ in rejected_files()[::3]:
             with self.subTest(name):
                 self.write(name, content)
                 outcome = self.run_limited("quality", name, expect=REFUSED)
                 self.assertEqual(len(outcome.err.splitlines()), 1, outcome)
 
     def test_an_old_output_survives_a_bad_input(self):
-        for name, content, _ in rejected_files()[::7]:
+        for name, content, _ in rejected_files()[::3]:
             with self.subTest(name):
                 self.write(name, content)
                 self.write("old.off", "precious")
@@ -216,11 +154,9 @@ class Refused(BadInputTest):
                    "a.vtk": sample_meshes.legacy_vtk(grid(), binary=True), "a.stl": sample_meshes.stl(grid(), True),
                    "a.vtu": sample_meshes.vtu(grid(), "appended raw", compressed=True)}
         for name, content in samples.items():
-            for part in range(1, 13):
-                cut = len(content) * part // 13
-                with self.subTest(name, cut=cut):
-                    self.write(name, content[:cut])
-                    self.assert_refused(name, "out" + os.path.splitext(name)[1])
+            with self.subTest(name):
+                self.write(name, content[:len(content) // 2])
+                self.assert_refused(name, "out" + os.path.splitext(name)[1])
 
 
 class Accepted(BadInputTest):

@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 
 #include "trismooth/mesh_io/document/straight_cells.h"
-#include "trismooth/mesh_io/msh/msh_element_types.h"
-#include "trismooth/mesh_io/text/number_text.h"
 
 #include "broken.h"
+#include "support/format_sample.h"
 
 namespace fuzz {
 
@@ -93,11 +92,6 @@ std::string difference_of_arrays(const std::vector<DataArray>& a, const std::vec
   return {};
 }
 
-/// Whether files of the format hold x and y alone.
-bool is_flat(FileFormat format) {
-  return format == FileFormat::su2;
-}
-
 }  // namespace
 
 void require_guarantees(const MeshDocument& document) {
@@ -129,109 +123,34 @@ void require_guarantees(const MeshDocument& document) {
 }
 
 MeshDocument straightened(const MeshDocument& document, FileFormat format) {
-  constexpr std::array straight_only{FileFormat::off,    FileFormat::obj,     FileFormat::ply,
-                                     FileFormat::stl,    FileFormat::vtp,     FileFormat::su2,
-                                     FileFormat::adcirc, FileFormat::freefem, FileFormat::mfem};
-  const bool straightens = std::ranges::find(straight_only, format) != straight_only.end();
-  return straightens && has_curved_cells(document) ? with_straight_cells(document) : document;
+  const auto& groups = accepted_files::sample_of(format).cells;
+  const bool holds_curved = groups.empty() || std::ranges::any_of(groups, [](const auto& types) {
+                              return std::ranges::find(types, cell_type::quadratic_triangle) != types.end();
+                            });
+  return !holds_curved && has_curved_cells(document) ? with_straight_cells(document) : document;
 }
 
 MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
-  using Types = std::vector<std::uint8_t>;
-  const Types faces{cell_type::triangle, cell_type::quad, cell_type::polygon};
-  const Types lines{cell_type::line, cell_type::poly_line};
-  const Types vertices{cell_type::vertex, cell_type::poly_vertex};
-  std::vector<Types> groups;
-  switch (format) {
-    case FileFormat::off:
-      groups = {faces};
-      break;
-    case FileFormat::obj:
-      groups = {faces};
-      groups[0].insert(groups[0].end(), lines.begin(), lines.end());
-      groups[0].insert(groups[0].end(), vertices.begin(), vertices.end());
-      break;
-    case FileFormat::ply:
-      groups = {faces, {cell_type::line}};
-      break;
-    case FileFormat::stl:
-      groups = {{cell_type::triangle}};
-      break;
-    case FileFormat::triangle:
-      groups = {{cell_type::triangle}};
-      break;
-    case FileFormat::su2:
-      groups = {{cell_type::triangle, cell_type::quad}};
-      break;
-    case FileFormat::vtp:
-      groups = {vertices, lines, faces, {cell_type::triangle_strip}};
-      break;
-    case FileFormat::sms:
-      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
-                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad}};
-      break;
-    case FileFormat::adcirc:
-      groups = {{cell_type::triangle}};
-      break;
-    case FileFormat::medit:
-      // A section for each type.
-      for (const int type : {3, 5, 9, 10, 13, 12, 14, 21, 22, 28, 24}) {
-        groups.push_back({static_cast<std::uint8_t>(type)});
-      }
-      break;
-    case FileFormat::freefem:
-      groups = {{cell_type::triangle}, {cell_type::line}};
-      break;
-    case FileFormat::inp:
-      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
-                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
-                 cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26}};
-      break;
-    case FileFormat::nastran:
-      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
-                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
-                 cell_type::tetrahedron, cell_type::pyramid, cell_type::wedge, cell_type::hexahedron, 24, 25, 26, 27}};
-      break;
-    case FileFormat::unv:
-      groups = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
-                 cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
-                 cell_type::tetrahedron, cell_type::wedge, cell_type::hexahedron, 24, 25, 26}};
-      break;
-    case FileFormat::mfem:
-      groups = {{cell_type::triangle, cell_type::quad}, {cell_type::line}};
-      break;
-    case FileFormat::msh:
-    case FileFormat::vtk:
-    case FileFormat::vtu:
-      groups.resize(1);
-      for (int type = 0; type < 256; ++type) {
-        groups[0].push_back(static_cast<std::uint8_t>(type));
-      }
-  }
+  const accepted_files::FormatSample& sample = accepted_files::sample_of(format);
   MeshDocument held;
   held.points = document.points;
-  if (is_flat(format)) {
-    for (std::size_t i = 2; i < held.points.size(); i += 3) {
-      held.points[i] = 0;
-    }
+  for (std::size_t i = 0; sample.written_point != nullptr && i < held.points.size(); i += 3) {
+    const auto point = held.points.begin() + static_cast<std::ptrdiff_t>(i);
+    std::ranges::copy(sample.written_point({point[0], point[1], point[2]}), point);
   }
-  if (format == FileFormat::inp) {
-    std::ranges::transform(held.points, held.points.begin(),
-                           [](double value) { return trismooth::rounded_to_characters(value, 20); });
-  }
-  if (format == FileFormat::nastran) {
-    std::ranges::transform(held.points, held.points.begin(), [](double value) {
-      return trismooth::rounded_to_characters(value, 16, trismooth::NumberForm::nastran);
-    });
-  }
-  for (const Types& group : groups) {
+  const auto add_cells = [&](const auto& is_in_group) {
     for (std::size_t c = 0; c < document.cells.size(); ++c) {
-      const bool is_element =
-          format != FileFormat::msh || trismooth::msh_number_of(document.cells.types[c], document.cells[c].size()) != 0;
-      if (is_element && std::ranges::find(group, document.cells.types[c]) != group.end()) {
-        held.cells.append(document.cells.types[c], document.cells[c]);
+      const std::uint8_t type = document.cells.types[c];
+      if (is_in_group(type) && (sample.holds_cell == nullptr || sample.holds_cell(type, document.cells[c].size()))) {
+        held.cells.append(type, document.cells[c]);
       }
     }
+  };
+  if (sample.cells.empty()) {
+    add_cells([](std::uint8_t /*type*/) { return true; });
+  }
+  for (const std::vector<std::uint8_t>& group : sample.cells) {
+    add_cells([&group](std::uint8_t type) { return std::ranges::find(group, type) != group.end(); });
   }
   return held;
 }

@@ -27,7 +27,7 @@ std::string upper(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("the extensions that the documentation lists name these formats") {
+TEST_CASE("extensions name these formats") {
   // Short names of the formats, in the order in which the content of a file is asked.
   const std::map<std::string, std::vector<std::string>> documented{
       {".off", {"off"}},
@@ -53,13 +53,6 @@ TEST_CASE("the extensions that the documentation lists name these formats") {
       {".nas", {"nastran"}},
       {".unv", {"unv"}},
   };
-  std::set<std::string> extensions;
-  for (const FileFormat format : all_formats()) {
-    for (const std::string_view extension : extensions_of(format)) {
-      extensions.emplace(extension);
-    }
-  }
-  CHECK(extensions.size() == documented.size());
   for (const auto& [extension, formats] : documented) {
     CAPTURE(extension);
     std::vector<std::string> named;

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -18,57 +17,6 @@ namespace trismooth::ply_refused_test {
 
 using namespace byte_files;
 using namespace ply_files;
-
-TEST_CASE("PLY: no truncation gives part of a mesh") {
-  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
-  CAPTURE(to_text(flavour));
-  const std::string bytes = square_file(flavour);
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    CAPTURE(size);
-    try {
-      const MeshDocument document = ply_codec.read("cut.ply", bytes.substr(0, size));
-      // Only a text can be cut within its last number.
-      REQUIRE(flavour == Flavour::ascii);
-      REQUIRE(size + 5 >= bytes.size());
-      REQUIRE(is_valid(document));
-      REQUIRE(document.point_count() == 5);
-      REQUIRE(document.cells.size() == 3);
-    } catch (const trismooth::ReadError&) {
-      SUCCEED();
-    }
-  }
-}
-
-TEST_CASE("PLY: whatever the bytes, a document is valid or refused") {
-  const auto flavour = GENERATE(Flavour::ascii, Flavour::little, Flavour::big);
-  const std::string bytes = square_file(flavour);
-  const std::string tempting = "0123456789 -.e\n\r\xff\x7f\x80";
-  std::mt19937 random(1);
-  int read = 0;
-  for (int trial = 0; trial < 5000; ++trial) {
-    std::string damaged = bytes;
-    for (unsigned change = 0; change <= random() % 3; ++change) {
-      const std::size_t place = random() % damaged.size();
-      switch (random() % 3) {
-        case 0:
-          damaged[place] = tempting[random() % tempting.size()];
-          break;
-        case 1:
-          damaged.erase(place, 1 + random() % 4);
-          break;
-        default:
-          damaged.insert(place, 1, tempting[random() % tempting.size()]);
-      }
-    }
-    try {
-      const MeshDocument document = ply_codec.read("damaged.ply", damaged);
-      REQUIRE(is_valid(document));
-      ++read;
-    } catch (const trismooth::ReadError&) {
-    }
-  }
-  CHECK(read > 0);
-}
 
 TEST_CASE("PLY: filling up cell arrays takes no more memory than a small multiple of the file's size") {
   std::string declarations = three + "element face 1\n" + face;

@@ -174,54 +174,6 @@ TEST_CASE("STL: no facets are an empty document") {
   CHECK(written_back(document) == bytes);
 }
 
-TEST_CASE("STL: no truncation gives part of a mesh") {
-  const std::string bytes = GENERATE(fan_text("0.5 0.25 0"), fan_binary(0.5F, 0.25F));
-  const std::size_t last_facet = bytes.rfind(" EndFacet");
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    CAPTURE(size);
-    try {
-      const MeshDocument document = stl_codec.read("cut.stl", bytes.substr(0, size));
-      // A text may end after any facet, but says then that this is no sure end.
-      REQUIRE(last_facet != std::string::npos);
-      const bool has_end = contains(bytes.substr(0, size), "endsolid");
-      REQUIRE(document.notes.empty() == has_end);
-      REQUIRE((document.cells.size() == 4) == (size >= last_facet + 9));
-    } catch (const trismooth::ReadError&) {
-      SUCCEED();
-    }
-  }
-}
-
-TEST_CASE("STL: whatever the bytes, a document is valid or refused") {
-  const std::string bytes = GENERATE(fan_text("0.5 0.25 0"), fan_binary(0.5F, 0.25F));
-  const std::string tempting = "0123456789 -.esx\n\r\xff\x7f\x80";
-  std::mt19937 random(1);
-  int read = 0;
-  for (int trial = 0; trial < 5000; ++trial) {
-    std::string damaged = bytes;
-    for (unsigned change = 0; change <= random() % 3; ++change) {
-      const std::size_t place = random() % damaged.size();
-      switch (random() % 3) {
-        case 0:
-          damaged[place] = tempting[random() % tempting.size()];
-          break;
-        case 1:
-          damaged.erase(place, 1 + random() % 4);
-          break;
-        default:
-          damaged.insert(place, 1, tempting[random() % tempting.size()]);
-      }
-    }
-    try {
-      const MeshDocument document = stl_codec.read("damaged.stl", damaged);
-      REQUIRE(is_valid(document));
-      ++read;
-    } catch (const trismooth::ReadError&) {
-    }
-  }
-  CHECK(read > 0);
-}
-
 TEST_CASE("STL: what is no STL is refused with its place") {
   struct Case {
     std::string bytes;

@@ -204,47 +204,6 @@ TEST_CASE("legacy VTK: faults in binary files are reported with their byte offse
         std::string::npos);
 }
 
-TEST_CASE("legacy VTK: a file that ends anywhere is read with all points and cells or refused") {
-  const bool binary = GENERATE(false, true);
-  const bool with_offsets = GENERATE(false, true);
-  Builder file = grid_file(binary, with_offsets);
-  file.text("POINT_DATA 9\n");
-  add_attributes(file, 9, binary, "p_");
-  std::size_t refused = 0;
-  for (std::size_t size = 0; size < file.bytes().size(); ++size) {
-    try {
-      trismooth::VtkLegacyLayout layout;
-      trismooth::Workers alone(1);
-      const MeshDocument document =
-          read_vtk_legacy("cut.vtk", file.bytes().substr(0, size), FileWorkers(alone, 64), layout);
-      REQUIRE(document.point_count() == 9);
-      REQUIRE(document.cells.size() == 7);
-      REQUIRE(document.cells.offsets.size() == 8);
-      for (const trismooth::DataArray& array : document.point_arrays) {
-        REQUIRE(array.rows() == 9);
-      }
-    } catch (const ReadError&) {
-      ++refused;
-    }
-  }
-  CHECK(refused > grid_file(binary, with_offsets).bytes().size() - 3);
-}
-
-TEST_CASE("legacy VTK: a byte changed anywhere never does more than cause an error") {
-  const bool binary = GENERATE(false, true);
-  const bool with_offsets = GENERATE(false, true);
-  Builder file = grid_file(binary, with_offsets);
-  file.text("CELL_DATA 7\n");
-  add_attributes(file, 7, binary, "c_");
-  for (std::size_t at = 0; at < file.bytes().size(); at += is_sanitized ? 5 : 1) {
-    for (const char value : {'\0', '9', '\n', '\xff'}) {
-      std::string bytes = file.bytes();
-      bytes[at] = value;
-      read_hostile(bytes);
-    }
-  }
-}
-
 TEST_CASE("legacy VTK: a token changed anywhere never does more than cause an error") {
   const bool with_offsets = GENERATE(false, true);
   const bool poly_data = GENERATE(false, true);

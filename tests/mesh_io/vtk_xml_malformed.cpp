@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,58 +128,6 @@ std::string message_of(VtkXmlKind kind, const std::string& bytes) {
     return error.what();
   }
   return "read without an error";
-}
-
-TEST_CASE("a file cut off anywhere is refused, or nothing that counts was cut off") {
-  const Silence silence;
-  const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
-  for (const VtkXmlEncoding& encoding : some_encodings()) {
-    CAPTURE(to_string(encoding), kind);
-    const std::string bytes = file_of(kind, encoding);
-    std::size_t accepted = 0;
-    for (std::size_t size = 0; size < bytes.size(); size += is_sanitized ? 11 : 1) {
-      try {
-        const MeshDocument document = read(kind, bytes.substr(0, size));
-        ++accepted;
-        if (document.point_count() != 9 || document.cells.size() != 8 || !is_consistent(document)) {
-          FAIL("read wrongly when cut off at " << size);
-        }
-      } catch (const ReadError&) {
-      }
-    }
-    CHECK(accepted < 40);
-  }
-  CHECK(silence.broken_by() == "");
-}
-
-TEST_CASE("damaged bytes never crash the reader or break its promises") {
-  const Silence silence;
-  const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
-  std::mt19937 random(7);
-  for (const VtkXmlEncoding& encoding : some_encodings()) {
-    CAPTURE(to_string(encoding), kind);
-    const std::string bytes = file_of(kind, encoding);
-    const TemporaryPath output(extension_of(kind));
-    for (int i = 0; i < (is_sanitized ? 200 : 3000); ++i) {
-      std::string damaged = bytes;
-      for (auto flips = 1 + random() % 3; flips > 0; --flips) {
-        // Half of the damage keeps to digits, so that counts and sizes are hit and the XML stays well-formed.
-        char& byte = damaged[random() % damaged.size()];
-        byte = random() % 2 == 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
-      }
-      try {
-        const MeshDocument document = read(kind, damaged);
-        if (!is_consistent(document)) {
-          FAIL("inconsistent after damage " << i);
-        }
-        if (i % 8 == 0) {
-          document.original->write(output.path(), document, {}, {});
-        }
-      } catch (const ReadError&) {
-      }
-    }
-  }
-  CHECK(silence.broken_by() == "");
 }
 
 TEST_CASE("malformed elements are refused with the place and the reason") {

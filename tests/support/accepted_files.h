@@ -35,4 +35,7 @@ struct Mesh {
 };
 Mesh mesh(bool others);
 
+/// "0.75 1.25 0".
+std::string text_of(const std::array<double, 3>& point);
+
 }  // namespace accepted_files

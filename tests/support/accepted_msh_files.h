@@ -25,6 +25,4 @@ struct Spelling {
 
 std::string file(const Spelling& spelling);
 
-void add(std::vector<AcceptedFile>& files);
-
 }  // namespace accepted_files::msh

@@ -21,7 +21,4 @@ std::string number_bytes(T number, bool big_endian) {
   return {bytes.data(), bytes.size()};
 }
 
-void add_legacy(std::vector<AcceptedFile>& files);
-void add_xml(std::vector<AcceptedFile>& files);
-
 }  // namespace accepted_files::vtk

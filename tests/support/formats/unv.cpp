@@ -1,11 +1,17 @@
-#include "support/accepted_unv_files.h"
-
-#include <cstdint>
+#include <algorithm>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "trismooth/base/cell_list.h"
+
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files {
 
@@ -71,8 +77,6 @@ std::string unv_group(int number, const std::string& name, const std::vector<int
          unv_integers(members);
 }
 
-}  // namespace
-
 void add_unv(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, std::string bytes) {
     files.push_back({"unv_" + name, ".unv", std::move(bytes)});
@@ -85,13 +89,6 @@ void add_unv(std::vector<AcceptedFile>& files) {
                                                     unv_group(5, "upper", {8, 103, 0, 0, 8, 104, 0, 0, 8, 102, 0, 0}) +
                                                     unv_group(9, "corner", {7, 1, 0, 0}));
   const std::string plain = spelled({}) + groups;
-  const auto with_line_ends = [](const std::string& text, std::string_view line_end) {
-    std::string changed;
-    for (const char c : text) {
-      changed += c == '\n' ? std::string(line_end) : std::string(1, c);
-    }
-    return changed;
-  };
   add("plain", plain);
   add("crlf", with_line_ends(plain, "\r\n"));
   add("cr", with_line_ends(plain, "\r"));
@@ -105,6 +102,42 @@ void add_unv(std::vector<AcceptedFile>& files) {
       unv_data_set(151, "a model\nNONE\n") + unv_data_set(164, "         1  SI: Meter (newton)         2\n") + plain);
   add("beams", spelled({}, unv_element({}, 7, 21, {0, 1}) + unv_element({}, 8, 11, {1, 2})));
   add("unknown_elements", spelled({}, unv_element({}, 7, 161, {4}) + unv_element({}, 8, 136, {0, 2})));
+}
+
+/// Universal files may end behind any data set; a mesh has nodes, all that its elements name.
+bool is_whole_unv(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes.substr(0, cut);
+  std::ranges::replace(text, '\r', '\n');
+  std::istringstream lines(text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  bool is_open = false;
+  bool has_nodes = false;
+  std::string number;
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> all = words(line);
+    if (all == std::vector<std::string>{"-1"}) {
+      has_nodes = has_nodes || (is_open && (number == "2411" || number == "781"));
+      is_open = !is_open;
+      number.clear();
+    } else if (is_open && number.empty() && !all.empty()) {
+      number = all.front();
+    } else if (!is_open && !all.empty()) {
+      return false;
+    }
+  }
+  return !is_open && has_nodes;
+}
+
+}  // namespace
+
+FormatSample unv_sample() {
+  return {.format = trismooth::FileFormat::unv,
+          .add_files = &add_unv,
+          .is_whole = &is_whole_unv,
+          .rest_of = [](const AcceptedFile& /*file*/) { return Rest::some_cells; },
+          .cells = {{cell_type::line, cell_type::quadratic_edge, cell_type::triangle, cell_type::quad,
+                     cell_type::quadratic_triangle, cell_type::quadratic_quad, cell_type::biquadratic_quad,
+                     cell_type::tetrahedron, cell_type::wedge, cell_type::hexahedron, cell_type::quadratic_tetrahedron,
+                     cell_type::quadratic_hexahedron, cell_type::quadratic_wedge}}};
 }
 
 }  // namespace accepted_files

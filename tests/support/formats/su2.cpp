@@ -1,10 +1,15 @@
-#include "support/accepted_su2_files.h"
-
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "trismooth/base/cell_list.h"
+
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files {
 
@@ -46,8 +51,6 @@ std::string su2_zones() {
          su2_elements(0, 4, true) + su2_points(true) + su2_markers;
 }
 
-}  // namespace
-
 void add_su2(std::vector<AcceptedFile>& files) {
   const auto add = [&](const std::string& name, std::string bytes) {
     files.push_back({"su2_" + name, ".su2", std::move(bytes)});
@@ -78,6 +81,28 @@ void add_su2(std::vector<AcceptedFile>& files) {
   add("cr", su2_replaced(plain, "\n", "\r"));
   add("mark", "\xEF\xBB\xBF" + plain);
   add("no_final_newline", plain.substr(0, plain.size() - 1));
+}
+
+/// SU2 ends with its last marker, of which the last row may be cut within a last number, or with the dimension; what
+/// follows may be any text.
+bool is_whole_su2(const AcceptedFile& file, std::size_t cut) {
+  if (contains(file.name, "no_markers")) {
+    return cut >= file.bytes.find("NMARK= 0") + 8;
+  }
+  const std::string end = contains(file.name, "dimension_last") ? "NDIME=2" : "3 3 0";
+  return cut >= file.bytes.find(end) + end.size();
+}
+
+}  // namespace
+
+FormatSample su2_sample() {
+  return {.format = trismooth::FileFormat::su2,
+          .add_files = &add_su2,
+          .is_whole = &is_whole_su2,
+          .cells = {{cell_type::triangle, cell_type::quad}},
+          .written_point = [](const std::array<double, 3>& point) {
+            return std::array<double, 3>{point[0], point[1], 0};
+          }};
 }
 
 }  // namespace accepted_files

@@ -1,11 +1,13 @@
-#include "support/accepted_triangle_files.h"
-
+#include <algorithm>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "trismooth/base/cell_list.h"
+
+#include "support/format_sample.h"
 #include "support/one_file_codec.h"
 
 namespace accepted_files {
@@ -64,8 +66,6 @@ std::string triangle_files(const TriangleSpelling& spelling) {
   return test_support::joined_files(nodes.append(spelling.end), elements.append(spelling.end));
 }
 
-}  // namespace
-
 void add_triangle(std::vector<AcceptedFile>& files) {
   const auto add = [&](const std::string& name, const TriangleSpelling& spelling) {
     files.push_back({"triangle_" + name, ".node", triangle_files(spelling)});
@@ -79,6 +79,27 @@ void add_triangle(std::vector<AcceptedFile>& files) {
   add("cr", {.line_end = "\r", .node_attributes = 1, .markers = true});
   add("mark", {.begin = "\xEF\xBB\xBF"});
   add("comments", {.separator = "\t", .row_end = " # a row", .begin = "# a title\n\n", .markers = true});
+}
+
+/// The elements of Triangle's end with their last number, wherever that is cut; comments may follow.
+bool is_whole_triangle(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes;
+  for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
+    const std::size_t end = std::min(text.find_first_of("\r\n\x1C", at), text.size());
+    text.replace(at, end - at, end - at, ' ');
+  }
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  const std::size_t begin = text.find_last_of(" \t\r\n", last) + 1;
+  return cut > begin + (text[begin] == '-' ? 1 : 0);
+}
+
+}  // namespace
+
+FormatSample triangle_sample() {
+  return {.format = trismooth::FileFormat::triangle,
+          .add_files = &add_triangle,
+          .is_whole = &is_whole_triangle,
+          .cells = {{cell_type::triangle}}};
 }
 
 }  // namespace accepted_files

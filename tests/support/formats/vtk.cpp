@@ -1,21 +1,28 @@
-#include "support/accepted_vtk_files.h"
-
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <numeric>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <vtkDataCompressor.h>
 
+#include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
+#include "support/accepted_vtk_files.h"
+#include "support/format_sample.h"
+#include "support/text_words.h"
 #include "support/xml_arrays.h"
 
-namespace accepted_files::vtk {
+namespace accepted_files {
+
+using vtk::base64_of;
+using vtk::number_bytes;
 
 namespace {
 
@@ -372,8 +379,6 @@ std::string xml(const VtkXmlEncoding& encoding, bool poly_data, bool wide, Xml d
   return file.file("UnstructuredGrid", body);
 }
 
-}  // namespace
-
 void add_legacy(std::vector<AcceptedFile>& files) {
   bool rich = false;
   for (const std::string version : {"2.0", "3.0", "4.2", "5.1"}) {
@@ -430,4 +435,95 @@ void add_xml(std::vector<AcceptedFile>& files) {
   add("ascii_whole", {VtkXmlMode::ascii, true, VtkXmlCompressor::none, false, false}, false, Xml::whole);
 }
 
-}  // namespace accepted_files::vtk
+constexpr std::string_view comment = " \t# of a test";
+
+/// The file with blanks in place of comments.
+std::string without_comments(std::string bytes) {
+  for (std::size_t at = bytes.find(comment); at != bytes.npos; at = bytes.find(comment, at)) {
+    bytes.replace(at, comment.size(), std::string(comment.size(), ' '));
+  }
+  return bytes;
+}
+
+template <bool poly_data>
+void add_xml_of(std::vector<AcceptedFile>& files) {
+  std::vector<AcceptedFile> both;
+  add_xml(both);
+  std::ranges::copy_if(both, std::back_inserter(files),
+                       [](const AcceptedFile& file) { return (file.extension == ".vtp") == poly_data; });
+}
+
+/// After their cells, legacy files end before every attribute and within METADATA, but for the names in it. (The lines,
+/// polygons and so on of a POLYDATA are attributes in this sense, but for the first.)
+bool is_whole_legacy(const AcceptedFile& file, std::size_t cut) {
+  const std::string bytes = without_comments(file.bytes);
+  const bool binary = contains(bytes, "\nBINARY");
+  const std::size_t cells_begin = bytes.find(contains(bytes, "POLYDATA") ? "\nLINES" : "\nCELL_TYPES") + 1;
+  std::vector<std::size_t> starts;
+  for (const std::string_view keyword : {"POLYGONS", "POINT_DATA", "CELL_DATA", "SCALARS", "LOOKUP_TABLE table 2",
+                                         "VECTORS", "METADATA", "COLOR_SCALARS", "FIELD"}) {
+    for (std::size_t at = bytes.find(keyword, cells_begin); at != bytes.npos; at = bytes.find(keyword, at + 1)) {
+      // SCALARS stands in COLOR_SCALARS too.
+      if (bytes[at - 1] == '\n') {
+        starts.push_back(at);
+      }
+    }
+  }
+  starts.push_back(bytes.size());
+  std::ranges::sort(starts);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    std::size_t end = starts[i] - 1;
+    if (std::string_view(file.bytes).substr(0, end).ends_with(comment)) {
+      end -= comment.size();
+    }
+    if (!binary) {
+      while (is_space(bytes[end - 1])) {
+        --end;
+      }
+      // A number cut is a number.
+      while (!is_space(bytes[end - 2])) {
+        --end;
+      }
+    }
+    const bool metadata = i + 1 < starts.size() && bytes.compare(starts[i], 8, "METADATA") == 0;
+    if ((end <= cut && cut <= starts[i]) || (metadata && starts[i] + 8 <= cut && cut < starts[i + 1])) {
+      // Of the names of components there is a known number, the last of them an empty line.
+      const std::size_t names = metadata ? bytes.find("COMPONENT_NAMES", starts[i]) : bytes.npos;
+      return names == bytes.npos || cut < names + 15 || cut > bytes.find("\n\n", names) + 1;
+    }
+  }
+  return false;
+}
+
+/// XML ends with the end of its root.
+bool is_whole_xml(const AcceptedFile& file, std::size_t cut) {
+  const std::string_view end = "</VTKFile>";
+  return cut >= file.bytes.rfind(end) + end.size();
+}
+
+}  // namespace
+
+FormatSample vtk_sample() {
+  return {.format = trismooth::FileFormat::vtk,
+          .add_files = &add_legacy,
+          .is_whole = &is_whole_legacy,
+          .rest_of = [](const AcceptedFile& file) {
+            return contains(file.name, "_poly_") ? Rest::some_cells : Rest::all_cells;
+          }};
+}
+
+FormatSample vtu_sample() {
+  return {.format = trismooth::FileFormat::vtu, .add_files = &add_xml_of<false>, .is_whole = &is_whole_xml};
+}
+
+FormatSample vtp_sample() {
+  return {.format = trismooth::FileFormat::vtp,
+          .add_files = &add_xml_of<true>,
+          .is_whole = &is_whole_xml,
+          .cells = {{cell_type::vertex, cell_type::poly_vertex},
+                    {cell_type::line, cell_type::poly_line},
+                    {cell_type::triangle, cell_type::quad, cell_type::polygon},
+                    {cell_type::triangle_strip}}};
+}
+
+}  // namespace accepted_files

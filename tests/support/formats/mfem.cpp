@@ -1,7 +1,12 @@
-#include "support/accepted_mfem_files.h"
-
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/cell_list.h"
+
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files {
 
@@ -31,8 +36,6 @@ std::string with_line_end(std::string text, std::string_view line_end) {
   return text;
 }
 
-}  // namespace
-
 void add_mfem(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, std::string bytes) {
     files.push_back({"mfem_" + name, ".mesh", std::move(bytes)});
@@ -58,6 +61,29 @@ void add_mfem(std::vector<AcceptedFile>& files) {
   add("crlf", with_line_end(text("v1.0"), "\r\n"));
   add("cr", with_line_end(text("v1.0"), "\r"));
   add("mark", "\xEF\xBB\xBF" + text("v1.0"));
+}
+
+/// From version 1.1 on MFEM's meshes have an end. Older ones end with a coordinate, wherever that is cut.
+bool is_whole_mfem(const AcceptedFile& file, std::size_t cut) {
+  constexpr std::string_view end = "mesh_end";
+  const std::size_t found = file.bytes.find(end);
+  if (found != file.bytes.npos) {
+    return cut >= found + end.size();
+  }
+  return cut > file.bytes.find_last_of(" \n", file.bytes.find_last_not_of(" \r\n")) + 1;
+}
+
+}  // namespace
+
+FormatSample mfem_sample() {
+  return {.format = trismooth::FileFormat::mfem,
+          .add_files = &add_mfem,
+          .is_whole = &is_whole_mfem,
+          .rest_of =
+              [](const AcceptedFile& file) {
+                return contains(file.bytes, "mesh_end") ? Rest::all_cells : Rest::another_mesh;
+              },
+          .cells = {{cell_type::triangle, cell_type::quad}, {cell_type::line}}};
 }
 
 }  // namespace accepted_files

@@ -1,12 +1,17 @@
 // After the chapter "MSH file format" of Gmsh's manual.
-#include "support/accepted_msh_files.h"
-
-#include <array>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/msh/msh_element_types.h"
+
+#include "support/accepted_msh_files.h"
 #include "support/accepted_vtk_files.h"
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files::msh {
 
@@ -334,6 +339,8 @@ std::string file(const Spelling& spelling) {
   return Writer(spelling).write();
 }
 
+namespace {
+
 void add(std::vector<AcceptedFile>& files) {
   const auto push = [&files](const std::string& name, std::string bytes) {
     files.push_back({"msh_" + name, ".msh", std::move(bytes)});
@@ -379,4 +386,35 @@ void add(std::vector<AcceptedFile>& files) {
   push("41_no_final_newline", plain.substr(0, plain.size() - 1));
 }
 
+/// MSH is whole behind every section from its elements on.
+bool is_whole_msh(const AcceptedFile& file, std::size_t cut) {
+  const std::size_t elements = file.bytes.find(contains(file.bytes, "$ENDELM") ? "$ENDELM" : "$EndElements");
+  for (std::size_t end = elements; end != file.bytes.npos; end = file.bytes.find("$End", end + 1)) {
+    std::size_t from = end;
+    while (from < file.bytes.size() && !is_space(file.bytes[from])) {
+      ++from;
+    }
+    const std::size_t next = file.bytes.find('$', from);
+    if (from <= cut && (next == file.bytes.npos || cut <= next)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 }  // namespace accepted_files::msh
+
+namespace accepted_files {
+
+FormatSample msh_sample() {
+  return {.format = trismooth::FileFormat::msh,
+          .add_files = &msh::add,
+          .is_whole = &msh::is_whole_msh,
+          .holds_cell = [](std::uint8_t type, std::size_t vertices) {
+            return trismooth::msh_number_of(type, vertices) != 0;
+          }};
+}
+
+}  // namespace accepted_files

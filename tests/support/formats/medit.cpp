@@ -1,10 +1,16 @@
-#include "support/accepted_medit_files.h"
-
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/cell_list.h"
 
 #include "support/accepted_vtk_files.h"
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files {
 
@@ -14,13 +20,6 @@ namespace {
 constexpr std::string_view flat_vertices = "Vertices\n5\n0 0 1\n2 0 2\n2 2 3\n0 2 4\n0.75 1.25 0\n";
 constexpr std::string_view vertices_in_space = "Vertices\n5\n0 0 0 0\n2 0 0 0\n2 2 0 0\n0 2 0 0\n0.75 1.25 0 0\n";
 constexpr std::string_view triangles = "Triangles\n4\n1 2 5 7\n2 3 5 7\n3 4 5 8\n4 1 5 8\n";
-
-std::string medit_lines(std::string text, std::string_view line_end) {
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + line_end.size())) {
-    text.replace(at, 1, line_end);
-  }
-  return text;
-}
 
 void add_medit_text(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, std::string bytes) {
@@ -45,8 +44,8 @@ void add_medit_text(std::vector<AcceptedFile>& files) {
                                 flat + faces + "RequiredTriangles\n1\n4\nSubDomainFromMesh\n1\n3 1 1 0\nEnd\n");
   add("wide_references", "MeshVersionFormatted 4\nDimension 2\n" + flat +
                              "Triangles\n4\n1 2 5 5000000000\n2 3 5 -1\n3 4 5 0\n4 1 5 0\nEnd\n");
-  add("crlf", medit_lines(plain, "\r\n"));
-  add("cr", medit_lines(plain, "\r"));
+  add("crlf", with_line_ends(plain, "\r\n"));
+  add("cr", with_line_ends(plain, "\r"));
   add("mark", "\xEF\xBB\xBF" + plain);
 }
 
@@ -131,8 +130,6 @@ std::string binary_medit(int version, bool big_endian, std::size_t dimension) {
   return file.bytes();
 }
 
-}  // namespace
-
 void add_medit(std::vector<AcceptedFile>& files) {
   add_medit_text(files);
   for (const int version : {1, 2, 3, 4}) {
@@ -142,6 +139,96 @@ void add_medit(std::vector<AcceptedFile>& files) {
                      binary_medit(version, big_endian, dimension)});
   }
   files.push_back({"medit_2_little_endian", ".meshb", binary_medit(2, false, 3)});
+}
+
+/// What a section of a text of Medit needs beside its count for every row; nothing for sections that are not read.
+std::optional<std::size_t> numbers_of_medit(const std::string& keyword, std::size_t dimension) {
+  std::string lower = keyword;
+  std::ranges::transform(lower, lower.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  if (lower == "vertices") {
+    return dimension + 1;
+  }
+  if (lower == "edges" || lower == "triangles") {
+    return lower == "edges" ? 3 : 4;
+  }
+  const bool is_set = lower == "corners" || lower == "ridges" || lower == "requiredvertices" ||
+                      lower == "requirededges" || lower == "requiredtriangles";
+  return is_set ? std::optional<std::size_t>(1) : std::nullopt;
+}
+
+/// Text of Medit may end behind every whole section, and in those that are not read, where it has its vertices.
+bool is_whole_medit_text(const AcceptedFile& file, std::size_t cut) {
+  std::string text = file.bytes.substr(file.bytes.find_first_of("#M "));
+  text.resize(cut - std::min(cut, file.bytes.size() - text.size()));
+  for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at)) {
+    text.erase(at, std::min(text.find_first_of("\r\n", at), text.size()) - at);
+  }
+  const std::vector<std::string> all = words(text);
+  std::size_t dimension = 0;
+  bool has_vertices = false;
+  for (std::size_t i = 2; i < all.size();) {
+    const std::string& keyword = all[i++];
+    if (keyword == "Dimension") {
+      if (i == all.size()) {
+        return false;
+      }
+      dimension = std::stoul(all[i++]);
+    } else if (const auto numbers = numbers_of_medit(keyword, dimension)) {
+      if (i == all.size() || *numbers * std::stoul(all[i]) > all.size() - i - 1) {
+        return false;
+      }
+      has_vertices = has_vertices || *numbers == dimension + 1;
+      i += 1 + *numbers * std::stoul(all[i]);
+    } else {
+      while (i < all.size() && contains("\"+-=.0123456789", all[i].substr(0, 1))) {
+        ++i;
+      }
+    }
+  }
+  return has_vertices;
+}
+
+/// Binary files of Medit may end behind every block from the vertices on.
+bool is_whole_medit_binary(const AcceptedFile& file, std::size_t cut) {
+  const bool big_endian = contains(file.name, "_big_");
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      value = 256 * value + static_cast<unsigned char>(file.bytes[big_endian ? at + i : at + size - 1 - i]);
+    }
+    return value;
+  };
+  const std::size_t position_bytes = contains("12", file.name.substr(6, 1)) ? 4 : 8;
+  const std::size_t vertices = number(12, position_bytes);
+  std::size_t at = number(vertices + 4, position_bytes);
+  while (at < cut && number(at + 4, position_bytes) != 0) {
+    at = number(at + 4, position_bytes);
+  }
+  return at == cut;
+}
+
+bool is_whole_medit(const AcceptedFile& file, std::size_t cut) {
+  return contains(file.name, "endian") ? is_whole_medit_binary(file, cut) : is_whole_medit_text(file, cut);
+}
+
+}  // namespace
+
+FormatSample medit_sample() {
+  return {.format = trismooth::FileFormat::medit,
+          .add_files = &add_medit,
+          .is_whole = &is_whole_medit,
+          .rest_of = [](const AcceptedFile& /*file*/) { return Rest::some_cells; },
+          .cells = {{cell_type::line},
+                    {cell_type::triangle},
+                    {cell_type::quad},
+                    {cell_type::tetrahedron},
+                    {cell_type::wedge},
+                    {cell_type::hexahedron},
+                    {cell_type::pyramid},
+                    {cell_type::quadratic_edge},
+                    {cell_type::quadratic_triangle},
+                    {cell_type::biquadratic_quad},
+                    {cell_type::quadratic_tetrahedron}}};
 }
 
 }  // namespace accepted_files

@@ -1,7 +1,12 @@
-#include "support/accepted_freefem_files.h"
-
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/cell_list.h"
+
+#include "support/format_sample.h"
+#include "support/text_words.h"
 
 namespace accepted_files {
 
@@ -13,8 +18,6 @@ std::string freefem_lines(std::string text, std::string_view line_end) {
   }
   return text;
 }
-
-}  // namespace
 
 void add_freefem(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, std::string bytes) {
@@ -31,6 +34,21 @@ void add_freefem(std::vector<AcceptedFile>& files) {
   add("crlf", freefem_lines(plain, "\r\n"));
   add("cr", freefem_lines(plain, "\r"));
   add("mark", "\xEF\xBB\xBF" + plain);
+}
+
+/// FreeFem's text ends with its last number, wherever that is cut.
+bool is_whole_freefem(const AcceptedFile& file, std::size_t cut) {
+  const std::size_t last = file.bytes.find_last_not_of(" \r\n");
+  return cut > file.bytes.find_last_of(" \r\n", last) + (contains(file.name, "negative") ? 2 : 1);
+}
+
+}  // namespace
+
+FormatSample freefem_sample() {
+  return {.format = trismooth::FileFormat::freefem,
+          .add_files = &add_freefem,
+          .is_whole = &is_whole_freefem,
+          .cells = {{cell_type::triangle}, {cell_type::line}}};
 }
 
 }  // namespace accepted_files
